@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_contact_h
+#define keyblock_contact_h
+
+#include <keyblock/contact_search.h>
+#include <keyblock/dofs.h>
+#include <keyblock/fields.h>
+#include <keyblock/internal_force.h>
+
+namespace Keyblock
+{
+  /** State of a pair of the interface, the same index as Interface::pairs. */
+  template <int dim>
+  struct PairState
+  {
+    Vector<dim> impulse{}; ///< on the plus side, last step [N s]
+    ContactStatus status = ContactStatus::sticking;
+    bool is_intact       = false;
+    bool is_converted    = false; ///< point-to-surface from now on
+  };
+
+  /** Sums over the contact points of one joint. */
+  template <int dim>
+  struct JointSums
+  {
+    Vector<dim> force{};  ///< on the plus (slave) side [N]
+    double normal = 0.;   ///< sum of pressures times areas [N]
+    double shear  = 0.;   ///< norm of the tangential part of force [N]
+    Vector<dim> center{}; ///< centre of the normal force [m]
+    unsigned int n_open = 0, n_sliding = 0, n_sticking = 0, n_intact = 0;
+  };
+
+  /** Energy that contact took in one step, by kind [J]. */
+  struct ContactWork
+  {
+    double friction    = 0.;
+    double closure     = 0.;
+    double penetration = 0.;
+  };
+
+  /** What the contact solver needs to know of the present step. */
+  struct ContactStep
+  {
+    double kick          = 0.; ///< h [s]
+    double step          = 0.; ///< dt [s]
+    double local_damping = 0.;
+    bool is_large        = false;
+    bool keeps_ledger    = true;
+  };
+
+  /**
+   * The contact step: from predicted velocities to velocities that satisfy
+   * non-penetration, Coulomb friction and bonds (hot loop 2).
+   *
+   * Points that share nodes form groups. Pairs that have not slid form small
+   * groups, one per vertex of the mesh before the split: a group that stuck in
+   * the last step is merged into one cluster, its forces recovered and tested;
+   * if a strength is exceeded it is solved by projected Gauss-Seidel. Every
+   * rank that holds a node of such a group solves it, from the same numbers,
+   * and so with the same result. Nodes that slid, or met a face they were not
+   * paired with, are solved together on all ranks (`mobile`).
+   */
+  template <int dim>
+  class Contact
+  {
+  public:
+    Contact(const Scene<dim> &scene,
+            const SplitMesh<dim> &split,
+            const Blocks<dim> &blocks,
+            const Numbering<dim> &numbering,
+            const CellArrays<dim> &cells,
+            Fields<dim> &fields);
+
+    /** Replace all friction angles [deg]; negative: back to the scene's. */
+    void override_friction(const double angle);
+
+    /** Turn predicted velocities of all local nodes into final ones. */
+    void solve(const ContactStep &step);
+
+    /** Sums over the points of @p joint, or with `none` over all points. */
+    JointSums<dim> sum_over_joint(const unsigned int joint) const;
+
+    /** Numbers of open, sliding, sticking and intact points over all ranks. */
+    JointSums<dim> count_points() const;
+
+    /** Pair states of all ranks, by index of the pair. */
+    std::vector<PairState<dim>> gather_pair_states() const;
+
+    /** Kick interval of the last step [s]. */
+    double
+    present_kick() const
+    {
+      return last_kick > 0. ? last_kick : 1.;
+    }
+
+    ContactWork work;              ///< sum since the start, this rank's share
+    unsigned int n_capped     = 0; ///< groups that reached the cap
+    unsigned int n_iterations = 0; ///< largest of the last step
+    unsigned int n_searches   = 0;
+    unsigned int n_mobile     = 0; ///< slots solved on all ranks
+
+  private:
+    /** A group of one pair of nodes, solved on the fields themselves. */
+    struct SinglePair
+    {
+      unsigned int pair, minus, plus; ///< local nodes
+    };
+
+    /** A group of several pairs, or with partly held nodes. */
+    struct CornerGroup
+    {
+      unsigned int group;
+      std::vector<unsigned int> slots;
+
+      /** Inverse of the area-weighted Laplacian of the free nodes, one per
+       * axis (they differ where nodes are held along an axis). */
+      std::array<std::vector<double>, dim> inverse;
+      std::array<std::vector<int>, dim> free_index;
+      bool has_supports = false;
+      bool is_oblique   = false;
+    };
+
+    /** Share of a Gauss point's stress in the mean traction of a pair. */
+    struct TractionWeight
+    {
+      unsigned int pair, cell, point;
+      Vector<dim> weight; ///< [m^(dim-1)]
+    };
+
+    void set_up_groups();
+    void set_up_corner(CornerGroup &corner);
+    void set_up_traction_weights();
+    void rebuild_active_slots();
+    void gather_slots(const bool with_displacement);
+    void scatter_slots();
+    void estimate_tractions(const double kick);
+    void solve_single_pairs(const ContactStep &step);
+    void solve_corner(CornerGroup &corner, const ContactStep &step);
+    bool try_cluster(CornerGroup &corner, const ContactStep &step);
+    void recover_impulses(const CornerGroup &corner, const double *needed);
+    void solve_mobile(const ContactStep &step);
+    void update_mobility(const ContactStep &step);
+    void refresh_normals();
+    void convert_slid_pairs();
+    ContactPoint<dim> pair_as_point(const unsigned int pair,
+                                    const double kick) const;
+    void book_work(const ContactPoint<dim> &point,
+                   const double *old_velocity,
+                   const double *new_velocity);
+    PointStrength pair_strength(const unsigned int pair,
+                                const bool is_intact,
+                                const double kick) const;
+    std::vector<double> gather_positions() const;
+    bool is_primary(const unsigned int group) const;
+
+    const Scene<dim> &scene;
+    const Interface<dim> &interface;
+    const SplitMesh<dim> &split;
+    const Numbering<dim> &numbering;
+    const CellArrays<dim> &cells;
+    Fields<dim> &fields;
+
+    std::vector<PairState<dim>> state;
+    std::vector<Vector<dim>> normal; ///< of each pair, present
+    std::vector<unsigned int> group_of_pair;
+    std::vector<double> static_tangent, kinetic_tangent; ///< by joint
+    double default_tangent;
+    double override_tangent = -1.;
+
+    std::vector<SinglePair> single_pairs;
+    std::vector<CornerGroup> corners;
+    std::vector<TractionWeight> traction_weights;
+    std::vector<Vector<dim>> traction; ///< force estimate of each pair [N]
+    std::vector<unsigned int> corner_pairs;
+
+    ContactSearch<dim> search;
+    std::vector<bool> is_mobile_group;
+    std::vector<bool> is_mobile_slot;
+    std::vector<unsigned int> mobile_slots;
+    std::vector<unsigned int> mobile_corners; ///< indices into corners
+    std::vector<unsigned int> active_slots;   ///< mobile and corner slots here
+    std::vector<double> searched_position;
+    bool is_search_due   = true;
+    unsigned int n_steps = 0;
+    double last_kick     = 0.;
+
+    std::vector<SurfaceContact<dim>> contacts; ///< of the last step
+
+    // dim values per slot
+    std::vector<double> slot_velocity, slot_old_velocity, slot_displacement,
+      slot_position, slot_impulse;
+    std::vector<double> slot_inverse_mass, slot_mass;
+    std::vector<unsigned int> node_of_slot;
+    std::vector<std::array<double, dim * dim>> projection_storage;
+    std::vector<const double *> slot_projection;
+    ContactNodes<dim> slot_nodes;
+  };
+} // namespace Keyblock
+
+#endif

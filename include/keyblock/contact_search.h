@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_contact_search_h
+#define keyblock_contact_search_h
+
+#include <keyblock/contact_solver.h>
+#include <keyblock/interface.h>
+
+#include <functional>
+
+namespace Keyblock
+{
+  /** A slave on a master face (or its edge or corner), as found now. */
+  template <int dim>
+  struct SurfaceContact
+  {
+    unsigned int slave; ///< slot
+    unsigned int face;  ///< index into Interface::surface
+    unsigned int joint; ///< of the face, or `none`
+    ContactPoint<dim> point;
+  };
+
+  /**
+   * Finds which surface node meets which face. All surface nodes of the split
+   * mesh are numbered as `slots`, the same on every rank; positions of slots
+   * are given by the caller. The broad phase (search) lists candidate faces for
+   * the nodes by an R-tree over bounding boxes widened by a skin, and stays
+   * valid until something has moved by half the skin; the narrow phase
+   * (evaluate) measures gaps, normals and weights of the candidates.
+   *
+   * Not found: contact of a block with itself, but for the two sides of a joint
+   * that ends inside it.
+   */
+  template <int dim>
+  class ContactSearch
+  {
+  public:
+    ContactSearch(const SplitMesh<dim> &split, const Blocks<dim> &blocks);
+
+    unsigned int
+    n_slots() const
+    {
+      return vertex_of_slot.size();
+    }
+
+    /** Distance [m] that nodes may move, twice, before the candidates expire.
+     */
+    double
+    skin() const
+    {
+      return skin_width;
+    }
+
+    /**
+     * List candidates for the present @p position (dim per slot).
+     * @param is_paired whether the pair contact of a slot with a face stands
+     *   for it, so that the face is not to be searched
+     */
+    void
+    search(const std::vector<double> &position,
+           const std::function<bool(unsigned int, unsigned int)> &is_paired);
+
+    /** Slots of all candidate slaves and of the faces they may meet. */
+    std::vector<unsigned int> candidate_slots() const;
+
+    bool
+    has_candidates() const
+    {
+      return !candidates.empty();
+    }
+
+    /** Contacts nearer than @p reach [m] at the present @p position. */
+    void evaluate(const std::vector<double> &position,
+                  const double reach,
+                  std::vector<SurfaceContact<dim>> &contacts) const;
+
+    std::vector<unsigned int> vertex_of_slot;
+    std::vector<unsigned int> slot_of_vertex;
+    std::vector<unsigned int> block_of_slot;
+
+    /** Slots of each surface face, outward by the right-hand rule. */
+    std::vector<typename Mesh<dim>::FaceVertices> face_slots;
+
+    /** Outward unit normal of a face at its centre, present position. */
+    Vector<dim> face_normal(const std::vector<double> &position,
+                            const unsigned int face) const;
+
+  private:
+    struct Candidate
+    {
+      unsigned int slave;
+      std::vector<unsigned int> faces;
+    };
+
+    /** The point of a face nearest to a slave. */
+    struct Projection
+    {
+      unsigned int face;
+      std::array<double, Mesh<dim>::n_face_vertices> weight;
+      Vector<dim> offset; ///< slave - foot
+      Vector<dim> normal; ///< of the face
+      bool is_inside;
+      double gap; ///< normal . offset
+      double size;
+    };
+
+    Projection project(const std::vector<double> &position,
+                       const unsigned int slave,
+                       const unsigned int face) const;
+
+    void add_contacts(const std::vector<double> &position,
+                      const double reach,
+                      const Candidate &candidate,
+                      std::vector<SurfaceContact<dim>> &contacts) const;
+
+    /** Whether nodes of block @p a are slaves on faces of block @p b. */
+    bool is_slave_block(const unsigned int a, const unsigned int b) const;
+
+    bool opposes(const std::vector<double> &position,
+                 const unsigned int slave,
+                 const Vector<dim> &normal) const;
+
+    const Interface<dim> &interface;
+    std::vector<double> block_face_size; ///< mean [m]
+    std::vector<double> block_volume;
+    std::vector<bool> is_rigid_block;
+    std::vector<bool> is_sharp; ///< slot on an edge or corner
+    std::vector<std::vector<unsigned int>> faces_of_slot;
+    std::vector<Candidate> candidates;
+    double skin_width;
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_dofs_h
+#define keyblock_dofs_h
+
+#include <deal.II/base/partitioner.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/fe_system.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <keyblock/interface.h>
+
+#include <memory>
+
+namespace Keyblock
+{
+  /**
+   * The distributed mesh and the numbering of its nodes. Cells are dealt to the
+   * ranks as chunks of the Hilbert order. Node = dof / dim everywhere; on each
+   * rank owned nodes come first, then ghosts: nodes of the rank's cells owned
+   * elsewhere, and the other nodes of every interface group that has a node
+   * here, so that each rank can solve all groups that touch its nodes.
+   */
+  template <int dim>
+  class Numbering
+  {
+  public:
+    Numbering(const Scene<dim> &scene, const SplitMesh<dim> &split);
+
+    using CellNodes = std::array<unsigned int, Mesh<dim>::n_cell_vertices>;
+
+    unsigned int
+    n_owned() const
+    {
+      return partitioner->locally_owned_size() / dim;
+    }
+    unsigned int
+    n_local() const
+    {
+      return n_owned() + partitioner->n_ghost_indices() / dim;
+    }
+    unsigned int
+    n_global() const
+    {
+      return partitioner->size() / dim;
+    }
+
+    /** Local index of a vertex of the split mesh, or `none` if not here. */
+    unsigned int local_node(const unsigned int vertex) const;
+
+    bool
+    is_owned(const unsigned int vertex) const
+    {
+      const unsigned int node = local_node(vertex);
+      return node != none && node < n_owned();
+    }
+
+    /** Add the ghosts' values of @p field (dim per node) to their owners and
+     * clear them. */
+    void add_ghosts_to_owners(std::vector<double> &field) const;
+
+    /** Copy the owners' values of @p field (dim per node) to the ghosts. */
+    void update_ghosts(std::vector<double> &field) const;
+
+    /** Nodes of the deformable cells of this rank, and their indices in the
+     * split mesh. */
+    std::vector<CellNodes> cell_nodes;
+    std::vector<unsigned int> mesh_cell;
+
+    /** Vertex of the split mesh of each local node. */
+    std::vector<unsigned int> vertex_of_node;
+
+    std::unique_ptr<dealii::Triangulation<dim>> triangulation;
+    dealii::FESystem<dim> fe;
+    dealii::DoFHandler<dim> dof_handler;
+
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+
+  private:
+    void create_triangulation(const Scene<dim> &scene, const Mesh<dim> &mesh);
+
+    void create_numbering(const Scene<dim> &scene, const SplitMesh<dim> &split);
+
+    std::vector<unsigned int> node_of_vertex; ///< global numbers
+
+    mutable std::vector<double> exchange_buffer;
+    mutable std::vector<MPI_Request> exchange_requests;
+  };
+} // namespace Keyblock
+
+#endif

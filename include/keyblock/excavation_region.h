@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_excavation_region_h
+#define keyblock_excavation_region_h
+
+#include <keyblock/scene.h>
+
+namespace Keyblock
+{
+  /**
+   * Distance [m] of @p p from the outline of @p excavation, positive inside,
+   * negative outside.
+   */
+  template <int dim>
+  double depth_inside(const Excavation<dim> &excavation, const Point<dim> &p);
+} // namespace Keyblock
+
+#endif

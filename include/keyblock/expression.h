@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_expression_h
+#define keyblock_expression_h
+
+#include <deal.II/base/function_parser.h>
+
+#include <keyblock/errors.h>
+
+#include <algorithm>
+#include <string>
+
+namespace Keyblock
+{
+  /**
+   * A formula in x, y, (z) and t as written in the scene, components separated
+   * by semicolons, for example `0; -9.81*cos(t)`. Throws InputError when the
+   * formula cannot be understood or has the wrong number of components.
+   */
+  template <int dim>
+  class Expression
+  {
+  public:
+    Expression(const std::string &text,
+               const unsigned int n_components,
+               const std::string &entry)
+      : function(n_components)
+      , n_components(n_components)
+    {
+      const unsigned int found = 1 + std::count(text.begin(), text.end(), ';');
+      AssertThrow(found == n_components,
+                  InputError("The formula '" + text + "' of the entry '" +
+                             entry + "' has " + std::to_string(found) +
+                             " component(s) where " +
+                             std::to_string(n_components) +
+                             " are needed; separate components by ';'."));
+      const std::string variables =
+        (dim == 2) ? std::string("x,y,t") : std::string("x,y,z,t");
+      try
+        {
+          function.initialize(variables,
+                              text,
+                              {{"pi", dealii::numbers::PI}},
+                              true);
+          value(dealii::Point<dim>(), 0., 0);
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+          AssertThrow(false,
+                      InputError("The formula '" + text + "' of the entry '" +
+                                 entry +
+                                 "' cannot be understood; use the variables " +
+                                 variables +
+                                 ", numbers, + - * / ^ and functions such as "
+                                 "sin, sqrt, if."));
+        }
+    }
+
+    double
+    value(const dealii::Point<dim> &p,
+          const double time,
+          const unsigned int component) const
+    {
+      function.set_time(time);
+      return function.value(p, component);
+    }
+
+    dealii::Tensor<1, dim>
+    vector(const dealii::Point<dim> &p, const double time) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned int c = 0; c < n_components; ++c)
+        result[c] = value(p, time, c);
+      return result;
+    }
+
+  private:
+    mutable dealii::FunctionParser<dim> function;
+    unsigned int n_components;
+  };
+} // namespace Keyblock
+
+#endif

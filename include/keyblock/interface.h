@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_interface_h
+#define keyblock_interface_h
+
+#include <keyblock/blocks.h>
+
+namespace Keyblock
+{
+  /** Two nodes at one place on the two sides of a joint. */
+  template <int dim>
+  struct Pair
+  {
+    unsigned int minus, plus; ///< vertices of the split mesh
+    unsigned int joint;       ///< index into Scene::joints
+    Tensor<1, dim> normal;    ///< unit, from minus to plus
+    double area      = 0.;    ///< sums to the joint's area [m^(dim-1)]
+    double face_size = 0.;    ///< of the largest face beside it [m]
+  };
+
+  /** A face of a joint with the cells on its two sides. */
+  struct JointFace
+  {
+    unsigned int minus_cell, minus_face, plus_cell, plus_face, joint;
+  };
+
+  /** A face on the surface of a block after splitting. */
+  template <int dim>
+  struct SurfaceFace
+  {
+    typename Mesh<dim>::FaceVertices vertices; ///< outward by right-hand rule
+    unsigned int cell, face;
+    unsigned int block;
+    unsigned int joint; ///< or `none`
+  };
+
+  /** Where blocks meet: the same on every rank. */
+  template <int dim>
+  struct Interface
+  {
+    std::vector<Pair<dim>> pairs;
+    std::vector<JointFace> joint_faces;
+    std::vector<SurfaceFace<dim>> surface;
+
+    /** Groups of vertices that were one vertex before the split, only those
+     * with a pair: first index into group_vertices, one more than groups. */
+    std::vector<unsigned int> group_begin, group_vertices;
+
+    /** Pairs of each group, the same way; pairs are sorted by group. */
+    std::vector<unsigned int> group_pairs_begin;
+
+    /** Vertices of the mesh before the split. */
+    unsigned int n_vertices_before = 0;
+
+    unsigned int
+    n_groups() const
+    {
+      return group_begin.size() - 1;
+    }
+  };
+
+  /** The mesh that is computed on: cells that are never dug, nodes on active
+   * joints duplicated. */
+  template <int dim>
+  struct SplitMesh
+  {
+    Mesh<dim> mesh;
+    std::vector<unsigned int> block_of_cell; ///< index into Blocks::blocks
+    Interface<dim> interface;
+  };
+
+  /**
+   * Give every vertex one copy per fan of cells around it that are joined
+   * through faces on no active joint, and list the pairs this makes. The
+   * copies of joint tips stay one vertex. Excavated cells are dropped.
+   */
+  template <int dim>
+  SplitMesh<dim> split_mesh(const Mesh<dim> &mesh,
+                            const Blocks<dim> &blocks,
+                            const Scene<dim> &scene);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_mesh_h
+#define keyblock_mesh_h
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/point.h>
+
+#include <keyblock/scene.h>
+
+#include <array>
+#include <iosfwd>
+#include <vector>
+
+namespace Keyblock
+{
+  using dealii::GeometryInfo;
+
+  constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+
+  /**
+   * The mesh as flat lists, before it becomes a deal.II triangulation: what the
+   * generators deliver, what block finding and splitting work on. Every rank
+   * holds the same copy. Vertices of a cell are in deal.II's order; all cells
+   * have positive volume.
+   */
+  template <int dim>
+  struct Mesh
+  {
+    static constexpr unsigned int n_cell_vertices =
+      GeometryInfo<dim>::vertices_per_cell;
+    static constexpr unsigned int n_cell_faces =
+      GeometryInfo<dim>::faces_per_cell;
+    static constexpr unsigned int n_face_vertices =
+      GeometryInfo<dim>::vertices_per_face;
+
+    using CellVertices = std::array<unsigned int, n_cell_vertices>;
+    using FaceVertices = std::array<unsigned int, n_face_vertices>;
+
+    /** An outer face of a mesh file or of a domain that has names for it. */
+    struct BoundaryFace
+    {
+      FaceVertices vertices;
+      unsigned int id;
+    };
+
+    std::vector<Point<dim>> vertices;
+    std::vector<CellVertices> cells;
+
+    /** Region number of each cell in the mesh file, else 0. */
+    std::vector<unsigned int> region;
+
+    /** Index into Scene::materials of each cell. */
+    std::vector<unsigned int> material;
+
+    /** Stage that removes each cell; 0: never. */
+    std::vector<unsigned int> excavation_stage;
+
+    /** Ids of outer faces, where the generator gave any. */
+    std::vector<BoundaryFace> boundary_faces;
+
+    /** The cell across each face of each cell, or `none`. */
+    std::vector<std::array<unsigned int, n_cell_faces>> neighbor;
+
+    /** Index into Scene::joints of the joint each face lies on, or `none`.
+     * Outer faces on a joint's surface carry the joint as well. */
+    std::vector<std::array<unsigned int, n_cell_faces>> joint;
+
+    /** Index into boundary_names of the outer boundary each face lies on, or
+     * `none` inside and where the boundary has no name. */
+    std::vector<std::array<unsigned int, n_cell_faces>> boundary;
+
+    /** Id of each outer face in the mesh file, or `none`. */
+    std::vector<std::array<unsigned int, n_cell_faces>> boundary_id;
+
+    /** left, right, (front, back,) bottom, top: two per axis or edge. */
+    static const std::vector<std::string> &boundary_names();
+
+    unsigned int
+    n_cells() const
+    {
+      return cells.size();
+    }
+
+    FaceVertices face_vertices(const unsigned int cell,
+                               const unsigned int face) const;
+
+    Point<dim> cell_center(const unsigned int cell) const;
+
+    Point<dim> face_center(const unsigned int cell,
+                           const unsigned int face) const;
+
+    /** Vector area of a face, pointing out of @p cell: length of the segment
+     * in 2D, exact area vector of the bilinear face in 3D [m^(dim-1)]. */
+    Tensor<1, dim> face_area_vector(const unsigned int cell,
+                                    const unsigned int face) const;
+
+    /** Exact volume of the bilinear or trilinear cell [m^dim]. */
+    double cell_volume(const unsigned int cell) const;
+
+    /** Least determinant of the Jacobian over the corners, each divided by the
+     * product of the lengths of its edges [-]. */
+    double scaled_jacobian(const unsigned int cell) const;
+
+    /** Whether the face lies on an outer boundary called @p name (or `all`). */
+    bool is_on(const unsigned int cell,
+               const unsigned int face,
+               const std::string &name) const;
+  };
+
+  struct MeshQuality
+  {
+    double minimum_scaled_jacobian = 1.;
+    unsigned int worst_cell        = 0;
+  };
+
+  /**
+   * Make or read the mesh of a scene (on rank 0; all ranks get the same copy),
+   * sort its cells along a Hilbert curve, find neighbours, and mark materials,
+   * excavations, joints and outer boundaries.
+   * Throws InputError if the mesh does not follow a joint or an excavation, if
+   * a joint misses the domain, or if a file cannot be read.
+   */
+  template <int dim>
+  Mesh<dim> make_mesh(const Scene<dim> &scene);
+
+  /** Equal cells in a box or parallelepiped. */
+  template <int dim>
+  Mesh<dim> make_structured_mesh(const Scene<dim> &scene);
+
+  /** Quadrilaterals or hexahedra that follow joints and excavations, made by
+   * Gmsh in this process. */
+  template <int dim>
+  Mesh<dim> make_gmsh_mesh(const Scene<dim> &scene);
+
+  /** A mesh from Domain/File, non-quadrilateral cells cut. */
+  template <int dim>
+  Mesh<dim> read_mesh(const Scene<dim> &scene);
+
+  /** Fill Mesh::neighbor from the cells' vertices. */
+  template <int dim>
+  void find_neighbors(Mesh<dim> &mesh);
+
+  template <int dim>
+  MeshQuality measure_quality(const Mesh<dim> &mesh);
+} // namespace Keyblock
+
+#endif

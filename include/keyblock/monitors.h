@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_monitors_h
+#define keyblock_monitors_h
+
+#include <keyblock/step.h>
+
+#include <fstream>
+
+namespace Keyblock
+{
+  /** A table of named columns over time; only rank 0 holds rows. */
+  class History
+  {
+  public:
+    std::vector<std::string> columns; ///< name [unit]
+    std::vector<std::vector<double>> rows;
+
+    /** First row of each stage. */
+    std::vector<unsigned int> stage_begin;
+
+    bool has(const std::string &name) const;
+
+    /** Values of column @p name (without unit) from row @p begin on. */
+    std::vector<double> column(const std::string &name,
+                               const unsigned int begin = 0) const;
+
+    double last(const std::string &name) const;
+  };
+
+  /**
+   * Samples the scene's monitors. Displacements count from the last reset of
+   * motion; velocities are those of the half step before the row's time.
+   */
+  template <int dim>
+  class Monitors
+  {
+  public:
+    Monitors(const Scene<dim> &scene,
+             const SplitMesh<dim> &split,
+             const Blocks<dim> &blocks,
+             const Numbering<dim> &numbering,
+             const Fields<dim> &fields,
+             const Contact<dim> *contact);
+
+    /** Take displacements from the present state as zero. */
+    void reset_baseline();
+
+    /** Append a row (collective). */
+    void sample(const ExplicitStep<dim> &step, const unsigned int stage);
+
+    /** Write all rows so far. */
+    void write_csv(const std::string &file_name) const;
+
+    History history;
+
+    /** Index into Blocks::blocks that each block monitor watches. */
+    std::vector<unsigned int> block_of_monitor;
+
+  private:
+    void sample_block(const unsigned int block, std::vector<double> &row);
+
+    const Scene<dim> &scene;
+    const SplitMesh<dim> &split;
+    const Blocks<dim> &blocks;
+    const Numbering<dim> &numbering;
+    const Fields<dim> &fields;
+    const Contact<dim> *contact;
+
+    std::vector<unsigned int> node_of_monitor; ///< owned local node or none
+    std::vector<unsigned int> block_of_node;
+    std::vector<double> baseline;
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_output_h
+#define keyblock_output_h
+
+#include <keyblock/monitors.h>
+
+#include <map>
+
+namespace Keyblock
+{
+  /** What happened in one stage, for summary.json. */
+  struct StageReport
+  {
+    std::string name;
+    unsigned int steps      = 0;
+    double time_step        = 0.;
+    double unbalanced_ratio = 0.;
+    double max_displacement = 0.;
+    Energies energies;
+  };
+
+  /** Figures of the whole run, for summary.json. */
+  struct RunReport
+  {
+    unsigned int steps         = 0;
+    double time_step           = 0.;
+    double simulated_time      = 0.;
+    double wall_time           = 0.;
+    double loop_time           = 0.;
+    double contact_time        = 0.;
+    double force_time          = 0.;
+    double element_steps       = 0.;
+    unsigned int capped_groups = 0;
+    std::string stable_step_place;
+  };
+
+  /** Measured quantities of the scene: name and value, in order. */
+  using CheckValues = std::vector<std::pair<std::string, double>>;
+
+  /**
+   * Writes solution.pvd with one VTU of the rock and one of the interfaces per
+   * time, and summary.json, into the output folder.
+   */
+  template <int dim>
+  class Output
+  {
+  public:
+    Output(const Scene<dim> &scene,
+           const SplitMesh<dim> &split,
+           const Blocks<dim> &blocks,
+           const Numbering<dim> &numbering,
+           const CellArrays<dim> &cells,
+           const Fields<dim> &fields,
+           const Contact<dim> *contact,
+           const std::string &folder);
+
+    /** Write the state at @p time (collective). */
+    void write_vtu(const double time);
+
+    void write_summary(const MeshQuality &quality,
+                       const RunReport &run,
+                       const std::vector<StageReport> &stages,
+                       const History &history,
+                       const CheckValues &checks) const;
+
+  private:
+    const Scene<dim> &scene;
+    const SplitMesh<dim> &split;
+    const Blocks<dim> &blocks;
+    const Numbering<dim> &numbering;
+    const CellArrays<dim> &cells;
+    const Fields<dim> &fields;
+    const Contact<dim> *contact;
+    std::string folder; ///< ends with "/"
+    std::vector<std::pair<double, std::string>> records;
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_scene_h
+#define keyblock_scene_h
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Keyblock
+{
+  using dealii::ParameterHandler;
+  using dealii::Point;
+  using dealii::Tensor;
+
+  /** The body of ground that is modelled, before anything is dug. */
+  template <int dim>
+  struct Domain
+  {
+    std::string shape = "box";
+    Point<dim> corner;
+    std::vector<double> size;
+    std::vector<Point<dim>> edges;
+    std::vector<Point<dim>> polygon;
+    std::string file;
+    std::vector<std::string> truncated_boundaries = {"all"};
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** How the domain is cut into cells. */
+  template <int dim>
+  struct Meshing
+  {
+    std::string generator = "structured";
+    std::vector<unsigned int> cells;
+    std::vector<std::string> gradings;
+    double size               = 1.;
+    double size_at_excavation = 0.;
+    double size_at_joints     = 0.;
+    double grading_distance   = 0.;
+    double joint_tolerance    = 1e-6;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** A region that is dug out in one stage. */
+  template <int dim>
+  struct Excavation
+  {
+    std::string name;
+    std::string shape = "polygon";
+    std::vector<Point<2>> vertices;
+    Point<dim> corner;
+    std::vector<double> size;
+    Point<2> center;
+    double radius      = 0.;
+    double from        = 0.;
+    double to          = 0.;
+    unsigned int stage = 1;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** A plane of weakness: where it is and how strong it is. */
+  template <int dim>
+  struct Joint
+  {
+    std::string name;
+    Point<dim> point;
+    std::vector<double> normal_entry;
+    double dip           = 0.;
+    double dip_direction = 90.;
+    std::string extent   = "infinite";
+    double radius        = 0.;
+    std::vector<Point<dim>> vertices;
+    double friction_angle         = 30.;
+    double kinetic_friction_angle = -1.;
+    double cohesion               = 0.;
+    double tensile_strength       = 0.;
+    double residual_cohesion      = 0.;
+
+    /** Unit normal, pointing up (to +x for a vertical joint): minus to plus. */
+    Tensor<1, dim> normal() const;
+
+    /** Signed distance [m] of @p p from the joint's plane. */
+    double distance(const Point<dim> &p) const;
+
+    /** Whether @p p, taken to lie on the plane, is within the joint's extent
+     * widened by @p tolerance [m]. */
+    bool is_within_extent(const Point<dim> &p, const double tolerance) const;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** Rock, fault filling or a rigid body, and where it is. */
+  template <int dim>
+  struct Material
+  {
+    std::string name;
+    std::string region         = "all";
+    std::string model          = "elastic";
+    double young_modulus       = 15e9;
+    double poisson_ratio       = 0.25;
+    double density             = 2700.;
+    std::string rigid_velocity = "";
+
+    bool
+    is_rigid() const
+    {
+      return model == "rigid";
+    }
+    double
+    lame_lambda() const
+    {
+      return young_modulus * poisson_ratio /
+             ((1. + poisson_ratio) * (1. - 2. * poisson_ratio));
+    }
+    double
+    shear_modulus() const
+    {
+      return young_modulus / (2. * (1. + poisson_ratio));
+    }
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** Nodes held, or moved in a prescribed way. */
+  template <int dim>
+  struct Support
+  {
+    std::string name;
+    std::vector<std::string> boundaries;
+    std::string region;
+    std::string directions = "all";
+    std::string velocity;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** A surface load in N/m2, tension (pull outwards) positive. */
+  template <int dim>
+  struct Traction
+  {
+    std::string name;
+    std::vector<std::string> boundaries;
+    std::string region;
+    std::string expression;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** State at time zero, and gravity. */
+  template <int dim>
+  struct InitialState
+  {
+    std::string gravity;
+    std::string stress;
+    std::string velocity;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** How contact is found and solved. */
+  struct ContactSettings
+  {
+    std::string method              = "exact";
+    double default_friction_angle   = 30.;
+    double tolerance                = 1e-10;
+    unsigned int maximum_iterations = 2000;
+    double slip_tolerance           = 1e-6;
+    bool weld_infinite_blocks       = true;
+    bool tie_all                    = false;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** The explicit step. */
+  struct TimeStepping
+  {
+    std::string kinematics = "small";
+    double safety          = 0.9;
+    double maximum_step    = 0.;
+    bool ledger            = true;
+
+    bool
+    is_large() const
+    {
+      return kinematics == "large";
+    }
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** A stretch of time with its own damping. */
+  struct Stage
+  {
+    std::string name;
+    double duration                = 0.;
+    unsigned int maximum_steps     = 0;
+    double unbalanced_ratio        = 0.;
+    double damping_ratio           = 0.;
+    double mass_damping            = 0.;
+    double local_damping           = 0.;
+    double friction_angle_override = -1.;
+    bool reset_motion              = false;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** A quantity written to history.csv. */
+  template <int dim>
+  struct Monitor
+  {
+    std::string name;
+    std::string kind = "point";
+    std::string joint;
+    Point<dim> location;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** The closed form that the scene is compared with. */
+  struct CheckSettings
+  {
+    std::string closed_form = "none";
+    std::string joint       = "";
+    double reference_time   = 0.;
+    double window_start     = 0.;
+    double length           = 0.;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** What is written, and how often. */
+  struct OutputSettings
+  {
+    std::string folder            = "";
+    unsigned int history_interval = 1;
+    unsigned int vtu_count        = 5;
+    bool write_vtu                = true;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /**
+   * A whole scene: one struct per section of the .prm file, defaults in the
+   * structs. Lists of named things (joints, materials, ...) are declared by
+   * the entry `Names` of their section, each with a subsection of its own.
+   */
+  template <int dim>
+  struct Scene
+  {
+    std::string title;
+    std::string file;
+    Domain<dim> domain;
+    Meshing<dim> meshing;
+    InitialState<dim> initial_state;
+    ContactSettings contact;
+    TimeStepping time_stepping;
+    CheckSettings checks;
+    OutputSettings output;
+
+    std::vector<std::unique_ptr<Excavation<dim>>> excavations;
+    std::vector<std::unique_ptr<Joint<dim>>> joints;
+    std::vector<std::unique_ptr<Material<dim>>> materials;
+    std::vector<std::unique_ptr<Support<dim>>> supports;
+    std::vector<std::unique_ptr<Traction<dim>>> tractions;
+    std::vector<std::unique_ptr<Stage>> stages;
+    std::vector<std::unique_ptr<Monitor<dim>>> monitors;
+
+    /**
+     * Read @p file_name, apply @p overrides ("Section/Entry=value"), check.
+     * Throws InputError with one sentence for whatever cannot be used.
+     */
+    void read(const std::string &file_name,
+              const std::vector<std::string> &overrides);
+
+    /** Contradictions between entries, before anything is computed. */
+    void cross_check() const;
+
+    /** Declare everything, one example of each named thing included. */
+    void declare(ParameterHandler &prm);
+
+    /** Write all entries with the values used. */
+    void write_used(const std::string &file_name) const;
+
+  private:
+    ParameterHandler prm;
+  };
+
+  /** The value of `Dimension` in the file: 2 or 3. Throws InputError. */
+  unsigned int read_dimension(const std::string &file_name,
+                              const std::vector<std::string> &overrides);
+
+  /** Write the description of every entry as Markdown (doc/parameters.md). */
+  void print_parameters(std::ostream &out);
+} // namespace Keyblock
+
+#endif

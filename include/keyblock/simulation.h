@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_simulation_h
+#define keyblock_simulation_h
+
+#include <keyblock/checks.h>
+
+namespace Keyblock
+{
+  /**
+   * A run from scene to summary. Members stand in the order of the data; each
+   * is built from references to earlier ones. run() tells the story.
+   */
+  template <int dim>
+  class Simulation
+  {
+  public:
+    /** Read and check the scene; nothing is computed or written. */
+    Simulation(const std::string &scene_file,
+               const std::vector<std::string> &overrides,
+               const std::string &output_folder);
+
+    /** Mesh, blocks and set-up, without time steps and without output. */
+    void validate();
+
+    void run();
+
+  private:
+    void make_geometry();
+    void print_set_up(std::ostream &out) const;
+    void set_up();
+    void run_stage(const unsigned int index);
+    void check_finite();
+    void report_progress(const unsigned int stage, const double fraction);
+    void finish();
+
+    Scene<dim> scene;
+    std::string folder;
+    Mesh<dim> mesh;
+    MeshQuality quality;
+    Blocks<dim> blocks;
+    SplitMesh<dim> split;
+    std::unique_ptr<Numbering<dim>> numbering;
+    CellArrays<dim> cells;
+    Fields<dim> fields;
+    std::unique_ptr<Conditions<dim>> conditions;
+    std::unique_ptr<Contact<dim>> contact;
+    std::unique_ptr<ExplicitStep<dim>> step;
+    std::unique_ptr<Monitors<dim>> monitors;
+    std::unique_ptr<Output<dim>> output;
+
+    RunReport report;
+    std::vector<StageReport> stage_reports;
+    double wall_start                 = 0.;
+    double last_progress              = 0.;
+    unsigned long long n_cells_global = 0;
+  };
+} // namespace Keyblock
+
+#endif

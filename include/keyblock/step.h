@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_step_h
+#define keyblock_step_h
+
+#include <keyblock/contact.h>
+#include <keyblock/set_up.h>
+
+#include <memory>
+
+namespace Keyblock
+{
+  /** Every energy of the ledger [J], per metre of thickness in 2D. Work terms
+   * count since the start of the stage; losses are positive. */
+  struct Energies
+  {
+    double kinetic           = 0.; ///< at n + 1/2
+    double elastic           = 0.; ///< at n + 1/2, from the cells' stresses
+    double external          = 0.; ///< work of gravity and tractions
+    double supports          = 0.; ///< work of prescribed motions
+    double friction          = 0.;
+    double contact_closure   = 0.;
+    double penetration       = 0.; ///< work of the position correction
+    double stiffness_damping = 0.;
+    double mass_damping      = 0.;
+    double local_damping     = 0.;
+    double start = 0.; ///< kinetic and elastic at the start of the stage
+
+    /** What the terms leave unexplained [J]. */
+    double residual() const;
+
+    /** The work that the residual is compared with [J]: the largest of what
+     * was put in, what was stored at the start and what moves. */
+    double turnover() const;
+
+    double
+    relative_residual() const
+    {
+      return turnover() > 0. ? residual() / turnover() : 0.;
+    }
+  };
+
+  /**
+   * One explicit step, the verbs in order: force, predict, contact, move.
+   * Velocities live at half steps; the first kick of a stage that starts from
+   * rest is a half one (doc/theory.md, equations 1 to 6).
+   */
+  template <int dim>
+  class ExplicitStep
+  {
+  public:
+    ExplicitStep(const Scene<dim> &scene,
+                 const SplitMesh<dim> &split,
+                 const Numbering<dim> &numbering,
+                 Conditions<dim> &conditions,
+                 CellArrays<dim> &cells,
+                 Fields<dim> &fields,
+                 Contact<dim> *contact);
+
+    /** Prepare a stage; returns the length of its steps [s]. */
+    double begin_stage(const Stage &stage);
+
+    /** Advance by one step; returns its length [s]. With @p sample the
+     * energies and the unbalanced force are measured. */
+    double advance(const bool sample);
+
+    double time          = 0.; ///< of displacements [s]
+    unsigned int n_steps = 0;
+    double dt            = 0.;
+    Energies energies; ///< as of the last sampled step
+
+    /** Sum of |unbalanced force| over sum of |load|, as last sampled [-]. */
+    double unbalanced_ratio = 0.;
+
+    double contact_seconds = 0.; ///< wall time spent in contact
+    double force_seconds   = 0.; ///< wall time spent in cell forces
+
+  private:
+    void compute_internal_force();
+    void predict();
+    void resolve_contact();
+    void book_work();
+    void sample_energies();
+    void sample_unbalanced_force();
+    void move();
+
+    const Scene<dim> &scene;
+    const SplitMesh<dim> &split;
+    const Numbering<dim> &numbering;
+    Conditions<dim> &conditions;
+    CellArrays<dim> &cells;
+    Fields<dim> &fields;
+    Contact<dim> *contact;
+
+    Stage stage;
+    double kick            = 0.;   ///< h of the present step [s]
+    double previous_dt     = 0.;   ///< length of the last move [s]
+    bool starts_at_rest    = true; ///< the next kick is a half one
+    bool is_first          = true; ///< of the stage
+    bool is_stress_current = true; ///< contains the last move
+    Energies sums;                 ///< work terms of this rank
+    ContactWork contact_work_at_start;
+  };
+} // namespace Keyblock
+
+#endif

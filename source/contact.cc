@@ -1,0 +1,530 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Contact: set-up, the order of the step, and sums for monitors.
+#include <keyblock/contact.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <keyblock/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    double
+    tangent_of(const double degrees)
+    {
+      return std::tan(degrees * dealii::numbers::PI / 180.);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Contact<dim>::Contact(const Scene<dim> &scene,
+                        const SplitMesh<dim> &split,
+                        const Blocks<dim> &blocks,
+                        const Numbering<dim> &numbering,
+                        const CellArrays<dim> &cells,
+                        Fields<dim> &fields)
+    : scene(scene)
+    , interface(split.interface)
+    , split(split)
+    , numbering(numbering)
+    , cells(cells)
+    , fields(fields)
+    , state(interface.pairs.size())
+    , default_tangent(tangent_of(scene.contact.default_friction_angle))
+    , traction(interface.pairs.size())
+    , search(split, blocks)
+  {
+    for (const auto &joint : scene.joints)
+      {
+        static_tangent.push_back(tangent_of(joint->friction_angle));
+        kinetic_tangent.push_back(
+          joint->kinetic_friction_angle < 0.
+            ? static_tangent.back()
+            : tangent_of(joint->kinetic_friction_angle));
+      }
+    for (unsigned int p = 0; p < interface.pairs.size(); ++p)
+      {
+        const Joint<dim> &joint = *scene.joints[interface.pairs[p].joint];
+        state[p].is_intact = scene.contact.tie_all || joint.cohesion > 0. ||
+                             joint.tensile_strength > 0.;
+        Vector<dim> n;
+        for (int d = 0; d < dim; ++d)
+          n[d] = interface.pairs[p].normal[d];
+        normal.push_back(n);
+      }
+    set_up_groups();
+    set_up_traction_weights();
+  }
+
+
+
+  template <int dim>
+  bool
+  Contact<dim>::is_primary(const unsigned int group) const
+  {
+    return numbering.is_owned(
+      interface.group_vertices[interface.group_begin[group]]);
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::override_friction(const double angle)
+  {
+    override_tangent = angle < 0. ? -1. : tangent_of(angle);
+  }
+
+
+
+  template <int dim>
+  PointStrength
+  Contact<dim>::pair_strength(const unsigned int pair,
+                              const bool is_intact,
+                              const double kick) const
+  {
+    const Pair<dim> &p      = interface.pairs[pair];
+    const Joint<dim> &joint = *scene.joints[p.joint];
+    PointStrength strength;
+    strength.static_friction =
+      override_tangent >= 0. ? override_tangent : static_tangent[p.joint];
+    strength.kinetic_friction =
+      override_tangent >= 0. ? override_tangent : kinetic_tangent[p.joint];
+    strength.cohesion =
+      (is_intact ? joint.cohesion : joint.residual_cohesion) * p.area * kick;
+    strength.tension = is_intact ? joint.tensile_strength * p.area * kick : 0.;
+    if (scene.contact.tie_all)
+      strength.cohesion = strength.tension = 1e100;
+    return strength;
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::set_up_groups()
+  {
+    node_of_slot.resize(search.n_slots());
+    slot_projection.assign(search.n_slots(), nullptr);
+    slot_inverse_mass.assign(search.n_slots(), 0.);
+    slot_mass.assign(search.n_slots(), 0.);
+    std::vector<double> held(search.n_slots() * dim * dim, 0.);
+    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+      {
+        const unsigned int node =
+          numbering.local_node(search.vertex_of_slot[slot]);
+        node_of_slot[slot] = node;
+        if (node >= numbering.n_owned())
+          continue;
+        slot_inverse_mass[slot] = fields.inverse_mass[node];
+        slot_mass[slot]         = fields.mass[node];
+        const int support       = fields.support_of_node[node];
+        if (support >= 0 && !fields.supports[support].is_fixed())
+          for (unsigned int k = 0; k < fields.supports[support].n_directions;
+               ++k)
+            for (int d = 0; d < dim; ++d)
+              for (int e = 0; e < dim; ++e)
+                held[(slot * dim + d) * dim + e] +=
+                  fields.supports[support].directions[k][d] *
+                  fields.supports[support].directions[k][e];
+      }
+    dealii::Utilities::MPI::sum(slot_inverse_mass, world(), slot_inverse_mass);
+    dealii::Utilities::MPI::sum(slot_mass, world(), slot_mass);
+    dealii::Utilities::MPI::sum(held, world(), held);
+
+    projection_storage.resize(search.n_slots());
+    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+      {
+        bool is_held = false;
+        for (int i = 0; i < dim * dim; ++i)
+          {
+            const double h              = held[slot * dim * dim + i];
+            is_held                     = is_held || h != 0.;
+            projection_storage[slot][i] = (i % (dim + 1) == 0 ? 1. : 0.) - h;
+          }
+        if (is_held)
+          slot_projection[slot] = projection_storage[slot].data();
+      }
+    for (auto *values : {&slot_velocity,
+                         &slot_old_velocity,
+                         &slot_displacement,
+                         &slot_position,
+                         &slot_impulse})
+      values->assign(dim * search.n_slots(), 0.);
+    slot_nodes = {slot_velocity.data(),
+                  slot_inverse_mass.data(),
+                  &slot_projection};
+
+    group_of_pair.resize(interface.pairs.size());
+    is_mobile_group.assign(interface.n_groups(), false);
+    is_mobile_slot.assign(search.n_slots(), false);
+    for (unsigned int g = 0; g < interface.n_groups(); ++g)
+      {
+        const unsigned int begin = interface.group_pairs_begin[g];
+        const unsigned int end   = interface.group_pairs_begin[g + 1];
+        CornerGroup corner;
+        corner.group = g;
+        for (unsigned int i = interface.group_begin[g];
+             i < interface.group_begin[g + 1];
+             ++i)
+          {
+            corner.slots.push_back(
+              search.slot_of_vertex[interface.group_vertices[i]]);
+            corner.has_supports =
+              corner.has_supports || slot_projection[corner.slots.back()];
+          }
+        for (unsigned int p = begin; p < end; ++p)
+          group_of_pair[p] = g;
+        if (end - begin == 1 && !corner.has_supports)
+          {
+            const unsigned int minus =
+              numbering.local_node(interface.pairs[begin].minus);
+            const unsigned int plus =
+              numbering.local_node(interface.pairs[begin].plus);
+            if (minus != none && plus != none)
+              single_pairs.push_back({begin, minus, plus});
+          }
+        else
+          {
+            set_up_corner(corner);
+            corners.push_back(corner);
+            for (unsigned int p = begin; p < end; ++p)
+              corner_pairs.push_back(p);
+          }
+      }
+    rebuild_active_slots();
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::rebuild_active_slots()
+  {
+    std::vector<bool> is_active = is_mobile_slot;
+    for (const CornerGroup &corner : corners)
+      for (const unsigned int slot : corner.slots)
+        if (node_of_slot[slot] != none)
+          is_active[slot] = true;
+    active_slots.clear();
+    for (unsigned int slot = 0; slot < is_active.size(); ++slot)
+      if (is_active[slot])
+        active_slots.push_back(slot);
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::gather_slots(const bool with_displacement)
+  {
+    const auto copy = [&](const std::vector<double> &from,
+                          std::vector<double> &to) {
+      for (const unsigned int slot : active_slots)
+        if (node_of_slot[slot] != none)
+          for (int d = 0; d < dim; ++d)
+            to[dim * slot + d] = from[dim * node_of_slot[slot] + d];
+      if (n_ranks() == 1 || mobile_slots.empty())
+        return;
+      std::vector<double> buffer(dim * mobile_slots.size(), 0.);
+      for (unsigned int i = 0; i < mobile_slots.size(); ++i)
+        if (node_of_slot[mobile_slots[i]] < numbering.n_owned())
+          for (int d = 0; d < dim; ++d)
+            buffer[dim * i + d] = from[dim * node_of_slot[mobile_slots[i]] + d];
+      dealii::Utilities::MPI::sum(buffer, world(), buffer);
+      for (unsigned int i = 0; i < mobile_slots.size(); ++i)
+        for (int d = 0; d < dim; ++d)
+          to[dim * mobile_slots[i] + d] = buffer[dim * i + d];
+    };
+    if (active_slots.empty())
+      return;
+    copy(fields.velocity, slot_velocity);
+    if (with_displacement)
+      {
+        copy(fields.old_velocity, slot_old_velocity);
+        copy(fields.displacement, slot_displacement);
+        for (const unsigned int slot : active_slots)
+          {
+            const Point<dim> &x =
+              split.mesh.vertices[search.vertex_of_slot[slot]];
+            for (int d = 0; d < dim; ++d)
+              slot_position[dim * slot + d] =
+                x[d] + slot_displacement[dim * slot + d];
+          }
+      }
+    for (const unsigned int slot : active_slots)
+      for (int d = 0; d < dim; ++d)
+        slot_impulse[dim * slot + d] = 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::scatter_slots()
+  {
+    for (const unsigned int slot : active_slots)
+      if (node_of_slot[slot] != none)
+        for (int d = 0; d < dim; ++d)
+          {
+            const unsigned int dof = dim * node_of_slot[slot] + d;
+            fields.velocity[dof]   = slot_velocity[dim * slot + d];
+            fields.contact_force[dof] =
+              slot_impulse[dim * slot + d] / last_kick;
+          }
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Contact<dim>::gather_positions() const
+  {
+    std::vector<double> position(dim * search.n_slots(), 0.);
+    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+      if (node_of_slot[slot] < numbering.n_owned())
+        for (int d = 0; d < dim; ++d)
+          position[dim * slot + d] =
+            fields.reference[dim * node_of_slot[slot] + d] +
+            fields.displacement[dim * node_of_slot[slot] + d];
+    if (n_ranks() > 1)
+      dealii::Utilities::MPI::sum(position, world(), position);
+    return position;
+  }
+
+
+
+  template <int dim>
+  ContactPoint<dim>
+  Contact<dim>::pair_as_point(const unsigned int pair, const double kick) const
+  {
+    const Pair<dim> &p = interface.pairs[pair];
+    ContactPoint<dim> point;
+    point.n_nodes   = 2;
+    point.node[0]   = search.slot_of_vertex[p.plus];
+    point.node[1]   = search.slot_of_vertex[p.minus];
+    point.weight[0] = 1.;
+    point.weight[1] = -1.;
+    point.normal    = normal[pair];
+    for (int d = 0; d < dim; ++d)
+      point.gap +=
+        point.normal[d] * (slot_displacement[dim * point.node[0] + d] -
+                           slot_displacement[dim * point.node[1] + d]);
+    point.is_intact = state[pair].is_intact;
+    point.strength  = pair_strength(pair, point.is_intact, kick);
+    point.status    = state[pair].status;
+    if (last_kick > 0.)
+      point.impulse =
+        add<dim>(Vector<dim>{}, kick / last_kick, state[pair].impulse);
+    if (state[pair].status == ContactStatus::sticking)
+      point.gap = 0.;
+    return point;
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::book_work(const ContactPoint<dim> &point,
+                          const double *old_velocity,
+                          const double *new_velocity)
+  {
+    const Vector<dim> mean =
+      add<dim>(relative_velocity<dim>(point, old_velocity),
+               1.,
+               relative_velocity<dim>(point, new_velocity));
+    const double r_n     = dot<dim>(point.impulse, point.normal);
+    const double all     = -0.5 * dot<dim>(point.impulse, mean);
+    const double closure = -0.5 * r_n * dot<dim>(point.normal, mean);
+    work.closure += closure;
+    work.friction += all - closure;
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::solve(const ContactStep &step)
+  {
+    const double previous_kick = last_kick;
+    n_iterations               = 0;
+    if (!corner_pairs.empty())
+      estimate_tractions(step.kick);
+    if (step.is_large && n_steps % 20 == 0)
+      refresh_normals();
+    update_mobility(step);
+    gather_slots(true);
+    last_kick = previous_kick > 0. ? previous_kick : step.kick;
+    solve_single_pairs(step);
+    for (CornerGroup &corner : corners)
+      if (!is_mobile_group[corner.group] &&
+          node_of_slot[corner.slots[0]] != none)
+        solve_corner(corner, step);
+    if (!mobile_slots.empty())
+      solve_mobile(step);
+    last_kick = step.kick;
+    scatter_slots();
+    ++n_steps;
+  }
+
+
+
+  template <int dim>
+  std::vector<PairState<dim>>
+  Contact<dim>::gather_pair_states() const
+  {
+    constexpr unsigned int n = dim + 3;
+    std::vector<double> packed(n * state.size(), 0.);
+    for (unsigned int p = 0; p < state.size(); ++p)
+      if (is_primary(group_of_pair[p]))
+        {
+          for (int d = 0; d < dim; ++d)
+            packed[n * p + d] = state[p].impulse[d];
+          packed[n * p + dim]     = static_cast<int>(state[p].status);
+          packed[n * p + dim + 1] = state[p].is_intact;
+          packed[n * p + dim + 2] = state[p].is_converted;
+        }
+    dealii::Utilities::MPI::sum(packed, world(), packed);
+    std::vector<PairState<dim>> result(state.size());
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        for (int d = 0; d < dim; ++d)
+          result[p].impulse[d] = packed[n * p + d];
+        result[p].status =
+          static_cast<ContactStatus>(std::lround(packed[n * p + dim]));
+        result[p].is_intact    = packed[n * p + dim + 1] > 0.5;
+        result[p].is_converted = packed[n * p + dim + 2] > 0.5;
+      }
+    return result;
+  }
+
+
+
+  namespace
+  {
+    template <int dim>
+    void
+    add_point(JointSums<dim> &sums,
+              Vector<dim> &moment,
+              const Vector<dim> &impulse,
+              const Vector<dim> &normal,
+              const ContactStatus status,
+              const Vector<dim> &place,
+              const double kick)
+    {
+      const double pressure = dot<dim>(impulse, normal) / kick;
+      sums.normal += pressure;
+      for (int d = 0; d < dim; ++d)
+        {
+          sums.force[d] += impulse[d] / kick;
+          moment[d] += pressure * place[d];
+        }
+      sums.n_open += status == ContactStatus::open;
+      sums.n_sliding += status == ContactStatus::sliding;
+      sums.n_sticking += status == ContactStatus::sticking;
+    }
+
+    template <int dim>
+    JointSums<dim>
+    finish_sums(const JointSums<dim> &sums, const Vector<dim> &moment)
+    {
+      std::vector<double> values = {sums.normal,
+                                    double(sums.n_open),
+                                    double(sums.n_sliding),
+                                    double(sums.n_sticking),
+                                    double(sums.n_intact)};
+      values.insert(values.end(), sums.force.begin(), sums.force.end());
+      values.insert(values.end(), moment.begin(), moment.end());
+      dealii::Utilities::MPI::sum(values, world(), values);
+      JointSums<dim> total;
+      total.normal     = values[0];
+      total.n_open     = std::lround(values[1]);
+      total.n_sliding  = std::lround(values[2]);
+      total.n_sticking = std::lround(values[3]);
+      total.n_intact   = std::lround(values[4]);
+      for (int d = 0; d < dim; ++d)
+        {
+          total.force[d] = values[5 + d];
+          if (total.normal != 0.)
+            total.center[d] = values[5 + dim + d] / total.normal;
+        }
+      return total;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  JointSums<dim>
+  Contact<dim>::sum_over_joint(const unsigned int joint) const
+  {
+    JointSums<dim> sums;
+    Vector<dim> moment{};
+    const double kick = last_kick > 0. ? last_kick : 1.;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      if ((joint == none || interface.pairs[p].joint == joint) &&
+          !state[p].is_converted && is_primary(group_of_pair[p]))
+        {
+          const unsigned int node =
+            numbering.local_node(interface.pairs[p].plus);
+          Vector<dim> place;
+          for (int d = 0; d < dim; ++d)
+            place[d] = fields.reference[dim * node + d] +
+                       fields.displacement[dim * node + d];
+          add_point<dim>(sums,
+                         moment,
+                         state[p].impulse,
+                         normal[p],
+                         state[p].status,
+                         place,
+                         kick);
+          sums.n_intact += state[p].is_intact;
+        }
+    if (is_root())
+      for (const SurfaceContact<dim> &contact : contacts)
+        if (joint == none || contact.joint == joint)
+          {
+            Vector<dim> place;
+            for (int d = 0; d < dim; ++d)
+              place[d] = slot_position[dim * contact.slave + d];
+            add_point<dim>(sums,
+                           moment,
+                           contact.point.impulse,
+                           contact.point.normal,
+                           contact.point.status,
+                           place,
+                           kick);
+          }
+    JointSums<dim> total = finish_sums<dim>(sums, moment);
+    if (joint != none)
+      {
+        const Tensor<1, dim> n = scene.joints[joint]->normal();
+        Vector<dim> normal_of_joint;
+        for (int d = 0; d < dim; ++d)
+          normal_of_joint[d] = n[d];
+        total.shear =
+          norm<dim>(add<dim>(total.force,
+                             -dot<dim>(total.force, normal_of_joint),
+                             normal_of_joint));
+      }
+    return total;
+  }
+
+
+
+  template <int dim>
+  JointSums<dim>
+  Contact<dim>::count_points() const
+  {
+    return sum_over_joint(none);
+  }
+
+  template class Contact<2>;
+  template class Contact<3>;
+} // namespace Keyblock

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/dofs.h>
+
+#include <deal.II/distributed/fully_distributed_tria.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/fe/fe_q.h>
+
+#include <deal.II/grid/tria_description.h>
+
+#include <keyblock/mpi.h>
+
+#include <algorithm>
+#include <set>
+
+namespace Keyblock
+{
+  template <int dim>
+  Numbering<dim>::Numbering(const Scene<dim> &scene,
+                            const SplitMesh<dim> &split)
+    : fe(dealii::FE_Q<dim>(1), dim)
+  {
+    create_triangulation(scene, split.mesh);
+    dof_handler.reinit(*triangulation);
+    dof_handler.distribute_dofs(fe);
+    create_numbering(scene, split);
+  }
+
+
+
+  template <int dim>
+  void
+  Numbering<dim>::create_triangulation(const Scene<dim> &scene,
+                                       const Mesh<dim> &mesh)
+  {
+    const auto make_serial = [&mesh](dealii::Triangulation<dim> &serial) {
+      std::vector<dealii::CellData<dim>> cells(mesh.n_cells());
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        std::copy(mesh.cells[c].begin(),
+                  mesh.cells[c].end(),
+                  cells[c].vertices.begin());
+      serial.create_triangulation(mesh.vertices, cells, dealii::SubCellData());
+    };
+    if (n_ranks() == 1)
+      {
+        triangulation = std::make_unique<dealii::Triangulation<dim>>();
+        make_serial(*triangulation);
+        return;
+      }
+    // equal numbers of deformable cells, in chunks of the Hilbert order
+    const auto partition = [&](dealii::Triangulation<dim> &serial,
+                               const MPI_Comm,
+                               const unsigned int) {
+      std::vector<double> before(mesh.n_cells() + 1, 0.);
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        before[c + 1] =
+          before[c] +
+          (scene.materials[mesh.material[c]]->is_rigid() ? 1e-3 : 1.);
+      for (const auto &cell : serial.active_cell_iterators())
+        {
+          const double place = before[cell->active_cell_index()];
+          cell->set_subdomain_id(
+            std::min<unsigned int>(n_ranks() - 1,
+                                   place * n_ranks() / before.back()));
+        }
+    };
+    const auto description = dealii::TriangulationDescription::Utilities::
+      create_description_from_triangulation_in_groups<dim, dim>(make_serial,
+                                                                partition,
+                                                                world(),
+                                                                n_ranks());
+    auto distributed =
+      std::make_unique<dealii::parallel::fullydistributed::Triangulation<dim>>(
+        world());
+    distributed->create_triangulation(description);
+    triangulation = std::move(distributed);
+  }
+
+
+
+  template <int dim>
+  void
+  Numbering<dim>::create_numbering(const Scene<dim> &scene,
+                                   const SplitMesh<dim> &split)
+  {
+    const Mesh<dim> &mesh = split.mesh;
+    std::vector<unsigned int> found(mesh.vertices.size(), 0);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const unsigned int c = cell->id().get_coarse_cell_id();
+          for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
+            found[mesh.cells[c][v]] = cell->vertex_dof_index(v, 0) / dim + 1;
+        }
+    node_of_vertex.resize(found.size());
+    dealii::Utilities::MPI::max(found, world(), node_of_vertex);
+    for (unsigned int &node : node_of_vertex)
+      --node;
+
+    const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+    std::set<unsigned int> ghosts;
+    const auto is_ghost = [&owned](const unsigned int node) {
+      return !owned.is_element(dim * node);
+    };
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int v : mesh.cells[cell->id().get_coarse_cell_id()])
+          if (is_ghost(node_of_vertex[v]))
+            ghosts.insert(node_of_vertex[v]);
+    const Interface<dim> &interface    = split.interface;
+    std::set<unsigned int> cell_ghosts = ghosts;
+    for (unsigned int g = 0; g < interface.n_groups(); ++g)
+      {
+        const auto begin =
+          interface.group_vertices.begin() + interface.group_begin[g];
+        const auto end =
+          interface.group_vertices.begin() + interface.group_begin[g + 1];
+        if (std::any_of(begin, end, [&](const unsigned int v) {
+              return !is_ghost(node_of_vertex[v]) ||
+                     cell_ghosts.count(node_of_vertex[v]);
+            }))
+          for (auto v = begin; v != end; ++v)
+            if (is_ghost(node_of_vertex[*v]))
+              ghosts.insert(node_of_vertex[*v]);
+      }
+    dealii::IndexSet ghost_dofs(owned.size());
+    for (const unsigned int node : ghosts)
+      ghost_dofs.add_range(dim * node, dim * (node + 1));
+    partitioner =
+      std::make_shared<dealii::Utilities::MPI::Partitioner>(owned,
+                                                            ghost_dofs,
+                                                            world());
+
+    vertex_of_node.assign(n_local(), none);
+    for (unsigned int v = 0; v < node_of_vertex.size(); ++v)
+      if (local_node(v) != none)
+        vertex_of_node[local_node(v)] = v;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const unsigned int c = cell->id().get_coarse_cell_id();
+          if (scene.materials[mesh.material[c]]->is_rigid())
+            continue;
+          CellNodes nodes;
+          for (unsigned int v = 0; v < nodes.size(); ++v)
+            nodes[v] = local_node(mesh.cells[c][v]);
+          cell_nodes.push_back(nodes);
+          mesh_cell.push_back(c);
+        }
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Numbering<dim>::local_node(const unsigned int vertex) const
+  {
+    const auto dof = dim * node_of_vertex[vertex];
+    if (!partitioner->in_local_range(dof) && !partitioner->is_ghost_entry(dof))
+      return none;
+    return partitioner->global_to_local(dof) / dim;
+  }
+
+
+
+  template <int dim>
+  void
+  Numbering<dim>::add_ghosts_to_owners(std::vector<double> &field) const
+  {
+    if (n_ranks() == 1)
+      return;
+    const unsigned int n_owned_dofs = partitioner->locally_owned_size();
+    const unsigned int n_ghost_dofs = partitioner->n_ghost_indices();
+    exchange_buffer.resize(partitioner->n_import_indices());
+    const dealii::ArrayView<double> ghosts(field.data() + n_owned_dofs,
+                                           n_ghost_dofs);
+    const dealii::ArrayView<double> owned(field.data(), n_owned_dofs);
+    const dealii::ArrayView<double> buffer(exchange_buffer.data(),
+                                           exchange_buffer.size());
+    partitioner->import_from_ghosted_array_start(
+      dealii::VectorOperation::add, 0, ghosts, buffer, exchange_requests);
+    partitioner->import_from_ghosted_array_finish(
+      dealii::VectorOperation::add,
+      dealii::ArrayView<const double>(exchange_buffer.data(),
+                                      exchange_buffer.size()),
+      owned,
+      ghosts,
+      exchange_requests);
+  }
+
+
+
+  template <int dim>
+  void
+  Numbering<dim>::update_ghosts(std::vector<double> &field) const
+  {
+    if (n_ranks() == 1)
+      return;
+    const unsigned int n_owned_dofs = partitioner->locally_owned_size();
+    exchange_buffer.resize(partitioner->n_import_indices());
+    const dealii::ArrayView<double> ghosts(field.data() + n_owned_dofs,
+                                           partitioner->n_ghost_indices());
+    partitioner->export_to_ghosted_array_start(
+      0,
+      dealii::ArrayView<const double>(field.data(), n_owned_dofs),
+      dealii::ArrayView<double>(exchange_buffer.data(), exchange_buffer.size()),
+      ghosts,
+      exchange_requests);
+    partitioner->export_to_ghosted_array_finish(ghosts, exchange_requests);
+  }
+
+  template class Numbering<2>;
+  template class Numbering<3>;
+} // namespace Keyblock

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/command_line.h>
+#include <keyblock/mpi.h>
+#include <keyblock/simulation.h>
+
+#include <iostream>
+
+namespace
+{
+  template <int dim>
+  void
+  run(const Keyblock::CommandLine &arguments)
+  {
+    Keyblock::Simulation<dim> simulation(arguments.scene,
+                                         arguments.overrides,
+                                         arguments.output);
+    if (arguments.is_validation)
+      simulation.validate();
+    else
+      simulation.run();
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  dealii::deal_II_exceptions::disable_abort_on_exception();
+  int exit_code = 0;
+  try
+    {
+      const Keyblock::CommandLine arguments(argc, argv);
+      if (!arguments.answer.empty())
+        {
+          if (Keyblock::is_root())
+            std::cout << arguments.answer;
+        }
+      else if (Keyblock::read_dimension(arguments.scene, arguments.overrides) ==
+               2)
+        run<2>(arguments);
+      else
+        run<3>(arguments);
+    }
+  catch (const Keyblock::InputError &error)
+    {
+      if (Keyblock::is_root())
+        std::cerr << "Error: " << error.message << std::endl;
+      exit_code = 1;
+    }
+  catch (const Keyblock::ComputationError &error)
+    {
+      if (Keyblock::is_root())
+        std::cerr << "Failed: " << error.message << std::endl;
+      exit_code = 2;
+    }
+  catch (const std::exception &error)
+    {
+      std::cerr << "Failed: " << error.what() << std::endl;
+      MPI_Abort(Keyblock::world(), 2);
+    }
+  return exit_code;
+}

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/monitors.h>
+
+#include <keyblock/mpi.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <limits>
+
+namespace Keyblock
+{
+  namespace
+  {
+    std::string
+    without_unit(const std::string &column)
+    {
+      return column.substr(0, column.find(" ["));
+    }
+  } // namespace
+
+
+
+  bool
+  History::has(const std::string &name) const
+  {
+    return std::any_of(columns.begin(), columns.end(), [&](const auto &column) {
+      return without_unit(column) == name;
+    });
+  }
+
+
+
+  std::vector<double>
+  History::column(const std::string &name, const unsigned int begin) const
+  {
+    unsigned int index = 0;
+    while (index < columns.size() && without_unit(columns[index]) != name)
+      ++index;
+    Assert(index < columns.size(), dealii::ExcMessage("no column " + name));
+    std::vector<double> values;
+    for (unsigned int r = begin; r < rows.size(); ++r)
+      values.push_back(rows[r][index]);
+    return values;
+  }
+
+
+
+  double
+  History::last(const std::string &name) const
+  {
+    return column(name, rows.size() - 1)[0];
+  }
+
+
+
+  template <int dim>
+  Monitors<dim>::Monitors(const Scene<dim> &scene,
+                          const SplitMesh<dim> &split,
+                          const Blocks<dim> &blocks,
+                          const Numbering<dim> &numbering,
+                          const Fields<dim> &fields,
+                          const Contact<dim> *contact)
+    : scene(scene)
+    , split(split)
+    , blocks(blocks)
+    , numbering(numbering)
+    , fields(fields)
+    , contact(contact)
+    , baseline(fields.displacement)
+  {
+    const std::vector<std::string> axes = {"x", "y", "z"};
+    history.columns                     = {"stage [-]", "step [-]", "time [s]"};
+    block_of_node.assign(numbering.n_local(), none);
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      for (const unsigned int v : split.mesh.cells[c])
+        if (numbering.local_node(v) != none)
+          block_of_node[numbering.local_node(v)] = split.block_of_cell[c];
+    for (const auto &monitor : scene.monitors)
+      {
+        const std::string name      = monitor->name;
+        unsigned int node           = none;
+        unsigned int block          = none;
+        double least                = std::numeric_limits<double>::max();
+        unsigned int nearest_vertex = none, nearest_cell = none;
+        if (monitor->kind == "point")
+          for (unsigned int v = 0; v < split.mesh.vertices.size(); ++v)
+            {
+              const double d =
+                split.mesh.vertices[v].distance(monitor->location);
+              if (d < least)
+                {
+                  least          = d;
+                  nearest_vertex = v;
+                }
+            }
+        if (monitor->kind == "block")
+          for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+            {
+              const double d =
+                split.mesh.cell_center(c).distance(monitor->location);
+              if (d < least)
+                {
+                  least        = d;
+                  nearest_cell = c;
+                }
+            }
+        if (nearest_vertex != none && numbering.is_owned(nearest_vertex))
+          node = numbering.local_node(nearest_vertex);
+        if (nearest_cell != none)
+          block = split.block_of_cell[nearest_cell];
+        node_of_monitor.push_back(node);
+        block_of_monitor.push_back(block);
+        if (monitor->kind == "joint")
+          {
+            for (const std::string part :
+                 {"normal_force [N]", "shear_force [N]"})
+              history.columns.push_back(name + "." + part);
+            for (unsigned int d = 0; d < dim; ++d)
+              history.columns.push_back(name + ".force_" + axes[d] + " [N]");
+            for (unsigned int d = 0; d < dim; ++d)
+              history.columns.push_back(name + ".center_" + axes[d] + " [m]");
+            for (const std::string part :
+                 {"open [-]", "sliding [-]", "sticking [-]", "intact [-]"})
+              history.columns.push_back(name + "." + part);
+          }
+        else
+          {
+            for (unsigned int d = 0; d < dim; ++d)
+              history.columns.push_back(name + ".u_" + axes[d] + " [m]");
+            for (unsigned int d = 0; d < dim; ++d)
+              history.columns.push_back(name + ".v_" + axes[d] + " [m/s]");
+            if (monitor->kind == "block")
+              {
+                history.columns.push_back(name + ".rotation [rad]");
+                history.columns.push_back(name + ".angular_momentum [N m s]");
+              }
+          }
+      }
+    for (const std::string term : {"kinetic",
+                                   "elastic",
+                                   "external",
+                                   "supports",
+                                   "friction",
+                                   "contact_closure",
+                                   "penetration",
+                                   "stiffness_damping",
+                                   "mass_damping",
+                                   "local_damping",
+                                   "residual"})
+      history.columns.push_back("energy." + term + " [J]");
+    history.columns.push_back("unbalanced_ratio [-]");
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::reset_baseline()
+  {
+    baseline = fields.displacement;
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample_block(const unsigned int block,
+                              std::vector<double> &row)
+  {
+    // mass, m u, m v, m x, m X, then with centres known: rotation, momentum
+    std::vector<double> sums(1 + 4 * dim, 0.);
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      if (block_of_node[node] == block)
+        {
+          const double m = fields.mass[node];
+          sums[0] += m;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const unsigned int i = dim * node + d;
+              sums[1 + d] += m * (fields.displacement[i] - baseline[i]);
+              sums[1 + dim + d] += m * fields.velocity[i];
+              sums[1 + 2 * dim + d] +=
+                m * (fields.reference[i] + fields.displacement[i]);
+              sums[1 + 3 * dim + d] += m * fields.reference[i];
+            }
+        }
+    dealii::Utilities::MPI::sum(sums, world(), sums);
+    if (sums[0] > 0.)
+      for (unsigned int i = 1; i < sums.size(); ++i)
+        sums[i] /= sums[0];
+    std::vector<double> spin(3, 0.);
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      if (block_of_node[node] == block)
+        {
+          double X[2], x[2], v[2], u[2];
+          for (unsigned int k = 0; k < 2; ++k)
+            {
+              // in 3D about the y axis: the plane of x and z
+              const unsigned int d = (dim == 3 && k == 1) ? 2 : k;
+              const unsigned int i = dim * node + d;
+              u[k]                 = fields.displacement[i];
+              X[k] = fields.reference[i] - sums[1 + 3 * dim + d];
+              x[k] = fields.reference[i] + u[k] - sums[1 + 2 * dim + d];
+              v[k] = fields.velocity[i];
+            }
+          const double m = fields.mass[node];
+          spin[0] += m * (X[0] * x[1] - X[1] * x[0]);
+          spin[1] += m * (X[0] * x[0] + X[1] * x[1]);
+          spin[2] += m * (x[0] * v[1] - x[1] * v[0]);
+        }
+    dealii::Utilities::MPI::sum(spin, world(), spin);
+    for (unsigned int i = 1; i < 1 + 2 * dim; ++i)
+      row.push_back(sums[i]);
+    row.push_back(std::atan2(spin[0], spin[1]));
+    row.push_back(spin[2]);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample(const ExplicitStep<dim> &step, const unsigned int stage)
+  {
+    std::vector<double> row = {double(stage), double(step.n_steps), step.time};
+    for (unsigned int m = 0; m < scene.monitors.size(); ++m)
+      {
+        const Monitor<dim> &monitor = *scene.monitors[m];
+        if (monitor.kind == "joint")
+          {
+            JointSums<dim> sums;
+            unsigned int joint = none;
+            for (unsigned int j = 0; j < scene.joints.size(); ++j)
+              if (scene.joints[j]->name == monitor.joint)
+                joint = j;
+            if (contact)
+              sums = contact->sum_over_joint(joint);
+            row.push_back(sums.normal);
+            row.push_back(sums.shear);
+            row.insert(row.end(), sums.force.begin(), sums.force.end());
+            row.insert(row.end(), sums.center.begin(), sums.center.end());
+            for (const unsigned int n :
+                 {sums.n_open, sums.n_sliding, sums.n_sticking, sums.n_intact})
+              row.push_back(n);
+          }
+        else if (monitor.kind == "block")
+          sample_block(block_of_monitor[m], row);
+        else
+          {
+            std::vector<double> values(2 * dim, 0.);
+            const unsigned int node = node_of_monitor[m];
+            if (node != none)
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  const unsigned int i = dim * node + d;
+                  values[d]            = fields.displacement[i] - baseline[i];
+                  values[dim + d]      = fields.velocity[i];
+                }
+            dealii::Utilities::MPI::sum(values, world(), values);
+            row.insert(row.end(), values.begin(), values.end());
+          }
+      }
+    const Energies &e = step.energies;
+    for (const double term : {e.kinetic,
+                              e.elastic,
+                              e.external,
+                              e.supports,
+                              e.friction,
+                              e.contact_closure,
+                              e.penetration,
+                              e.stiffness_damping,
+                              e.mass_damping,
+                              e.local_damping,
+                              e.residual(),
+                              step.unbalanced_ratio})
+      row.push_back(term);
+    while (history.stage_begin.size() <= stage)
+      history.stage_begin.push_back(history.rows.size());
+    if (is_root())
+      history.rows.push_back(row);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::write_csv(const std::string &file_name) const
+  {
+    if (!is_root())
+      return;
+    std::ofstream out(file_name);
+    for (unsigned int c = 0; c < history.columns.size(); ++c)
+      out << (c ? "," : "") << history.columns[c];
+    out << '\n' << std::setprecision(12);
+    for (const auto &row : history.rows)
+      {
+        for (unsigned int c = 0; c < row.size(); ++c)
+          out << (c ? "," : "") << row[c];
+        out << '\n';
+      }
+    AssertThrow(out,
+                ComputationError("The file '" + file_name +
+                                 "' cannot be written; check free space."));
+  }
+
+  template class Monitors<2>;
+  template class Monitors<3>;
+} // namespace Keyblock

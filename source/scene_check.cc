@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Contradictions between the entries of a scene, found before anything else.
+#include <keyblock/errors.h>
+#include <keyblock/expression.h>
+#include <keyblock/scene.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace Keyblock
+{
+  namespace
+  {
+    std::string
+    number(const double value)
+    {
+      std::ostringstream out;
+      out << value;
+      return out.str();
+    }
+
+    void
+    require(const bool condition, const std::string &sentence)
+    {
+      AssertThrow(condition, InputError(sentence));
+    }
+
+    template <int dim>
+    void
+    check_expression(const std::string &text,
+                     const unsigned int n_components,
+                     const std::string &entry)
+    {
+      if (!text.empty())
+        Expression<dim>(text, n_components, entry);
+    }
+
+    template <int dim>
+    void
+    check_domain(const Scene<dim> &scene)
+    {
+      const Domain<dim> &domain   = scene.domain;
+      const Meshing<dim> &meshing = scene.meshing;
+      if (domain.shape == "box")
+        {
+          require(domain.size.size() == dim,
+                  "The entry 'Domain/Size' has " +
+                    std::to_string(domain.size.size()) +
+                    " numbers where the box needs " + std::to_string(dim) +
+                    "; give one length per axis.");
+          for (const double length : domain.size)
+            require(length > 0.,
+                    "The entry 'Domain/Size' contains " + number(length) +
+                      "; lengths must be positive.");
+        }
+      if (domain.shape == "parallelepiped")
+        {
+          require(domain.edges.size() == dim,
+                  "The entry 'Domain/Edges' has " +
+                    std::to_string(domain.edges.size()) +
+                    " vectors where the parallelepiped needs " +
+                    std::to_string(dim) + "; separate vectors by ';'.");
+          Tensor<2, dim> frame;
+          for (unsigned int d = 0; d < dim; ++d)
+            frame[d] = domain.edges[d];
+          require(determinant(frame) > 0.,
+                  "The vectors of 'Domain/Edges' span a volume of " +
+                    number(determinant(frame)) +
+                    "; order them right-handed and not in one plane.");
+        }
+      if (domain.shape == "polygon")
+        {
+          require(dim == 2 && domain.polygon.size() >= 3,
+                  "The entry 'Domain/Shape' is polygon, which needs Dimension "
+                  "2 and at least three corners in 'Domain/Polygon'; found " +
+                    std::to_string(domain.polygon.size()) + ".");
+          require(meshing.generator == "gmsh",
+                  "The entry 'Mesh/Generator' is " + meshing.generator +
+                    ", which cannot mesh a polygon; set it to gmsh.");
+        }
+      require((domain.shape == "file") == (meshing.generator == "file"),
+              "The entries 'Domain/Shape' (" + domain.shape +
+                ") and 'Mesh/Generator' (" + meshing.generator +
+                ") contradict each other; set both to file or neither.");
+      if (domain.shape == "file")
+        {
+          require(!domain.file.empty(),
+                  "The entry 'Domain/File' is empty; name the mesh file.");
+          const auto beside =
+            std::filesystem::path(scene.file).parent_path() / domain.file;
+          require(std::filesystem::exists(beside) ||
+                    std::filesystem::exists(domain.file),
+                  "The mesh file '" + domain.file +
+                    "' of the entry 'Domain/File' does not exist; give a path "
+                    "relative to the scene file.");
+        }
+    }
+
+    template <int dim>
+    void
+    check_meshing(const Scene<dim> &scene)
+    {
+      const Meshing<dim> &meshing = scene.meshing;
+      if (meshing.generator != "structured")
+        return;
+      require(meshing.cells.size() == dim,
+              "The entry 'Mesh/Cells' has " +
+                std::to_string(meshing.cells.size()) +
+                " numbers where a structured mesh needs " +
+                std::to_string(dim) + "; give one count per edge.");
+      for (const unsigned int n : meshing.cells)
+        require(n > 0,
+                "The entry 'Mesh/Cells' contains 0; give positive counts.");
+      require(meshing.gradings.empty() || meshing.gradings.size() == dim,
+              "The entry 'Mesh/Gradings' has " +
+                std::to_string(meshing.gradings.size()) + " values where " +
+                std::to_string(dim) +
+                " are needed; give uniform or a ratio per edge.");
+    }
+
+    template <int dim>
+    void
+    check_excavation(const Excavation<dim> &excavation)
+    {
+      const std::string section = "Excavations/" + excavation.name;
+      const std::string shape   = excavation.shape;
+      require(shape != "extruded polygon" || dim == 3,
+              "The entry '" + section +
+                "/Shape' is extruded polygon, which needs Dimension 3; use "
+                "polygon in 2D.");
+      require((shape != "polygon" && shape != "circle") || dim == 2,
+              "The entry '" + section + "/Shape' is " + shape +
+                ", which needs Dimension 2; use box or extruded polygon.");
+      if (shape == "polygon" || shape == "extruded polygon")
+        require(excavation.vertices.size() >= 3,
+                "The entry '" + section + "/Vertices' has " +
+                  std::to_string(excavation.vertices.size()) +
+                  " corners; a polygon needs at least three.");
+      if (shape == "extruded polygon")
+        require(excavation.from < excavation.to,
+                "The entry '" + section + "/From' (" + number(excavation.from) +
+                  ") is not below '" + section + "/To' (" +
+                  number(excavation.to) + "); exchange them.");
+      if (shape == "circle")
+        require(excavation.radius > 0.,
+                "The entry '" + section +
+                  "/Radius' is 0; give a positive radius in metres.");
+      if (shape == "box")
+        require(excavation.size.size() == dim,
+                "The entry '" + section + "/Size' has " +
+                  std::to_string(excavation.size.size()) + " numbers; give " +
+                  std::to_string(dim) + ".");
+    }
+
+    template <int dim>
+    void
+    check_joint(const Joint<dim> &joint)
+    {
+      const std::string section = "Joints/" + joint.name;
+      require(joint.normal_entry.empty() || joint.normal_entry.size() == dim,
+              "The entry '" + section + "/Normal' has " +
+                std::to_string(joint.normal_entry.size()) + " numbers; give " +
+                std::to_string(dim) + " or none.");
+      if (!joint.normal_entry.empty())
+        {
+          double square = 0.;
+          for (const double component : joint.normal_entry)
+            square += component * component;
+          require(square > 0.,
+                  "The entry '" + section +
+                    "/Normal' is the zero vector; give a direction.");
+        }
+      if (dim == 2 && joint.normal_entry.empty() && joint.extent != "polygon")
+        require(joint.dip_direction == 90. || joint.dip_direction == 270.,
+                "The entry '" + section + "/Dip direction' is " +
+                  number(joint.dip_direction) +
+                  "; in 2D it is 90 (descends to +x) or 270 (to -x).");
+      if (joint.extent == "disc")
+        require(joint.radius > 0.,
+                "The entry '" + section +
+                  "/Radius' is 0; give the radius of the disc in metres.");
+      if (joint.extent == "polygon")
+        {
+          const bool is_enough =
+            dim == 2 ? joint.vertices.size() == 2 : joint.vertices.size() >= 3;
+          require(is_enough,
+                  "The entry '" + section + "/Vertices' has " +
+                    std::to_string(joint.vertices.size()) +
+                    " corners; give two ends in 2D, at least three corners "
+                    "in 3D.");
+          const double size = joint.vertices[0].distance(joint.vertices[1]);
+          require(size > 0.,
+                  "The first two corners of '" + section +
+                    "/Vertices' coincide; give distinct corners.");
+          for (const Point<dim> &vertex : joint.vertices)
+            require(std::abs(joint.distance(vertex)) < 1e-6 * size,
+                    "A corner of '" + section + "/Vertices' is " +
+                      number(joint.distance(vertex)) +
+                      " m off the plane of the others; joints are plane.");
+        }
+      const double tangent =
+        std::tan(joint.friction_angle * dealii::numbers::PI / 180.);
+      require(joint.tensile_strength * tangent <= joint.cohesion * (1. + 1e-9),
+              "The entry '" + section + "/Tensile strength' is " +
+                number(joint.tensile_strength) +
+                " Pa, beyond the apex cohesion / tan(friction angle) = " +
+                number(joint.cohesion / tangent) +
+                " Pa; lower it or raise 'Cohesion'.");
+      require(joint.kinetic_friction_angle <= joint.friction_angle,
+              "The entry '" + section + "/Kinetic friction angle' is " +
+                number(joint.kinetic_friction_angle) +
+                " deg, above 'Friction angle' = " +
+                number(joint.friction_angle) +
+                " deg; sliding friction cannot exceed static friction.");
+      require(joint.residual_cohesion <= joint.cohesion,
+              "The entry '" + section + "/Residual cohesion' is " +
+                number(joint.residual_cohesion) + " Pa, above 'Cohesion' = " +
+                number(joint.cohesion) + " Pa; lower it.");
+    }
+
+    void
+    check_stage(const Stage &stage)
+    {
+      require(stage.duration > 0. || stage.maximum_steps > 0,
+              "The stage '" + stage.name + "' never ends; set 'Stages/" +
+                stage.name + "/Duration' or 'Maximum steps'.");
+    }
+
+    template <int dim>
+    void
+    check_expressions(const Scene<dim> &scene)
+    {
+      const unsigned int n_stress = dim == 2 ? 4 : 6;
+      check_expression<dim>(scene.initial_state.gravity,
+                            dim,
+                            "Initial state/Gravity");
+      check_expression<dim>(scene.initial_state.stress,
+                            n_stress,
+                            "Initial state/Stress");
+      check_expression<dim>(scene.initial_state.velocity,
+                            dim,
+                            "Initial state/Velocity");
+      for (const auto &material : scene.materials)
+        {
+          const std::string section = "Materials/" + material->name;
+          if (material->region != "all" &&
+              material->region.rfind("id ", 0) != 0)
+            check_expression<dim>(material->region, 1, section + "/Region");
+          check_expression<dim>(material->rigid_velocity,
+                                dim,
+                                section + "/Rigid velocity");
+        }
+      for (const auto &support : scene.supports)
+        {
+          const std::string section = "Supports/" + support->name;
+          check_expression<dim>(support->region, 1, section + "/Region");
+          check_expression<dim>(support->velocity, dim, section + "/Velocity");
+          require(support->boundaries.empty() != support->region.empty(),
+                  "The support '" + support->name +
+                    "' needs exactly one of 'Boundaries' and 'Region'.");
+          require(support->directions != "normal" || support->region.empty(),
+                  "The support '" + support->name +
+                    "' has 'Directions' normal, which needs 'Boundaries'; "
+                    "name boundaries or axes.");
+          require(dim == 3 ||
+                    support->directions.find('z') == std::string::npos,
+                  "The entry '" + section + "/Directions' is " +
+                    support->directions + ", but there is no z in 2D.");
+        }
+      for (const auto &traction : scene.tractions)
+        {
+          const std::string section = "Tractions/" + traction->name;
+          check_expression<dim>(traction->region, 1, section + "/Region");
+          require(!traction->expression.empty(),
+                  "The entry '" + section +
+                    "/Traction' is empty; give a formula per axis.");
+          check_expression<dim>(traction->expression,
+                                dim,
+                                section + "/Traction");
+          require(traction->boundaries.empty() != traction->region.empty(),
+                  "The traction '" + traction->name +
+                    "' needs exactly one of 'Boundaries' and 'Region'.");
+        }
+    }
+
+    template <int dim>
+    bool
+    has_joint(const Scene<dim> &scene, const std::string &name)
+    {
+      for (const auto &joint : scene.joints)
+        if (joint->name == name)
+          return true;
+      return false;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::cross_check() const
+  {
+    check_domain(*this);
+    check_meshing(*this);
+    for (const auto &excavation : excavations)
+      check_excavation(*excavation);
+    for (const auto &joint : joints)
+      check_joint(*joint);
+    require(
+      !materials.empty(),
+      "The entry 'Materials/Names' is empty; name at least one material.");
+    for (const auto &stage : stages)
+      check_stage(*stage);
+    check_expressions(*this);
+    for (const auto &monitor : monitors)
+      require(monitor->kind != "joint" || monitor->joint == "all" ||
+                has_joint(*this, monitor->joint),
+              "The monitor '" + monitor->name + "' names the joint '" +
+                monitor->joint +
+                "', which is not in 'Joints/Names'; correct 'Monitors/" +
+                monitor->name + "/Joint'.");
+    require(checks.joint.empty() || has_joint(*this, checks.joint),
+            "The entry 'Check/Joint' is '" + checks.joint +
+              "', which is not in 'Joints/Names'.");
+  }
+
+  template void Scene<2>::cross_check() const;
+  template void Scene<3>::cross_check() const;
+} // namespace Keyblock

@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Every entry of a scene file: its name, default, range, unit and meaning.
+#include <keyblock/scene.h>
+
+#include <deal.II/base/patterns.h>
+
+namespace Keyblock
+{
+  namespace
+  {
+    using dealii::Patterns::Double;
+    using dealii::Patterns::Integer;
+    using dealii::Patterns::Selection;
+
+    const Double any_number;
+    const Double not_negative(0.);
+    const Double positive(1e-300);
+    const Double fraction(0., 1.);
+    const Double friction_range(0., 89.9);
+  } // namespace
+
+  template <int dim>
+  void
+  Domain<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Shape",
+                      shape,
+                      "box: axis-parallel, by Corner and Size; parallelepiped: "
+                      "by Corner and Edges; polygon (2D): by Polygon; file: "
+                      "whatever the mesh in File covers.",
+                      Selection("box|parallelepiped|polygon|file"));
+    prm.add_parameter("Corner", corner, "The corner with least x, y (z) [m].");
+    prm.add_parameter("Size", size, "Lengths along x, y (z) of a box [m].");
+    prm.add_parameter("Edges",
+                      edges,
+                      "Edge vectors of a parallelepiped from Corner [m], for "
+                      "example `1, 0; 0, 2`; they must be right-handed.");
+    prm.add_parameter(
+      "Polygon",
+      polygon,
+      "Corners of a 2D domain in order [m], `x, y; x, y; ...`.");
+    prm.add_parameter("File",
+                      file,
+                      "Mesh file: Gmsh .msh, Abaqus .inp, VTK .vtk, UCD .ucd, "
+                      "relative to the scene file. Triangles, tetrahedra and "
+                      "wedges are cut into quadrilaterals and hexahedra.");
+    prm.add_parameter(
+      "Truncated boundaries",
+      truncated_boundaries,
+      "Outer boundaries beyond which the rock goes on: a block "
+      "that touches one is infinite. Names left, right, bottom, "
+      "top, front, back, all, none, or `id N` for a "
+      "boundary of a mesh file.");
+  }
+
+  template <int dim>
+  void
+  Meshing<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Generator",
+                      generator,
+                      "structured: equal cells in a box or parallelepiped "
+                      "(joints and excavations must follow cell faces); gmsh: "
+                      "a mesh that follows joints and excavations; file: "
+                      "Domain/File.",
+                      Selection("structured|gmsh|file"));
+    prm.add_parameter("Cells",
+                      cells,
+                      "Structured: number of cells along each edge.");
+    prm.add_parameter("Gradings",
+                      gradings,
+                      "Structured: for each edge, either `uniform` or a ratio "
+                      "of the last cell's length to the first's.");
+    prm.add_parameter("Size", size, "Gmsh: cell size far away [m].", positive);
+    prm.add_parameter("Size at excavation",
+                      size_at_excavation,
+                      "Gmsh: cell size on the excavation [m]; 0 means Size.",
+                      not_negative);
+    prm.add_parameter("Size at joints",
+                      size_at_joints,
+                      "Gmsh: cell size on joints [m]; 0 means no request.",
+                      not_negative);
+    prm.add_parameter("Grading distance",
+                      grading_distance,
+                      "Gmsh: distance over which the size grows to Size [m]; 0 "
+                      "means a quarter of the domain.",
+                      not_negative);
+    prm.add_parameter("Joint tolerance",
+                      joint_tolerance,
+                      "A cell face lies on a joint if its vertices are within "
+                      "this fraction of the face's size [-].",
+                      Double(0., 0.1));
+  }
+
+  template <int dim>
+  void
+  Excavation<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Shape",
+                      shape,
+                      "polygon (2D): Vertices; circle (2D): Center and Radius, "
+                      "arcs kept; box: Corner and Size; extruded polygon "
+                      "(3D): Vertices in the x-z plane, From and To along y.",
+                      Selection("polygon|circle|box|extruded polygon"));
+    prm.add_parameter("Vertices", vertices, "Corners in order [m].");
+    prm.add_parameter("Corner",
+                      corner,
+                      "The corner with least coordinates [m].");
+    prm.add_parameter("Size", size, "Lengths along the axes [m].");
+    prm.add_parameter("Center", center, "Centre of the circle [m].");
+    prm.add_parameter("Radius",
+                      radius,
+                      "Radius of the circle [m].",
+                      not_negative);
+    prm.add_parameter("From", from, "Extrusion: least y [m].");
+    prm.add_parameter("To", to, "Extrusion: greatest y [m].");
+    prm.add_parameter("Stage",
+                      stage,
+                      "The excavation stage that removes it [1, 2, ...].",
+                      Integer(1));
+  }
+
+  template <int dim>
+  void
+  Joint<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Point", point, "A point on the joint [m].");
+    prm.add_parameter("Normal",
+                      normal_entry,
+                      "Normal vector; empty: from Dip and Dip direction.");
+    prm.add_parameter("Dip",
+                      dip,
+                      "Angle below the horizontal [deg].",
+                      Double(0., 90.));
+    prm.add_parameter("Dip direction",
+                      dip_direction,
+                      "Azimuth towards which the joint descends, clockwise "
+                      "from north (+y) [deg]; in 2D 90 (+x) or 270 (-x).",
+                      Double(0., 360.));
+    prm.add_parameter("Extent",
+                      extent,
+                      "infinite; disc: Radius about Point (in 2D a segment of "
+                      "that half length); polygon: Vertices (in 2D the two "
+                      "ends).",
+                      Selection("infinite|disc|polygon"));
+    prm.add_parameter("Radius",
+                      radius,
+                      "Radius of the disc [m].",
+                      not_negative);
+    prm.add_parameter("Vertices",
+                      vertices,
+                      "Corners of the polygon on the plane, in order [m]; with "
+                      "them Point and Normal may be left out.");
+    prm.add_parameter("Friction angle",
+                      friction_angle,
+                      "Static friction angle [deg].",
+                      friction_range);
+    prm.add_parameter("Kinetic friction angle",
+                      kinetic_friction_angle,
+                      "Friction angle while sliding [deg]; -1: the static one.",
+                      Double(-1., 89.9));
+    prm.add_parameter("Cohesion", cohesion, "Cohesion [Pa].", not_negative);
+    prm.add_parameter("Tensile strength",
+                      tensile_strength,
+                      "Tensile strength [Pa], at most cohesion / tan(friction "
+                      "angle).",
+                      not_negative);
+    prm.add_parameter("Residual cohesion",
+                      residual_cohesion,
+                      "Cohesion left after the bond broke [Pa].",
+                      not_negative);
+  }
+
+  template <int dim>
+  void
+  Material<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Region",
+      region,
+      "Where: all; `id N` for cells of a mesh file; or a formula "
+      "in x, y (z) that is positive at the cell centres "
+      "inside. Later materials overwrite earlier ones.");
+    prm.add_parameter("Model",
+                      model,
+                      "elastic; rigid: a fixed (or moved) body without strain, "
+                      "whose cells cost nothing.",
+                      Selection("elastic|rigid"));
+    prm.add_parameter("Young modulus", young_modulus, "E [Pa].", positive);
+    prm.add_parameter("Poisson ratio",
+                      poisson_ratio,
+                      "nu [-], below 0.5.",
+                      Double(-0.999, 0.4999));
+    prm.add_parameter("Density", density, "rho [kg/m3].", positive);
+    prm.add_parameter("Rigid velocity",
+                      rigid_velocity,
+                      "Velocity of a rigid body, a formula in t, one component "
+                      "per axis separated by ';' [m/s]; empty: at rest.");
+  }
+
+  template <int dim>
+  void
+  Support<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Boundaries",
+      boundaries,
+      "Outer boundaries: left, right, bottom, top, front, back, "
+      "all, or `id N`.");
+    prm.add_parameter("Region",
+                      region,
+                      "Instead: a formula in x, y (z) that is positive at the "
+                      "nodes held.");
+    prm.add_parameter("Directions",
+                      directions,
+                      "all; normal: a roller on each named boundary; or axes, "
+                      "for example x or xz.",
+                      Selection("all|normal|x|y|z|xy|xz|yz"));
+    prm.add_parameter("Velocity",
+                      velocity,
+                      "Prescribed velocity, a formula in x, y (z), t per axis "
+                      "separated by ';' [m/s]; empty: held.");
+  }
+
+  template <int dim>
+  void
+  Traction<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Boundaries", boundaries, "As for supports.");
+    prm.add_parameter(
+      "Region",
+      region,
+      "Instead: a formula in x, y (z) positive at the centres of "
+      "the loaded outer faces.");
+    prm.add_parameter("Traction",
+                      expression,
+                      "Force per area, a formula in x, y (z), t per axis "
+                      "separated by ';' [N/m2].");
+  }
+
+  template <int dim>
+  void
+  InitialState<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Gravity",
+                      gravity,
+                      "Acceleration, a formula in t per axis separated by ';' "
+                      "[m/s2]; empty: none.");
+    prm.add_parameter("Stress",
+                      stress,
+                      "Initial stress, tension positive, formulas in x, y (z) "
+                      "[Pa]: 2D xx; yy; zz; xy. 3D xx; yy; zz; yz; xz; xy.");
+    prm.add_parameter(
+      "Velocity",
+      velocity,
+      "Initial velocity, a formula in x, y (z) per axis [m/s].");
+  }
+
+  void
+  ContactSettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Method",
+      method,
+      "exact: coupled, to the tolerance; paper: one uncoupled "
+      "pass, the published variant, as a baseline; none: joints "
+      "are ignored.",
+      Selection("exact|paper|none"));
+    prm.add_parameter("Default friction angle",
+                      default_friction_angle,
+                      "For faces that lie on no joint [deg].",
+                      friction_range);
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "Change of an impulse per iteration, relative to the "
+                      "largest of its group [-].",
+                      Double(1e-15, 1e-2));
+    prm.add_parameter("Maximum iterations",
+                      maximum_iterations,
+                      "Cap of iterations per group and step [-].",
+                      Integer(1));
+    prm.add_parameter(
+      "Slip tolerance",
+      slip_tolerance,
+      "A pair becomes point-to-surface when it slipped or opened "
+      "by this fraction of the face size [-].",
+      Double(0., 1.));
+    prm.add_parameter("Weld infinite blocks",
+                      weld_infinite_blocks,
+                      "Joints between infinite blocks stay welded.");
+    prm.add_parameter("Tie all joints",
+                      tie_all,
+                      "Infinite strength on every joint.");
+  }
+
+  void
+  TimeStepping::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Kinematics",
+                      kinematics,
+                      "small: reference geometry; large: current geometry, "
+                      "objective stress rate.",
+                      Selection("small|large"));
+    prm.add_parameter("Safety",
+                      safety,
+                      "Fraction of the stable time step used [-].",
+                      Double(1e-6, 2.));
+    prm.add_parameter("Maximum step",
+                      maximum_step,
+                      "Upper limit of the time step [s]; 0: none.",
+                      not_negative);
+    prm.add_parameter("Energy ledger",
+                      ledger,
+                      "Keep every energy term, each step.");
+  }
+
+  void
+  Stage::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Duration",
+                      duration,
+                      "Simulated time [s].",
+                      not_negative);
+    prm.add_parameter("Maximum steps",
+                      maximum_steps,
+                      "End after so many steps; 0: no limit.",
+                      Integer(0));
+    prm.add_parameter("Unbalanced ratio",
+                      unbalanced_ratio,
+                      "End as soon as the unbalanced force over the driving "
+                      "force is below this [-]; 0: never.",
+                      not_negative);
+    prm.add_parameter("Damping ratio",
+                      damping_ratio,
+                      "Stiffness-proportional damping: fraction of critical at "
+                      "each cell's highest frequency [-].",
+                      Double(0., 10.));
+    prm.add_parameter("Mass damping",
+                      mass_damping,
+                      "Mass-proportional damping [1/s].",
+                      not_negative);
+    prm.add_parameter("Local damping",
+                      local_damping,
+                      "Local non-viscous damping [-], quasi-static only.",
+                      fraction);
+    prm.add_parameter("Friction angle override",
+                      friction_angle_override,
+                      "Replaces every friction angle in this stage [deg]; -1: "
+                      "no.",
+                      Double(-1., 89.9));
+    prm.add_parameter("Reset motion",
+                      reset_motion,
+                      "Start the stage with zero velocities and count "
+                      "displacements from here.");
+  }
+
+  template <int dim>
+  void
+  Monitor<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Kind",
+      kind,
+      "point: nearest node; block: the block at Location; joint: "
+      "sums over a joint.",
+      Selection("point|block|joint"));
+    prm.add_parameter("Location",
+                      location,
+                      "Point, or a point in a block [m].");
+    prm.add_parameter("Joint",
+                      joint,
+                      "Name of the joint, or all for every contact point.");
+  }
+
+  void
+  CheckSettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Closed form",
+                      closed_form,
+                      "What the last stage is compared with.",
+                      Selection("none|resting|incline|bar_impact|newmark|"
+                                "toppling|rotation"));
+    prm.add_parameter("Joint", joint, "The joint it is measured on.");
+    prm.add_parameter("Reference time",
+                      reference_time,
+                      "Time since the start of the last stage at which "
+                      "displacements are compared [s]; 0: its end.",
+                      not_negative);
+    prm.add_parameter("Window start",
+                      window_start,
+                      "Begin of the window of means and fits, as a fraction of "
+                      "the last stage [-].",
+                      fraction);
+    prm.add_parameter("Length",
+                      length,
+                      "bar_impact: length of the bar along its velocity [m].",
+                      not_negative);
+  }
+
+  void
+  OutputSettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Folder",
+                      folder,
+                      "Output folder; empty: output-NAME beside the working "
+                      "directory, NAME being that of the scene.");
+    prm.add_parameter("History interval",
+                      history_interval,
+                      "Steps between lines of history.csv.",
+                      Integer(1));
+    prm.add_parameter("VTU count",
+                      vtu_count,
+                      "Number of VTU outputs per stage, besides the first.",
+                      Integer(0));
+    prm.add_parameter("Write VTU", write_vtu, "Whether to write VTU at all.");
+  }
+
+  template struct Domain<2>;
+  template struct Domain<3>;
+  template struct Meshing<2>;
+  template struct Meshing<3>;
+  template struct Excavation<2>;
+  template struct Excavation<3>;
+  template struct Joint<2>;
+  template struct Joint<3>;
+  template struct Material<2>;
+  template struct Material<3>;
+  template struct Support<2>;
+  template struct Support<3>;
+  template struct Traction<2>;
+  template struct Traction<3>;
+  template struct InitialState<2>;
+  template struct InitialState<3>;
+  template struct Monitor<2>;
+  template struct Monitor<3>;
+} // namespace Keyblock

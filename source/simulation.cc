@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/simulation.h>
+
+#include <keyblock/mpi.h>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    double
+    now()
+    {
+      return std::chrono::duration<double>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+    }
+
+    /** Steps between looks at the kinetic energy for numbers not finite. */
+    constexpr unsigned int finite_check_interval = 50;
+  } // namespace
+
+
+
+  template <int dim>
+  Simulation<dim>::Simulation(const std::string &scene_file,
+                              const std::vector<std::string> &overrides,
+                              const std::string &output_folder)
+    : wall_start(now())
+  {
+    scene.read(scene_file, overrides);
+    folder = !output_folder.empty() ? output_folder
+             : !scene.output.folder.empty()
+               ? scene.output.folder
+               : "output-" + std::filesystem::path(scene_file).stem().string();
+    folder += "/";
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::make_geometry()
+  {
+    mesh    = make_mesh(scene);
+    quality = measure_quality(mesh);
+    blocks  = find_blocks(mesh, scene);
+    split   = split_mesh(mesh, blocks, scene);
+    mesh    = Mesh<dim>();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::set_up()
+  {
+    numbering  = std::make_unique<Numbering<dim>>(scene, split);
+    conditions = std::make_unique<Conditions<dim>>(
+      scene, split, *numbering, cells, fields);
+    if (scene.contact.method != "none")
+      contact = std::make_unique<Contact<dim>>(
+        scene, split, blocks, *numbering, cells, fields);
+    step = std::make_unique<ExplicitStep<dim>>(
+      scene, split, *numbering, *conditions, cells, fields, contact.get());
+    monitors = std::make_unique<Monitors<dim>>(
+      scene, split, blocks, *numbering, fields, contact.get());
+    output = std::make_unique<Output<dim>>(
+      scene, split, blocks, *numbering, cells, fields, contact.get(), folder);
+    n_cells_global =
+      dealii::Utilities::MPI::sum<unsigned long long>(cells.nodes.size(),
+                                                      world());
+    std::ostringstream place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place << (d ? ", " : "") << conditions->stable_step.place[d];
+    report.stable_step_place = place.str();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::print_set_up(std::ostream &out) const
+  {
+    out << "Mesh    " << split.mesh.n_cells() << " cells (" << n_cells_global
+        << " deformable), " << numbering->n_global() << " nodes, "
+        << split.interface.pairs.size() << " pairs; least scaled Jacobian "
+        << std::setprecision(3) << quality.minimum_scaled_jacobian << "\n";
+    if (n_cells_global > 0)
+      out << "        stable time step " << conditions->stable_step.limit(0.)
+          << " s, set by the cell at (" << report.stable_step_place << ")\n";
+    print_block_table(out, blocks, scene);
+    out << std::flush;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::validate()
+  {
+    make_geometry();
+    set_up();
+    if (is_root())
+      {
+        print_set_up(std::cout);
+        std::cout << "The scene is valid.\n";
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::run()
+  {
+    make_geometry();
+    set_up();
+    on_root([&]() {
+      std::error_code error;
+      std::filesystem::create_directories(folder, error);
+      AssertThrow(!error,
+                  InputError("The output folder '" + folder +
+                             "' cannot be made (" + error.message() +
+                             "); choose another by --output."));
+      scene.write_used(folder + "used.prm");
+      print_set_up(std::cout);
+    });
+    if (scene.output.write_vtu)
+      output->write_vtu(step->time);
+    for (unsigned int s = 0; s < scene.stages.size(); ++s)
+      run_stage(s);
+    finish();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::run_stage(const unsigned int index)
+  {
+    const Stage &stage = *scene.stages[index];
+    if (stage.reset_motion)
+      monitors->reset_baseline();
+    const double dt               = step->begin_stage(stage);
+    const double start_time       = step->time;
+    const unsigned int start_step = step->n_steps;
+    const double loop_start       = now();
+    unsigned int n_steps          = stage.duration > 0.
+                                      ? std::lround(stage.duration / dt)
+                                      : stage.maximum_steps;
+    if (stage.maximum_steps > 0)
+      n_steps = std::min(n_steps, stage.maximum_steps);
+    const unsigned int interval = scene.output.history_interval;
+    unsigned int vtu_count      = 0;
+    double vtu_time             = 0.;
+    for (unsigned int i = 1; i <= n_steps; ++i)
+      {
+        const bool is_last   = i == n_steps;
+        const bool is_sample = i % interval == 0 || is_last || i == 1;
+        step->advance(is_sample);
+        if (is_sample)
+          monitors->sample(*step, index);
+        if (i % finite_check_interval == 0 || is_last)
+          check_finite();
+        if (scene.output.write_vtu && scene.output.vtu_count > 0 &&
+            i >= double(vtu_count + 1) * n_steps / scene.output.vtu_count)
+          {
+            const double before = now();
+            output->write_vtu(step->time);
+            vtu_time += now() - before;
+            ++vtu_count;
+          }
+        report_progress(index, double(i) / n_steps);
+        if (is_sample && i > 10 && stage.unbalanced_ratio > 0. &&
+            step->unbalanced_ratio < stage.unbalanced_ratio)
+          break;
+      }
+    report.loop_time += now() - loop_start - vtu_time;
+    report.element_steps += double(step->n_steps - start_step) * n_cells_global;
+
+    StageReport stage_report;
+    stage_report.name             = stage.name;
+    stage_report.steps            = step->n_steps - start_step;
+    stage_report.time_step        = dt;
+    stage_report.unbalanced_ratio = step->unbalanced_ratio;
+    stage_report.energies         = step->energies;
+    double largest                = 0.;
+    for (unsigned int node = 0; node < numbering->n_owned(); ++node)
+      {
+        double square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          square += std::pow(fields.displacement[dim * node + d], 2);
+        largest = std::max(largest, square);
+      }
+    stage_report.max_displacement =
+      std::sqrt(dealii::Utilities::MPI::max(largest, world()));
+    stage_reports.push_back(stage_report);
+    if (is_root())
+      std::cout << "Stage   " << stage.name << ": " << stage_report.steps
+                << " steps, " << std::setprecision(6) << step->time - start_time
+                << " s, unbalanced ratio " << stage_report.unbalanced_ratio
+                << ", largest displacement " << stage_report.max_displacement
+                << " m, energy residual "
+                << stage_report.energies.relative_residual() << std::endl;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::check_finite()
+  {
+    unsigned int bad = none;
+    for (unsigned int node = 0; node < numbering->n_owned() && bad == none;
+         ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!std::isfinite(fields.velocity[dim * node + d]))
+          bad = numbering->vertex_of_node[node];
+    bad = dealii::Utilities::MPI::min(bad, world());
+    if (bad == none)
+      return;
+    unsigned int block = none;
+    for (unsigned int c = 0; c < split.mesh.n_cells() && block == none; ++c)
+      for (const unsigned int v : split.mesh.cells[c])
+        if (v == bad)
+          block = split.block_of_cell[c];
+    if (scene.output.write_vtu)
+      output->write_vtu(step->time);
+    monitors->write_csv(folder + "history.csv");
+    AssertThrow(false,
+                ComputationError(
+                  "The velocity is not finite at step " +
+                  std::to_string(step->n_steps) + " (time " +
+                  std::to_string(step->time) + " s) in block " +
+                  std::to_string(block == none ? 0 : blocks.blocks[block].id) +
+                  "; the last state is in '" + folder +
+                  "solution.pvd'. Lower 'Time stepping/Safety', or raise "
+                  "'Damping ratio'."));
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::report_progress(const unsigned int stage,
+                                   const double fraction)
+  {
+    const double time     = now();
+    const bool is_live    = isatty(STDOUT_FILENO);
+    const double interval = is_live ? 0.5 : 30.;
+    if (last_progress == 0.)
+      last_progress = time;
+    // all ranks must agree on taking part in the sums
+    bool is_due = step->n_steps % 50 == 0 && time - last_progress > interval;
+    if (step->n_steps % 50 != 0)
+      return;
+    is_due = dealii::Utilities::MPI::max(is_due ? 1 : 0, world()) > 0;
+    if (!is_due)
+      return;
+    last_progress = time;
+    JointSums<dim> points;
+    if (contact)
+      points = contact->count_points();
+    if (!is_root())
+      return;
+    const double elapsed = time - wall_start;
+    std::cout << (is_live ? "\r" : "") << scene.stages[stage]->name << "  step "
+              << step->n_steps << "  t = " << std::setprecision(4) << step->time
+              << " s  " << 1e-6 * n_cells_global * step->n_steps / elapsed
+              << " M element-steps/s  kinetic " << step->energies.kinetic
+              << " J  open/sliding/bonded " << points.n_open << "/"
+              << points.n_sliding << "/" << points.n_sticking << "  left "
+              << std::lround(elapsed / fraction * (1. - fraction)) << " s"
+              << (is_live ? "   " : "\n") << std::flush;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::finish()
+  {
+    CheckValues checks;
+    on_root([&]() {
+      if (!scene.stages.empty())
+        checks = evaluate_checks<dim>({scene,
+                                       blocks,
+                                       monitors->history,
+                                       monitors->block_of_monitor,
+                                       stage_reports});
+    });
+    report.steps          = step->n_steps;
+    report.time_step      = step->dt;
+    report.simulated_time = step->time;
+    report.wall_time      = now() - wall_start;
+    report.contact_time   = step->contact_seconds;
+    report.force_time     = step->force_seconds;
+    report.capped_groups  = contact ? contact->n_capped : 0;
+    monitors->write_csv(folder + "history.csv");
+    output->write_summary(
+      quality, report, stage_reports, monitors->history, checks);
+    if (!is_root())
+      return;
+    for (const auto &[name, value] : checks)
+      std::cout << "Check   " << name << " = " << std::setprecision(9) << value
+                << '\n';
+    std::cout << "Output  " << folder << "  (" << std::setprecision(3)
+              << report.wall_time << " s)" << std::endl;
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Keyblock

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/step.h>
+
+#include <keyblock/mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    double
+    now()
+    {
+      return std::chrono::duration<double>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+    }
+  } // namespace
+
+
+
+  double
+  Energies::residual() const
+  {
+    return start + external + supports - kinetic - elastic - friction -
+           contact_closure - penetration - stiffness_damping - mass_damping -
+           local_damping;
+  }
+
+
+
+  double
+  Energies::turnover() const
+  {
+    return std::max({std::abs(external),
+                     std::abs(supports),
+                     std::abs(start),
+                     kinetic,
+                     std::abs(friction)});
+  }
+
+
+
+  template <int dim>
+  ExplicitStep<dim>::ExplicitStep(const Scene<dim> &scene,
+                                  const SplitMesh<dim> &split,
+                                  const Numbering<dim> &numbering,
+                                  Conditions<dim> &conditions,
+                                  CellArrays<dim> &cells,
+                                  Fields<dim> &fields,
+                                  Contact<dim> *contact)
+    : scene(scene)
+    , split(split)
+    , numbering(numbering)
+    , conditions(conditions)
+    , cells(cells)
+    , fields(fields)
+    , contact(contact)
+  {}
+
+
+
+  template <int dim>
+  double
+  ExplicitStep<dim>::begin_stage(const Stage &new_stage)
+  {
+    stage    = new_stage;
+    is_first = true;
+    sums     = Energies();
+    if (contact)
+      {
+        contact->override_friction(stage.friction_angle_override);
+        contact_work_at_start = contact->work;
+      }
+    conditions.set_damping(stage.damping_ratio);
+    fields.local_damping.assign(
+      stage.local_damping > 0. ? fields.velocity.size() : 0, 0.);
+    if (stage.reset_motion)
+      {
+        if (!is_stress_current)
+          compute_internal_force();
+        std::fill(fields.velocity.begin(), fields.velocity.end(), 0.);
+        starts_at_rest = true;
+      }
+    dt = scene.time_stepping.safety *
+         conditions.stable_step.limit(stage.damping_ratio);
+    if (scene.time_stepping.maximum_step > 0.)
+      dt = std::min(dt, scene.time_stepping.maximum_step);
+    // a whole number of steps in the stage
+    if (stage.duration > 0.)
+      dt = stage.duration / std::ceil(stage.duration / dt - 1e-9);
+    return dt;
+  }
+
+
+
+  template <int dim>
+  double
+  ExplicitStep<dim>::advance(const bool sample)
+  {
+    kick = starts_at_rest ? 0.5 * dt : 0.5 * (previous_dt + dt);
+    compute_internal_force();
+    predict();
+    resolve_contact();
+    if (scene.time_stepping.ledger)
+      book_work();
+    if (sample)
+      {
+        sample_energies();
+        sample_unbalanced_force();
+      }
+    move();
+    starts_at_rest    = false;
+    is_first          = false;
+    is_stress_current = false;
+    previous_dt       = dt;
+    time += dt;
+    ++n_steps;
+    return dt;
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::compute_internal_force()
+  {
+    const double start = now();
+    std::fill(fields.internal_force.begin(), fields.internal_force.end(), 0.);
+    ForcePass pass;
+    pass.step        = is_stress_current ? 0. : previous_dt;
+    pass.is_large    = scene.time_stepping.is_large();
+    pass.has_damping = stage.damping_ratio > 0.;
+    if (pass.has_damping)
+      std::fill(fields.damping_force.begin(), fields.damping_force.end(), 0.);
+    add_internal_force<dim>(pass,
+                            cells,
+                            pass.is_large ? fields.position.data()
+                                          : fields.reference.data(),
+                            fields.velocity.data(),
+                            fields.internal_force.data(),
+                            fields.damping_force.data());
+    numbering.add_ghosts_to_owners(fields.internal_force);
+    if (pass.has_damping)
+      numbering.add_ghosts_to_owners(fields.damping_force);
+    is_stress_current = true;
+    force_seconds += now() - start;
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::predict()
+  {
+    conditions.set_load(time);
+    fields.old_velocity    = fields.velocity;
+    const bool has_viscous = stage.damping_ratio > 0.;
+    const double alpha     = stage.local_damping;
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      {
+        const double factor = kick * fields.inverse_mass[node];
+        for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+          {
+            double force = fields.load[i] - fields.internal_force[i];
+            if (has_viscous)
+              force -= fields.damping_force[i];
+            if (stage.mass_damping > 0.)
+              force -=
+                stage.mass_damping * fields.mass[node] * fields.old_velocity[i];
+            if (alpha > 0.)
+              {
+                fields.local_damping[i] = 0.;
+                const double total      = force + fields.contact_force[i];
+                if (!fields.is_in_cluster[node] && fields.velocity[i] != 0.)
+                  {
+                    const double damping =
+                      -std::copysign(alpha * std::abs(total),
+                                     fields.velocity[i]);
+                    force += damping;
+                    fields.local_damping[i] = kick * damping;
+                  }
+              }
+            fields.velocity[i] += factor * force;
+          }
+      }
+    conditions.apply_supports(time + 0.5 * dt);
+    numbering.update_ghosts(fields.velocity);
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::resolve_contact()
+  {
+    if (contact == nullptr)
+      return;
+    const double start = now();
+    contact->solve({kick,
+                    dt,
+                    stage.local_damping,
+                    scene.time_stepping.is_large(),
+                    scene.time_stepping.ledger});
+    contact_seconds += now() - start;
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::book_work()
+  {
+    const bool has_viscous = stage.damping_ratio > 0.;
+    const bool has_local   = stage.local_damping > 0.;
+    double external = 0., viscous = 0., mass_damping = 0., local = 0.;
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+        {
+          const double path = fields.old_velocity[i] + fields.velocity[i];
+          external += fields.load[i] * path;
+          if (has_viscous)
+            viscous += fields.damping_force[i] * path;
+          if (stage.mass_damping > 0.)
+            mass_damping += stage.mass_damping * fields.mass[node] *
+                            fields.old_velocity[i] * path;
+          if (has_local)
+            local -= fields.local_damping[i] * path;
+        }
+    sums.external += 0.5 * kick * external;
+    sums.stiffness_damping += 0.5 * kick * viscous;
+    sums.mass_damping += 0.5 * kick * mass_damping;
+    sums.local_damping += 0.5 * local;
+
+    // the force that a support must have given: what the others left missing
+    for (const NodeSupport<dim> &support : fields.supports)
+      if (support.motion >= 0 && support.node < numbering.n_owned())
+        for (unsigned int i = dim * support.node; i < dim * (support.node + 1);
+             ++i)
+          {
+            const double change = fields.mass[support.node] *
+                                  (fields.velocity[i] - fields.old_velocity[i]);
+            double given = fields.load[i] - fields.internal_force[i] +
+                           fields.contact_force[i];
+            if (has_viscous)
+              given -= fields.damping_force[i];
+            sums.supports += 0.5 * (change - kick * given) *
+                             (fields.old_velocity[i] + fields.velocity[i]);
+          }
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::sample_energies()
+  {
+    double kinetic = 0., kinetic_before = 0., internal = 0., before = 0.;
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+        {
+          const double v = fields.velocity[i], w = fields.old_velocity[i];
+          kinetic += 0.5 * fields.mass[node] * v * v;
+          kinetic_before += 0.5 * fields.mass[node] * w * w;
+          internal += fields.internal_force[i] * v;
+          before += fields.internal_force[i] * (v + w);
+        }
+    const double stored = elastic_energy<dim>(cells,
+                                              scene.time_stepping.is_large()
+                                                ? fields.position.data()
+                                                : fields.reference.data());
+    Energies mine       = sums;
+    // discrete energy of the leapfrog between n and n + 1 (theory, eq. 12)
+    mine.elastic = stored + 0.5 * dt * internal;
+    mine.kinetic = kinetic;
+    if (is_first)
+      sums.start = kinetic_before + mine.elastic - 0.5 * kick * before;
+    mine.start = sums.start;
+    if (contact)
+      {
+        mine.friction = contact->work.friction - contact_work_at_start.friction;
+        mine.contact_closure =
+          contact->work.closure - contact_work_at_start.closure;
+        mine.penetration =
+          contact->work.penetration - contact_work_at_start.penetration;
+      }
+    std::array<double, 11> values = {{mine.kinetic,
+                                      mine.elastic,
+                                      mine.external,
+                                      mine.supports,
+                                      mine.friction,
+                                      mine.contact_closure,
+                                      mine.penetration,
+                                      mine.stiffness_damping,
+                                      mine.mass_damping,
+                                      mine.local_damping,
+                                      mine.start}};
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(values.data(),
+                                                                11),
+                                world(),
+                                dealii::ArrayView<double>(values.data(), 11));
+    energies = {values[0],
+                values[1],
+                values[2],
+                values[3],
+                values[4],
+                values[5],
+                values[6],
+                values[7],
+                values[8],
+                values[9],
+                values[10]};
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::sample_unbalanced_force()
+  {
+    double unbalanced = 0., driving = 0., internal = 0.;
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      {
+        if (fields.inverse_mass[node] == 0.)
+          continue;
+        std::array<double, dim> force;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int i = dim * node + d;
+            force[d]             = fields.load[i] - fields.internal_force[i] +
+                       fields.contact_force[i];
+            driving += std::abs(fields.load[i]);
+            internal += std::abs(fields.internal_force[i]);
+          }
+        const int s = fields.support_of_node[node];
+        if (s >= 0)
+          for (unsigned int k = 0; k < fields.supports[s].n_directions; ++k)
+            {
+              const auto &direction = fields.supports[s].directions[k];
+              const double held     = dot<dim>(direction, force);
+              for (unsigned int d = 0; d < dim; ++d)
+                force[d] -= held * direction[d];
+            }
+        for (unsigned int d = 0; d < dim; ++d)
+          unbalanced += std::abs(force[d]);
+      }
+    unbalanced         = dealii::Utilities::MPI::sum(unbalanced, world());
+    driving            = dealii::Utilities::MPI::sum(driving, world());
+    internal           = dealii::Utilities::MPI::sum(internal, world());
+    const double scale = driving > 0. ? driving : internal;
+    unbalanced_ratio   = scale > 0. ? unbalanced / scale : 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::move()
+  {
+    const std::size_t n = fields.displacement.size();
+    for (std::size_t i = 0; i < n; ++i)
+      fields.displacement[i] += dt * fields.velocity[i];
+    if (scene.time_stepping.is_large())
+      for (std::size_t i = 0; i < n; ++i)
+        fields.position[i] = fields.reference[i] + fields.displacement[i];
+  }
+
+  template class ExplicitStep<2>;
+  template class ExplicitStep<3>;
+} // namespace Keyblock

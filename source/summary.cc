@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/revision.h>
+
+#include <keyblock/mpi.h>
+#include <keyblock/output.h>
+
+#include <boost/property_tree/json_parser.hpp>
+
+#include <sys/resource.h>
+
+#include <fstream>
+#include <regex>
+
+namespace Keyblock
+{
+  namespace
+  {
+    using Tree = boost::property_tree::ptree;
+
+    /** A number that the JSON writer is to leave unquoted. */
+    std::string
+    number(const double value)
+    {
+      std::ostringstream out;
+      out << std::setprecision(17);
+      if (std::isfinite(value))
+        out << "#" << value;
+      else
+        out << "#null";
+      return out.str();
+    }
+
+    template <typename T>
+    void
+    put(Tree &tree, const std::string &key, const T &value)
+    {
+      std::string text;
+      if constexpr (std::is_same<T, bool>::value)
+        text = value ? "#true" : "#false";
+      else if constexpr (std::is_arithmetic<T>::value)
+        text = number(value);
+      else
+        text = value;
+      tree.push_back({key, Tree(text)});
+    }
+
+    template <int dim>
+    Tree
+    list_of(const Point<dim> &point)
+    {
+      Tree list;
+      for (unsigned int d = 0; d < dim; ++d)
+        list.push_back({"", Tree(number(point[d]))});
+      return list;
+    }
+
+    Tree
+    energies_as_tree(const Energies &e)
+    {
+      Tree tree;
+      put(tree, "kinetic", e.kinetic);
+      put(tree, "elastic", e.elastic);
+      put(tree, "start", e.start);
+      put(tree, "external", e.external);
+      put(tree, "supports", e.supports);
+      put(tree, "friction", e.friction);
+      put(tree, "contact_closure", e.contact_closure);
+      put(tree, "penetration", e.penetration);
+      put(tree, "stiffness_damping", e.stiffness_damping);
+      put(tree, "mass_damping", e.mass_damping);
+      put(tree, "local_damping", e.local_damping);
+      put(tree, "residual", e.residual());
+      put(tree, "relative_residual", e.relative_residual());
+      return tree;
+    }
+
+    double
+    peak_memory()
+    {
+      rusage usage;
+      getrusage(RUSAGE_SELF, &usage);
+      return 1024. * usage.ru_maxrss;
+    }
+
+    template <int dim>
+    Tree
+    blocks_as_tree(const Blocks<dim> &blocks, const Scene<dim> &scene)
+    {
+      Tree list;
+      for (const Block<dim> &block : blocks.blocks)
+        {
+          Tree tree, classes, areas;
+          put(tree, "id", block.id);
+          for (const BlockClass kind : block.class_of_stage)
+            classes.push_back({"", Tree(to_string(kind))});
+          tree.add_child("class", classes);
+          put(tree, "removable", block.is_removable);
+          put(tree, "cells", block.n_cells);
+          put(tree, "volume", block.volume);
+          put(tree, "mass", block.mass);
+          put(tree, "weight", 9.81 * block.mass);
+          tree.add_child("centroid", list_of<dim>(block.centroid));
+          if (block.exposed_stage != none)
+            put(tree, "exposed_stage", block.exposed_stage);
+          for (const auto &[joint, area] : block.joint_area)
+            put(areas, scene.joints[joint]->name, area);
+          if (!areas.empty())
+            tree.add_child("joint_areas", areas);
+          list.push_back({"", tree});
+        }
+      return list;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Output<dim>::write_summary(const MeshQuality &quality,
+                             const RunReport &run,
+                             const std::vector<StageReport> &stages,
+                             const History &history,
+                             const CheckValues &checks) const
+  {
+    const double memory = dealii::Utilities::MPI::sum(peak_memory(), world());
+    if (!is_root())
+      return;
+    Tree root, program, scene_tree, run_tree, stage_list, monitors, check_tree;
+    put(program, "version", std::string(KEYBLOCK_VERSION));
+    put(program, "deal_ii_version", std::string(DEAL_II_PACKAGE_VERSION));
+    put(program, "ranks", n_ranks());
+#ifdef DEBUG
+    put(program, "build_type", std::string("Debug"));
+#else
+    put(program, "build_type", std::string("Release"));
+#endif
+    put(scene_tree, "name", scene.file);
+    put(scene_tree, "title", scene.title);
+    put(scene_tree, "dimension", dim);
+    put(scene_tree, "cells", split.mesh.n_cells());
+    put(scene_tree, "nodes", numbering.n_global());
+    put(scene_tree, "joints", scene.joints.size());
+    put(scene_tree, "pairs", split.interface.pairs.size());
+    put(scene_tree, "minimum_scaled_jacobian", quality.minimum_scaled_jacobian);
+    put(run_tree, "steps", run.steps);
+    put(run_tree, "time_step", run.time_step);
+    put(run_tree, "time_step_set_at", run.stable_step_place);
+    put(run_tree, "simulated_time", run.simulated_time);
+    put(run_tree, "wall_time", run.wall_time);
+    put(run_tree, "loop_time", run.loop_time);
+    put(run_tree, "contact_time", run.contact_time);
+    put(run_tree, "force_time", run.force_time);
+    put(run_tree,
+        "million_element_steps_per_second",
+        run.loop_time > 0. ? 1e-6 * run.element_steps / run.loop_time : 0.);
+    put(run_tree, "peak_memory_bytes", memory);
+    put(run_tree, "capped_contact_groups", run.capped_groups);
+    for (const StageReport &stage : stages)
+      {
+        Tree tree;
+        put(tree, "name", stage.name);
+        put(tree, "steps", stage.steps);
+        put(tree, "time_step", stage.time_step);
+        put(tree, "unbalanced_ratio", stage.unbalanced_ratio);
+        put(tree, "max_displacement", stage.max_displacement);
+        tree.add_child("energy", energies_as_tree(stage.energies));
+        stage_list.push_back({"", tree});
+      }
+    if (!history.rows.empty())
+      for (unsigned int c = 3; c < history.columns.size(); ++c)
+        put(monitors, history.columns[c], history.rows.back()[c]);
+    for (const auto &[name, value] : checks)
+      put(check_tree, name, value);
+
+    root.add_child("program", program);
+    root.add_child("scene", scene_tree);
+    root.add_child("run", run_tree);
+    root.add_child("energy",
+                   energies_as_tree(stages.empty() ? Energies()
+                                                   : stages.back().energies));
+    root.add_child("blocks", blocks_as_tree<dim>(blocks, scene));
+    root.add_child("stages", stage_list);
+    root.add_child("monitors", monitors);
+    root.add_child("checks", check_tree);
+
+    std::ostringstream json;
+    boost::property_tree::write_json(json, root);
+    // property trees write all values as strings; ours marked theirs
+    std::string text =
+      std::regex_replace(json.str(), std::regex("\"#([^\"]*)\""), "$1");
+    text = std::regex_replace(text,
+                              std::regex("\"(checks|monitors)\": \"\""),
+                              "\"$1\": {}");
+    text = std::regex_replace(text,
+                              std::regex("\"(stages|blocks)\": \"\""),
+                              "\"$1\": []");
+    std::ofstream out(folder + "summary.json");
+    out << text;
+    AssertThrow(out,
+                ComputationError("The file '" + folder +
+                                 "summary.json' cannot be written; check free "
+                                 "space."));
+  }
+
+  template void Output<2>::write_summary(const MeshQuality &,
+                                         const RunReport &,
+                                         const std::vector<StageReport> &,
+                                         const History &,
+                                         const CheckValues &) const;
+  template void Output<3>::write_summary(const MeshQuality &,
+                                         const RunReport &,
+                                         const std::vector<StageReport> &,
+                                         const History &,
+                                         const CheckValues &) const;
+} // namespace Keyblock
