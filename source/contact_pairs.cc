@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Contact of nodes that have not slid: single pairs and corners of several.
 #include <keyblock/contact.h>
+#include <keyblock/damping.h>
 #include <keyblock/mpi.h>
 
 #include <algorithm>
@@ -21,10 +22,9 @@ namespace Keyblock
     {
       Vector<dim> change{};
       for (int d = 0; d < dim; ++d)
-        if (old_velocity[d] != 0.)
-          change[d] =
-            -std::copysign(alpha * std::abs(velocity[d] - old_velocity[d]),
-                           old_velocity[d]);
+        change[d] = local_damping_change(old_velocity[d],
+                                         velocity[d] - old_velocity[d],
+                                         alpha);
       return change;
     }
 

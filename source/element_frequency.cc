@@ -110,7 +110,12 @@ namespace Keyblock
         if (residual < 1e-4 * eigenvalue)
           break;
       }
-    return std::sqrt(eigenvalue + residual);
+    // rounded up to nine digits, so that congruent cells give one and the same
+    // time step on any number of ranks
+    const double frequency = std::sqrt(eigenvalue + residual);
+    const double digit =
+      std::pow(10., std::floor(std::log10(frequency)) - 8.);
+    return std::ceil(frequency / digit) * digit;
   }
 
   template std::array<double, 4>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step.h>
 
+#include <keyblock/damping.h>
 #include <keyblock/mpi.h>
 
 #include <algorithm>
@@ -174,14 +175,14 @@ namespace Keyblock
             if (alpha > 0.)
               {
                 fields.local_damping[i] = 0.;
-                const double total      = force + fields.contact_force[i];
-                if (!fields.is_in_cluster[node] && fields.velocity[i] != 0.)
+                if (!fields.is_in_cluster[node] && factor > 0.)
                   {
-                    const double damping =
-                      -std::copysign(alpha * std::abs(total),
-                                     fields.velocity[i]);
-                    force += damping;
-                    fields.local_damping[i] = kick * damping;
+                    const double change = local_damping_change(
+                      fields.velocity[i],
+                      factor * (force + fields.contact_force[i]),
+                      alpha);
+                    fields.local_damping[i] = fields.mass[node] * change;
+                    force += change / factor;
                   }
               }
             fields.velocity[i] += factor * force;

@@ -1,0 +1,31 @@
+#!/bin/sh
+# Installs what building, testing and plotting need (Debian 12 or Ubuntu 22.04
+# and later), unless it is there already, then configures and builds.
+# usage: contrib/setup.sh [BUILD_FOLDER]      (default: build)
+# environment: BUILD_TYPE (Release), WARNINGS_AS_ERRORS (OFF), JOBS (all cores)
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+build=${1:-$root/build}
+packages="libdeal.ii-dev libgmsh-dev libboost-program-options-dev cmake g++ make
+  clang-format python3 openmpi-bin"
+
+missing=
+for package in $packages; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' ||
+    missing="$missing $package"
+done
+if [ -n "$missing" ]; then
+  echo "Installing:$missing"
+  sudo=
+  [ "$(id -u)" = 0 ] || sudo=sudo
+  $sudo apt-get update -qq
+  # shellcheck disable=SC2086
+  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
+    --no-install-recommends $missing >/dev/null
+fi
+
+cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE="${BUILD_TYPE:-Release}" \
+  -DWARNINGS_AS_ERRORS="${WARNINGS_AS_ERRORS:-OFF}" >"$root/cmake.log" 2>&1 ||
+  { cat "$root/cmake.log"; exit 1; }
+mv "$root/cmake.log" "$build/cmake.log"
+cmake --build "$build" -j "${JOBS:-$(nproc)}"

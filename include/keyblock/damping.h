@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_damping_h
+#define keyblock_damping_h
+
+#include <cmath>
+
+namespace Keyblock
+{
+  /**
+   * Local non-viscous damping of one velocity component: the change of velocity
+   * -alpha |total| sign(velocity), where @p total is the change that the total
+   * force, contact included, makes in this step, but never more than what stops
+   * the component. Without that limit the impulse of an impact, which stands in
+   * the total of the step after it, throws the node off again and the scheme
+   * gains energy; and a velocity that is only round-off would decide the sign.
+   */
+  inline double
+  local_damping_change(const double velocity,
+                       const double total,
+                       const double alpha)
+  {
+    return -std::copysign(std::fmin(alpha * std::fabs(total),
+                                    std::fabs(velocity)),
+                          velocity);
+  }
+} // namespace Keyblock
+
+#endif
