@@ -26,6 +26,10 @@ namespace Keyblock
         {
           action();
         }
+      catch (const InputError &)
+        {
+          throw;
+        }
       catch (const dealii::ExceptionBase &exception)
         {
           std::ostringstream text;

@@ -55,10 +55,12 @@ namespace Keyblock
 
   template <int dim>
   double
-  StableStep<dim>::limit(const double damping_ratio) const
+  StableStep<dim>::limit(const double damping_ratio,
+                         const double local_damping) const
   {
     return 2. / frequency *
-           (std::sqrt(1. + damping_ratio * damping_ratio) - damping_ratio);
+           (std::sqrt(1. + damping_ratio * damping_ratio) - damping_ratio) /
+           std::sqrt(1. + local_damping);
   }
 
 

@@ -87,7 +87,7 @@ namespace Keyblock
         starts_at_rest = true;
       }
     dt = scene.time_stepping.safety *
-         conditions.stable_step.limit(stage.damping_ratio);
+         conditions.stable_step.limit(stage.damping_ratio, stage.local_damping);
     if (scene.time_stepping.maximum_step > 0.)
       dt = std::min(dt, scene.time_stepping.maximum_step);
     // a whole number of steps in the stage
@@ -177,10 +177,11 @@ namespace Keyblock
                 fields.local_damping[i] = 0.;
                 if (!fields.is_in_cluster[node] && factor > 0.)
                   {
-                    const double change = local_damping_change(
-                      fields.velocity[i],
-                      factor * (force + fields.contact_force[i]),
-                      alpha);
+                    const double change =
+                      local_damping_change(fields.velocity[i],
+                                           factor *
+                                             (force + fields.contact_force[i]),
+                                           alpha);
                     fields.local_damping[i] = fields.mass[node] * change;
                     force += change / factor;
                   }

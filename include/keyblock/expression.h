@@ -7,6 +7,8 @@
 #include <keyblock/errors.h>
 
 #include <algorithm>
+#include <iostream>
+#include <sstream>
 #include <string>
 
 namespace Keyblock
@@ -35,6 +37,10 @@ namespace Keyblock
                              " are needed; separate components by ';'."));
       const std::string variables =
         (dim == 2) ? std::string("x,y,t") : std::string("x,y,z,t");
+      // muParser's own complaint would stand beside our sentence
+      std::ostringstream complaint;
+      std::streambuf *const screen = std::cerr.rdbuf(complaint.rdbuf());
+      bool is_understood           = true;
       try
         {
           function.initialize(variables,
@@ -45,14 +51,15 @@ namespace Keyblock
         }
       catch (const dealii::ExceptionBase &)
         {
-          AssertThrow(false,
-                      InputError("The formula '" + text + "' of the entry '" +
-                                 entry +
-                                 "' cannot be understood; use the variables " +
-                                 variables +
-                                 ", numbers, + - * / ^ and functions such as "
-                                 "sin, sqrt, if."));
+          is_understood = false;
         }
+      std::cerr.rdbuf(screen);
+      AssertThrow(is_understood,
+                  InputError(
+                    "The formula '" + text + "' of the entry '" + entry +
+                    "' cannot be understood; use the variables " + variables +
+                    ", numbers, + - * / ^ and functions such as sin, "
+                    "sqrt, if."));
     }
 
     double

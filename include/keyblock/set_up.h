@@ -28,8 +28,13 @@ namespace Keyblock
     double frequency = 0.; ///< highest of all cells [rad/s]
     Point<dim> place;      ///< centre of that cell [m]
 
-    /** 2 / omega (sqrt(1 + zeta^2) - zeta) [s] */
-    double limit(const double damping_ratio) const;
+    /**
+     * 2 / omega (sqrt(1 + zeta^2) - zeta) / sqrt(1 + alpha) [s]. Local damping
+     * alpha acts on a velocity that alternates from step to step as a stiffness
+     * (1 + alpha) times the true one, whence the last factor.
+     */
+    double
+    limit(const double damping_ratio, const double local_damping = 0.) const;
   };
 
   /**
