@@ -113,8 +113,7 @@ namespace Keyblock
     // rounded up to nine digits, so that congruent cells give one and the same
     // time step on any number of ranks
     const double frequency = std::sqrt(eigenvalue + residual);
-    const double digit =
-      std::pow(10., std::floor(std::log10(frequency)) - 8.);
+    const double digit = std::pow(10., std::floor(std::log10(frequency)) - 8.);
     return std::ceil(frequency / digit) * digit;
   }
 

@@ -266,15 +266,24 @@ namespace Keyblock
       mesh.excavation_stage.assign(mesh.n_cells(), 0);
       for (const auto &excavation : scene.excavations)
         {
+          const bool is_formula = excavation->shape == "formula";
+          const Expression<dim> formula(is_formula ? excavation->formula : "1",
+                                        1,
+                                        "Excavations/" + excavation->name +
+                                          "/Formula");
           unsigned int n_hits = 0;
           for (unsigned int c = 0; c < mesh.n_cells(); ++c)
             {
               const bool is_inside =
-                depth_inside(*excavation, mesh.cell_center(c)) > 0.;
+                (is_formula
+                   ? formula.value(mesh.cell_center(c), 0., 0)
+                   : depth_inside(*excavation, mesh.cell_center(c))) > 0.;
               const double size = std::pow(mesh.cell_volume(c), 1. / dim);
               bool is_cut       = false;
               for (const unsigned int v : mesh.cells[c])
                 {
+                  if (is_formula)
+                    break;
                   const double depth =
                     depth_inside(*excavation, mesh.vertices[v]);
                   is_cut = is_cut || (is_inside ? depth < -1e-4 * size

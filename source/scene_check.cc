@@ -142,6 +142,14 @@ namespace Keyblock
                 "The entry '" + section + "/From' (" + number(excavation.from) +
                   ") is not below '" + section + "/To' (" +
                   number(excavation.to) + "); exchange them.");
+      if (shape == "formula")
+        {
+          require(!excavation.formula.empty(),
+                  "The entry '" + section +
+                    "/Formula' is empty; give a formula that is positive "
+                    "inside.");
+          check_expression<dim>(excavation.formula, 1, section + "/Formula");
+        }
       if (shape == "circle")
         require(excavation.radius > 0.,
                 "The entry '" + section +
@@ -304,7 +312,13 @@ namespace Keyblock
     check_domain(*this);
     check_meshing(*this);
     for (const auto &excavation : excavations)
-      check_excavation(*excavation);
+      {
+        check_excavation(*excavation);
+        require(excavation->shape != "formula" || meshing.generator != "gmsh",
+                "The entry 'Excavations/" + excavation->name +
+                  "/Shape' is formula, which Gmsh cannot follow; use another "
+                  "shape or another 'Mesh/Generator'.");
+      }
     for (const auto &joint : joints)
       check_joint(*joint);
     require(

@@ -100,8 +100,14 @@ namespace Keyblock
                       shape,
                       "polygon (2D): Vertices; circle (2D): Center and Radius, "
                       "arcs kept; box: Corner and Size; extruded polygon "
-                      "(3D): Vertices in the x-z plane, From and To along y.",
-                      Selection("polygon|circle|box|extruded polygon"));
+                      "(3D): Vertices in the x-z plane, From and To along y; "
+                      "formula (structured and file meshes): Formula.",
+                      Selection("polygon|circle|box|extruded polygon|formula"));
+    prm.add_parameter(
+      "Formula",
+      formula,
+      "A formula in x, y (z) that is positive at the centres of "
+      "the cells dug out.");
     prm.add_parameter("Vertices", vertices, "Corners in order [m].");
     prm.add_parameter("Corner",
                       corner,

@@ -57,9 +57,10 @@ namespace Keyblock
     Point<dim> corner;
     std::vector<double> size;
     Point<2> center;
-    double radius      = 0.;
-    double from        = 0.;
-    double to          = 0.;
+    double radius = 0.;
+    double from   = 0.;
+    double to     = 0.;
+    std::string formula;
     unsigned int stage = 1;
 
     void declare(ParameterHandler &prm);

@@ -33,8 +33,8 @@ namespace Keyblock
      * alpha acts on a velocity that alternates from step to step as a stiffness
      * (1 + alpha) times the true one, whence the last factor.
      */
-    double
-    limit(const double damping_ratio, const double local_damping = 0.) const;
+    double limit(const double damping_ratio,
+                 const double local_damping = 0.) const;
   };
 
   /**

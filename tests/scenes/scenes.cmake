@@ -1,3 +1,13 @@
+keyblock_scene(tutorial/sliding_block RANKS 1 2)
+keyblock_scene(verification/resting RANKS 1 2 4)
 keyblock_scene(verification/incline_25)
 keyblock_scene(verification/incline_30 RANKS 1 2 4)
 keyblock_scene(verification/incline_35)
+keyblock_scene(verification/incline_3d RANKS 1 2 4)
+keyblock_scene(verification/bar_impact RANKS 1 2)
+keyblock_scene(verification/newmark RANKS 1 2)
+keyblock_scene(verification/newmark_rectangular)
+foreach(case e1 e2a e2b e3a e3b e3c e3d sets_2d lines tunnel_15 tunnel_20
+    tunnel_25 tunnel_30 cube_3 cube_4 sets_3d)
+  keyblock_scene(verification/blocks_${case})
+endforeach()
