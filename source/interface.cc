@@ -214,7 +214,7 @@ namespace Keyblock
                      1. / (dim - 1));
           for (unsigned int v = 0; v < minus.size(); ++v)
             for (const unsigned int p : plus)
-              if (before[p] == before[minus[v]])
+              if (p != minus[v] && before[p] == before[minus[v]])
                 {
                   Pair<dim> &pair =
                     pairs[{{before[p], face.joint, minus[v], p}}];

@@ -316,6 +316,37 @@ namespace Keyblock
               << report.wall_time << " s)" << std::endl;
   }
 
+  template <int dim>
+  std::vector<double>
+  Simulation<dim>::gather_by_vertex(const std::vector<double> &field) const
+  {
+    std::vector<double> values(dim * split.mesh.vertices.size(), 0.);
+    for (unsigned int node = 0; node < numbering->n_owned(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        values[dim * numbering->vertex_of_node[node] + d] =
+          field[dim * node + d];
+    dealii::Utilities::MPI::sum(values, world(), values);
+    return values;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Simulation<dim>::vertex_displacements() const
+  {
+    return gather_by_vertex(fields.displacement);
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Simulation<dim>::vertex_velocities() const
+  {
+    return gather_by_vertex(fields.velocity);
+  }
+
   template class Simulation<2>;
   template class Simulation<3>;
 } // namespace Keyblock

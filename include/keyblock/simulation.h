@@ -24,7 +24,26 @@ namespace Keyblock
 
     void run();
 
+    /** What the run works on, for tests and tools that look at the result. */
+    const SplitMesh<dim> &
+    geometry() const
+    {
+      return split;
+    }
+    const Contact<dim> *
+    interface_contact() const
+    {
+      return contact.get();
+    }
+
+    /** Displacement, or velocity, of every vertex of the split mesh, dim values
+     * each, the same on all ranks (collective). */
+    std::vector<double> vertex_displacements() const;
+    std::vector<double> vertex_velocities() const;
+
   private:
+    std::vector<double>
+    gather_by_vertex(const std::vector<double> &field) const;
     void make_geometry();
     void print_set_up(std::ostream &out) const;
     void set_up();
