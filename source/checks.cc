@@ -404,19 +404,48 @@ namespace Keyblock
 
 
 
-    /** Free spin: angular momentum is kept. */
+    /** Body that spins freely: angular momentum is kept, and by the virial
+     * theorem the mean stress is the mean of rho omega^2 r r. */
     template <int dim>
     CheckValues
     check_rotation(const CheckInput<dim> &input)
     {
-      const BodyOnJoint<dim> body(input);
-      const auto momentum = body.column(body.body_name, "angular_momentum");
+      std::string name;
+      unsigned int index = none;
+      for (unsigned int m = 0; m < input.scene.monitors.size(); ++m)
+        if (input.scene.monitors[m]->kind == "block")
+          {
+            name  = input.scene.monitors[m]->name;
+            index = input.block_of_monitor[m];
+          }
+      AssertThrow(index != none,
+                  InputError("The entry 'Check/Closed form' is 'rotation', "
+                             "which needs a monitor of kind block in "
+                             "'Monitors/Names'; add one."));
+      const unsigned int begin = input.history.stage_begin.back();
+      const auto momentum =
+        input.history.column(name + ".angular_momentum", begin);
+      const auto trace =
+        input.history.column(name + ".mean_stress_trace", begin);
       const auto range = std::minmax_element(momentum.begin(), momentum.end());
       CheckValues checks;
-      compare(checks, "angular_momentum", momentum.back(), momentum.front());
+      checks.emplace_back("angular_momentum", momentum.back());
       checks.emplace_back("angular_momentum_spread",
                           (*range.second - *range.first) /
                             std::abs(momentum.front()));
+      // kinetic energy of the spin is half of omega^2 times the moment of
+      // inertia, and the trace of the mean stress is omega^2 times that moment
+      // over the volume
+      const auto kinetic = input.history.column("energy.kinetic", begin);
+      compare(checks,
+              "mean_stress_trace",
+              windowed_mean(trace),
+              2. * kinetic.back() / input.blocks.blocks[index].volume);
+      checks.emplace_back("mean_stress_over_modulus",
+                          windowed_mean(trace) /
+                            input.scene.materials.front()->young_modulus);
+      checks.emplace_back("energy_residual",
+                          input.stages.back().energies.relative_residual());
       return checks;
     }
   } // namespace

@@ -58,18 +58,22 @@ namespace Keyblock
                           const SplitMesh<dim> &split,
                           const Blocks<dim> &blocks,
                           const Numbering<dim> &numbering,
+                          const CellArrays<dim> &cells,
                           const Fields<dim> &fields,
                           const Contact<dim> *contact)
     : scene(scene)
     , split(split)
     , blocks(blocks)
     , numbering(numbering)
+    , cells(cells)
     , fields(fields)
     , contact(contact)
     , baseline(fields.displacement)
   {
     const std::vector<std::string> axes = {"x", "y", "z"};
     history.columns                     = {"stage [-]", "step [-]", "time [s]"};
+    for (const unsigned int c : numbering.mesh_cell)
+      cell_volume.push_back(split.mesh.cell_volume(c));
     block_of_node.assign(numbering.n_local(), none);
     for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
       for (const unsigned int v : split.mesh.cells[c])
@@ -133,6 +137,7 @@ namespace Keyblock
               {
                 history.columns.push_back(name + ".rotation [rad]");
                 history.columns.push_back(name + ".angular_momentum [N m s]");
+                history.columns.push_back(name + ".mean_stress_trace [Pa]");
               }
           }
       }
@@ -213,6 +218,26 @@ namespace Keyblock
       row.push_back(sums[i]);
     row.push_back(std::atan2(spin[0], spin[1]));
     row.push_back(spin[2]);
+
+    // mean over the volume of the in-plane (2D) or full (3D) trace
+    double trace = 0., volume = 0.;
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      {
+        const unsigned int mesh_cell = numbering.mesh_cell[c];
+        if (split.block_of_cell[mesh_cell] != block)
+          continue;
+        const double share = cell_volume[c] / (1 << dim);
+        for (int q = 0; q < (1 << dim); ++q)
+          {
+            const double *stress = cells.stress_of(c) + q * n_stress<dim>;
+            for (unsigned int d = 0; d < dim; ++d)
+              trace += share * stress[d];
+          }
+        volume += cell_volume[c];
+      }
+    std::vector<double> mean = {trace, volume};
+    dealii::Utilities::MPI::sum(mean, world(), mean);
+    row.push_back(mean[1] > 0. ? mean[0] / mean[1] : 0.);
   }
 
 

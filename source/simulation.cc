@@ -71,7 +71,7 @@ namespace Keyblock
     step = std::make_unique<ExplicitStep<dim>>(
       scene, split, *numbering, *conditions, cells, fields, contact.get());
     monitors = std::make_unique<Monitors<dim>>(
-      scene, split, blocks, *numbering, fields, contact.get());
+      scene, split, blocks, *numbering, cells, fields, contact.get());
     output = std::make_unique<Output<dim>>(
       scene, split, blocks, *numbering, cells, fields, contact.get(), folder);
     n_cells_global =

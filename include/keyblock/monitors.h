@@ -39,6 +39,7 @@ namespace Keyblock
              const SplitMesh<dim> &split,
              const Blocks<dim> &blocks,
              const Numbering<dim> &numbering,
+             const CellArrays<dim> &cells,
              const Fields<dim> &fields,
              const Contact<dim> *contact);
 
@@ -63,12 +64,14 @@ namespace Keyblock
     const SplitMesh<dim> &split;
     const Blocks<dim> &blocks;
     const Numbering<dim> &numbering;
+    const CellArrays<dim> &cells;
     const Fields<dim> &fields;
     const Contact<dim> *contact;
 
     std::vector<unsigned int> node_of_monitor; ///< owned local node or none
     std::vector<unsigned int> block_of_node;
     std::vector<double> baseline;
+    std::vector<double> cell_volume; ///< of the cells of this rank
   };
 } // namespace Keyblock
 

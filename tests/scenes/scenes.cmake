@@ -11,3 +11,4 @@ foreach(case e1 e2a e2b e3a e3b e3c e3d sets_2d lines tunnel_15 tunnel_20
     tunnel_25 tunnel_30 cube_3 cube_4 sets_3d)
   keyblock_scene(verification/blocks_${case})
 endforeach()
+keyblock_scene(verification/rotation)
