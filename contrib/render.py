@@ -5,9 +5,9 @@
 usage: xvfb-run -a contrib/render.py solution.pvd OUT.png [--time-index I]
          [--field displacement] [--exaggeration F]
 
-Warped by the displacement, coloured by the magnitude of a field; thin lines
-are the outlines of the blocks where they were at the start. Needs the packages
-python3-vtk9, xvfb and xauth; on a machine with a display, leave xvfb-run out.
+Warped by the displacement, coloured by the magnitude of a field (components of
+stress: by the value); in 2D red lines show where the blocks were at first. Needs
+the packages python3-vtk9, xvfb and xauth; with a display, leave xvfb-run out.
 """
 import argparse
 import pathlib
@@ -107,7 +107,8 @@ def make_rock(grid, field, exaggeration):
     high = high if high > low else low + 1.
     colours = vtkColorTransferFunction()
     for i, colour in enumerate(COLOURS):
-        colours.AddRGBPoint(low + (high - low) * i / (len(COLOURS) - 1), *colour)
+        share = i / (len(COLOURS) - 1)
+        colours.AddRGBPoint(low + (high - low) * share, *colour)
     if is_vector:
         colours.SetVectorModeToMagnitude()
     mapper = vtkDataSetMapper()
@@ -136,7 +137,7 @@ def make_rock(grid, field, exaggeration):
 
 
 def make_outlines(grid):
-    """Actors of the edges of each block in its first position."""
+    """Actors of the outline of each block in its first position (2D)."""
     blocks = grid.GetPointData().GetArray("block")
     numbers = {blocks.GetTuple1(i) for i in range(blocks.GetNumberOfTuples())
                } if blocks else set()
@@ -175,7 +176,7 @@ def style(text, size):
     text.ShadowOff()
 
 
-def write_picture(actors, flat, caption, path):
+def write_picture(actors, is_flat, caption, path):
     """Draw the actors on white and write a PNG file."""
     renderer = vtkRenderer()
     renderer.SetBackground(1., 1., 1.)
@@ -188,8 +189,8 @@ def write_picture(actors, flat, caption, path):
     renderer.AddActor2D(label)
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
-    camera.SetPosition(*((0., 0., 1.) if flat else (-1., -1.6, 1.)))
-    camera.SetViewUp(*((0., 1., 0.) if flat else (0., 0., 1.)))
+    camera.SetPosition(*((0., 0., 1.) if is_flat else (-1., -1.6, 1.)))
+    camera.SetViewUp(*((0., 1., 0.) if is_flat else (0., 0., 1.)))
     renderer.ResetCamera()
     camera.Zoom(1.2)
     camera.SetWindowCenter(0.12, -0.04)  # room for the colour bar and caption
@@ -214,11 +215,14 @@ def main():
     grid = read_grid(path)
     rock, bar = make_rock(grid, arguments.field, arguments.exaggeration)
     bounds = grid.GetBounds()
-    caption = f"t = {time:.4g} s; red: first position of the blocks"
+    is_flat = bounds[4] == bounds[5]
+    outlines = make_outlines(grid) if is_flat else []
+    caption = f"t = {time:.4g} s"
     if arguments.exaggeration != 1.:
-        caption += f", displacement times {arguments.exaggeration:g}"
-    write_picture([rock, *make_outlines(grid), bar], bounds[4] == bounds[5],
-                  caption, arguments.picture)
+        caption += f"; displacement times {arguments.exaggeration:g}"
+    if is_flat:
+        caption += "; red: first position of the blocks"
+    write_picture([rock, *outlines, bar], is_flat, caption, arguments.picture)
 
 
 if __name__ == "__main__":

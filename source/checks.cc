@@ -396,9 +396,21 @@ namespace Keyblock
       CheckValues checks;
       checks.emplace_back("slip_over_size", slip.back() / size);
       checks.emplace_back("rotation", turn.back());
-      const auto sliding = body.column(body.joint_name, "sliding");
-      checks.emplace_back("slides", mean(sliding) > 0.5 ? 1. : 0.);
-      checks.emplace_back("topples", std::abs(turn.back()) > 5e-3 ? 1. : 0.);
+      // slip of the toe: what the turn about it does not explain of the path of
+      // the centre
+      const double height = std::abs(body.joint->distance(block.centroid));
+      double width        = 0.;
+      for (const auto &[joint, area] : block.joint_area)
+        if (input.scene.joints[joint].get() == body.joint)
+          width = std::pow(area, 1. / (dim - 1));
+      const double angle     = std::abs(turn.back());
+      const double foot_slip = slip.back() - height * std::sin(angle) -
+                               0.5 * width * (1. - std::cos(angle));
+      checks.emplace_back("foot_slip_over_size", foot_slip / size);
+      checks.emplace_back("slides", foot_slip > 1e-3 * size ? 1. : 0.);
+      checks.emplace_back("topples", std::abs(turn.back()) > 2e-3 ? 1. : 0.);
+      checks.emplace_back("energy_residual",
+                          input.stages.back().energies.relative_residual());
       return checks;
     }
 

@@ -370,6 +370,8 @@ namespace Keyblock
       solve_mobile(step);
     last_kick = step.kick;
     scatter_slots();
+    if (step.is_large && !mobile_slots.empty())
+      correct_penetration();
     ++n_steps;
   }
 

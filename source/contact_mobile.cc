@@ -348,6 +348,45 @@ namespace Keyblock
       }
   }
 
+  template <int dim>
+  void
+  Contact<dim>::correct_penetration()
+  {
+    // a tenth of the overlap a step, shared like an impulse: a_k / m_k
+    std::vector<double> shift(slot_velocity.size(), 0.);
+    bool is_needed = false;
+    for (const SurfaceContact<dim> &contact : contacts)
+      {
+        const ContactPoint<dim> &point = contact.point;
+        const double w = point_inverse_mass<dim>(point, slot_nodes);
+        if (point.gap >= 0. || point.status == ContactStatus::open || w == 0.)
+          continue;
+        is_needed = true;
+        for (int k = 0; k < point.n_nodes; ++k)
+          for (int d = 0; d < dim; ++d)
+            shift[dim * point.node[k] + d] +=
+              -0.1 * point.gap * point.weight[k] *
+              slot_inverse_mass[point.node[k]] / w * point.normal[d];
+      }
+    if (!is_needed)
+      return;
+    for (const unsigned int slot : mobile_slots)
+      if (node_of_slot[slot] != none && slot_projection[slot] == nullptr)
+        for (int d = 0; d < dim; ++d)
+          {
+            const double length    = shift[dim * slot + d];
+            const unsigned int dof = dim * node_of_slot[slot] + d;
+            if (length == 0.)
+              continue;
+            fields.shifts.emplace_back(dof, length);
+            // what the shift puts into the elastic energy
+            if (node_of_slot[slot] < numbering.n_owned())
+              work.penetration -= fields.internal_force[dof] * length;
+          }
+  }
+
+  template void Contact<2>::correct_penetration();
+  template void Contact<3>::correct_penetration();
   template void Contact<2>::refresh_normals();
   template void Contact<3>::refresh_normals();
   template void Contact<2>::update_mobility(const ContactStep &);

@@ -91,7 +91,10 @@ namespace Keyblock
         fields.reference[dim * node + d] =
           split.mesh.vertices[numbering.vertex_of_node[node]][d];
     if (scene.time_stepping.is_large())
-      fields.position = fields.reference;
+      {
+        fields.position = fields.reference;
+        fields.rate     = fields.velocity;
+      }
     fields.is_in_cluster.assign(numbering.n_local(), 0);
     set_up_cells();
     set_up_mass();

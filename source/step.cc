@@ -84,6 +84,7 @@ namespace Keyblock
         if (!is_stress_current)
           compute_internal_force();
         std::fill(fields.velocity.begin(), fields.velocity.end(), 0.);
+        std::fill(fields.rate.begin(), fields.rate.end(), 0.);
         starts_at_rest = true;
       }
     dt = scene.time_stepping.safety *
@@ -141,7 +142,8 @@ namespace Keyblock
                             cells,
                             pass.is_large ? fields.position.data()
                                           : fields.reference.data(),
-                            fields.velocity.data(),
+                            pass.is_large ? fields.rate.data()
+                                          : fields.velocity.data(),
                             fields.internal_force.data(),
                             fields.damping_force.data());
     numbering.add_ghosts_to_owners(fields.internal_force);
@@ -365,9 +367,17 @@ namespace Keyblock
     const std::size_t n = fields.displacement.size();
     for (std::size_t i = 0; i < n; ++i)
       fields.displacement[i] += dt * fields.velocity[i];
-    if (scene.time_stepping.is_large())
-      for (std::size_t i = 0; i < n; ++i)
-        fields.position[i] = fields.reference[i] + fields.displacement[i];
+    if (!scene.time_stepping.is_large())
+      return;
+    fields.rate = fields.velocity;
+    for (const auto &[dof, shift] : fields.shifts)
+      {
+        fields.displacement[dof] += shift;
+        fields.rate[dof] += shift / dt;
+      }
+    fields.shifts.clear();
+    for (std::size_t i = 0; i < n; ++i)
+      fields.position[i] = fields.reference[i] + fields.displacement[i];
   }
 
   template class ExplicitStep<2>;

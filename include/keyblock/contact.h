@@ -141,6 +141,7 @@ namespace Keyblock
     void solve_mobile(const ContactStep &step);
     void update_mobility(const ContactStep &step);
     void refresh_normals();
+    void correct_penetration();
     void convert_slid_pairs();
     ContactPoint<dim> pair_as_point(const unsigned int pair,
                                     const double kick) const;

@@ -3,6 +3,7 @@
 #define keyblock_fields_h
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace Keyblock
@@ -48,6 +49,13 @@ namespace Keyblock
 
     /** One per node: held by a cluster, whose solve applies the damping. */
     std::vector<unsigned char> is_in_cluster;
+
+    /** Shifts of positions that contact asks for besides the motion, as degree
+     * of freedom and length [m]; applied, and cleared, by the move. */
+    std::vector<std::pair<unsigned int, double>> shifts;
+
+    /** Velocity of the last move with its shifts, kept in `large` only. */
+    std::vector<double> rate;
 
     std::vector<NodeSupport<dim>> supports; ///< sorted by node
     std::vector<int> support_of_node;       ///< index or -1, one per node

@@ -12,3 +12,7 @@ foreach(case e1 e2a e2b e3a e3b e3c e3d sets_2d lines tunnel_15 tunnel_20
   keyblock_scene(verification/blocks_${case})
 endforeach()
 keyblock_scene(verification/rotation)
+foreach(case stays_friction slides_friction stays_slender topples_slender
+    slides_slender slides_and_topples topples_rough)
+  keyblock_scene(verification/toppling_${case})
+endforeach()
