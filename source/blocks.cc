@@ -73,6 +73,15 @@ namespace Keyblock
               return true;
           }
         else
+          {
+            // with parallel normals only, any direction in their plane
+            Tensor<1, dim> axis;
+            axis[std::abs(a[0]) < 0.6 ? 0 : 1] = 1.;
+            const Tensor<1, dim> along         = cross_product_3d(a, axis);
+            if (leaves_all(along) || leaves_all(-along))
+              return true;
+          }
+        if constexpr (dim == 3)
           for (const auto &b : inward)
             {
               Tensor<1, dim> line = cross_product_3d(a, b);
@@ -280,10 +289,11 @@ namespace Keyblock
                     mesh.face_area_vector(c, f).norm();
                   if (result.block_of_cell[other] != b)
                     {
-                      if (result.blocks[b].joint_side.count(j) == 0 ||
-                          result.blocks[b].joint_side[j] != side)
-                        inward[b].push_back(double(side) *
-                                            scene.joints[j]->normal());
+                      const Tensor<1, dim> n =
+                        double(side) * scene.joints[j]->normal();
+                      if (std::find(inward[b].begin(), inward[b].end(), n) ==
+                          inward[b].end())
+                        inward[b].push_back(n);
                       result.blocks[b].joint_side[j] = side;
                     }
                 }

@@ -57,6 +57,10 @@ namespace Keyblock
         for (int d = 0; d < dim; ++d)
           n[d] = interface.pairs[p].normal[d];
         normal.push_back(n);
+        for (const unsigned int v :
+             {interface.pairs[p].minus, interface.pairs[p].plus})
+          slave_area[{{search.slot_of_vertex[v], interface.pairs[p].joint}}] +=
+            interface.pairs[p].area;
       }
     set_up_groups();
     set_up_traction_weights();
@@ -322,9 +326,33 @@ namespace Keyblock
     if (last_kick > 0.)
       point.impulse =
         add<dim>(Vector<dim>{}, kick / last_kick, state[pair].impulse);
-    if (state[pair].status == ContactStatus::sticking)
+    if (state[pair].status == ContactStatus::sticking &&
+        !is_published_variant())
       point.gap = 0.;
     return point;
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::solve_points(std::vector<ContactPoint<dim>> &points,
+                             const std::vector<PointStrength> &broken,
+                             const ContactNodes<dim> &nodes,
+                             const double step)
+  {
+    const SolverSettings settings{step,
+                                  scene.contact.tolerance,
+                                  scene.contact.maximum_iterations};
+    if (is_published_variant())
+      {
+        solve_as_published<dim>(points, broken, nodes, settings);
+        return;
+      }
+    const SolverReport report =
+      solve_group<dim>(points, broken, nodes, settings);
+    n_capped += report.is_capped;
+    n_iterations = std::max(n_iterations, report.n_iterations);
   }
 
 

@@ -218,6 +218,11 @@ namespace Keyblock
           }
         if (override_tangent >= 0.)
           tangent = kinetic = override_tangent;
+        const auto area = slave_area.find({{contact.slave, contact.joint}});
+        if (area != slave_area.end())
+          contact.point.strength.cohesion =
+            scene.joints[contact.joint]->residual_cohesion * area->second *
+            step.kick;
         contact.point.strength.static_friction  = tangent;
         contact.point.strength.kinetic_friction = kinetic;
         const auto range = before.equal_range(contact.slave);
@@ -314,19 +319,34 @@ namespace Keyblock
                                                false,
                                                step.kick));
           }
-        const SolverReport report =
-          solve_group<dim>(group_points,
-                           broken,
-                           slot_nodes,
-                           {step.step,
-                            scene.contact.tolerance,
-                            scene.contact.maximum_iterations});
-        n_capped += report.is_capped;
-        n_iterations = std::max(n_iterations, report.n_iterations);
+        solve_points(group_points, broken, slot_nodes, step.step);
         for (unsigned int i = 0; i < members.size(); ++i)
           points[members[i]] = group_points[i];
       }
 
+    // a converted pair shows the surface contact of its nodes
+    for (unsigned int p = 0; p < state.size(); ++p)
+      if (state[p].is_converted)
+        {
+          state[p].impulse = Vector<dim>{};
+          state[p].status  = ContactStatus::open;
+          for (unsigned int i = 0; i < contacts.size(); ++i)
+            {
+              const bool is_plus =
+                contacts[i].slave ==
+                search.slot_of_vertex[interface.pairs[p].plus];
+              const bool is_minus =
+                contacts[i].slave ==
+                search.slot_of_vertex[interface.pairs[p].minus];
+              if ((!is_plus && !is_minus) ||
+                  contacts[i].joint != interface.pairs[p].joint ||
+                  points[i].status == ContactStatus::open)
+                continue;
+              state[p].status = points[i].status;
+              state[p].impulse =
+                add<dim>(Vector<dim>{}, is_plus ? 1. : -1., points[i].impulse);
+            }
+        }
     for (unsigned int i = 0; i < points.size(); ++i)
       {
         const ContactPoint<dim> &point = points[i];
@@ -353,7 +373,9 @@ namespace Keyblock
   Contact<dim>::correct_penetration()
   {
     // a tenth of the overlap a step, shared like an impulse: a_k / m_k
+    // (a node of several points takes the mean of what they ask for)
     std::vector<double> shift(slot_velocity.size(), 0.);
+    std::vector<unsigned int> n_shares(search.n_slots(), 0);
     bool is_needed = false;
     for (const SurfaceContact<dim> &contact : contacts)
       {
@@ -362,6 +384,8 @@ namespace Keyblock
         if (point.gap >= 0. || point.status == ContactStatus::open || w == 0.)
           continue;
         is_needed = true;
+        for (int k = 0; k < point.n_nodes; ++k)
+          n_shares[point.node[k]] += point.weight[k] != 0.;
         for (int k = 0; k < point.n_nodes; ++k)
           for (int d = 0; d < dim; ++d)
             shift[dim * point.node[k] + d] +=

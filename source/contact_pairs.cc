@@ -75,9 +75,6 @@ namespace Keyblock
     std::vector<ContactPoint<dim>> point(1);
     std::vector<PointStrength> broken(1);
     const ContactNodes<dim> nodes{v, fields.inverse_mass.data(), nullptr};
-    const SolverSettings settings{step.step,
-                                  scene.contact.tolerance,
-                                  scene.contact.maximum_iterations};
     for (const SinglePair &single : single_pairs)
       {
         PairState<dim> &s     = state[single.pair];
@@ -96,7 +93,7 @@ namespace Keyblock
             impulse[d] = (v[pm + d] - v[pp + d]) / (wm + wp);
           }
         const bool was_sticking = s.status == ContactStatus::sticking;
-        if (was_sticking &&
+        if (was_sticking && !is_published_variant() &&
             violation<dim>(impulse, normal[single.pair], strength) <= 0.)
           {
             if (step.local_damping > 0. && wm > 0. && wp > 0.)
@@ -116,6 +113,22 @@ namespace Keyblock
             for (int d = 0; d < dim; ++d)
               v[pm + d] = v[pp + d] = common[d];
             s.impulse = impulse;
+            // a gap that closed in the step before still moved in it
+            bool moved = false;
+            for (int d = 0; d < dim; ++d)
+              moved = moved || fields.old_velocity[pm + d] !=
+                                 fields.old_velocity[pp + d];
+            if (moved && step.keeps_ledger &&
+                numbering.is_owned(interface.pairs[single.pair].minus))
+              {
+                ContactPoint<dim> p;
+                p.n_nodes = 2;
+                p.node    = {{single.plus, single.minus}};
+                p.weight  = {{1., -1.}};
+                p.normal  = normal[single.pair];
+                p.impulse = impulse;
+                book_work(p, fields.old_velocity.data(), v);
+              }
           }
         else
           {
@@ -127,7 +140,7 @@ namespace Keyblock
             p.weight[0]          = 1.;
             p.weight[1]          = -1.;
             p.normal             = normal[single.pair];
-            if (!was_sticking)
+            if (!was_sticking || is_published_variant())
               for (int d = 0; d < dim; ++d)
                 p.gap += p.normal[d] * (fields.displacement[pp + d] -
                                         fields.displacement[pm + d]);
@@ -135,7 +148,7 @@ namespace Keyblock
             p.strength  = strength;
             p.impulse   = add<dim>(Vector<dim>{}, scale, s.impulse);
             broken[0]   = pair_strength(single.pair, false, step.kick);
-            solve_group<dim>(point, broken, nodes, settings);
+            solve_points(point, broken, nodes, step.step);
             s.impulse   = p.impulse;
             s.is_intact = p.is_intact;
             s.status    = p.status;
@@ -400,7 +413,7 @@ namespace Keyblock
     const unsigned int g     = corner.group;
     const unsigned int begin = interface.group_pairs_begin[g];
     const unsigned int end   = interface.group_pairs_begin[g + 1];
-    if (corner.is_oblique)
+    if (corner.is_oblique || is_published_variant())
       return false;
     for (unsigned int p = begin; p < end; ++p)
       if (state[p].status != ContactStatus::sticking || state[p].is_converted)
@@ -439,12 +452,8 @@ namespace Keyblock
           needed[dim * i + d] =
             (common[d] - slot_velocity[dim * corner.slots[i] + d]) /
             slot_inverse_mass[corner.slots[i]];
-    std::vector<Vector<dim>> before;
     for (unsigned int p = begin; p < end; ++p)
-      {
-        before.push_back(state[p].impulse);
-        state[p].impulse = add<dim>(Vector<dim>{}, step.kick, traction[p]);
-      }
+      state[p].impulse = add<dim>(Vector<dim>{}, step.kick, traction[p]);
     recover_impulses(corner, needed.data());
     for (unsigned int p = begin; p < end; ++p)
       if (violation<dim>(state[p].impulse,
@@ -473,6 +482,18 @@ namespace Keyblock
         if (node_of_slot[slot] != none)
           fields.is_in_cluster[node_of_slot[slot]] = is_free;
       }
+    if (step.keeps_ledger && (is_mobile_group[g] ? is_root() : is_primary(g)))
+      for (unsigned int p = begin; p < end; ++p)
+        {
+          const ContactPoint<dim> point = pair_as_point(p, step.kick);
+          const Vector<dim> old =
+            relative_velocity<dim>(point, slot_old_velocity.data());
+          if (norm<dim>(old) == 0.)
+            continue;
+          ContactPoint<dim> held = point;
+          held.impulse           = state[p].impulse;
+          book_work(held, slot_old_velocity.data(), slot_velocity.data());
+        }
     return true;
   }
 
@@ -507,15 +528,7 @@ namespace Keyblock
         for (const unsigned int slot : corner.slots)
           if (node_of_slot[slot] != none)
             fields.is_in_cluster[node_of_slot[slot]] = false;
-        const SolverReport report =
-          solve_group<dim>(points,
-                           broken,
-                           slot_nodes,
-                           {step.step,
-                            scene.contact.tolerance,
-                            scene.contact.maximum_iterations});
-        n_capped += report.is_capped;
-        n_iterations = std::max(n_iterations, report.n_iterations);
+        solve_points(points, broken, slot_nodes, step.step);
         const bool books =
           step.keeps_ledger && (is_mobile_group[g] ? is_root() : is_primary(g));
         for (unsigned int i = 0; i < points.size(); ++i)

@@ -182,6 +182,12 @@ namespace Keyblock
     rock.build_patches();
     write(rock, "rock");
 
+    // the owner of the minus cell holds the nodes of both sides
+    std::vector<bool> is_local(split.mesh.n_cells(), false);
+    for (const auto &cell : numbering.triangulation->active_cell_iterators())
+      if (cell->is_locally_owned())
+        is_local[cell->id().get_coarse_cell_id()] = true;
+
     FacePatches<dim> faces;
     faces.names = {
       "status", "is_intact", "gap", "slip", "pressure", "shear", "joint"};
@@ -200,11 +206,7 @@ namespace Keyblock
               split.mesh.face_vertices(face.minus_cell, face.minus_face);
             const auto plus =
               split.mesh.face_vertices(face.plus_cell, face.plus_face);
-            bool is_here = numbering.is_owned(minus[0]);
-            for (const unsigned int v : minus)
-              is_here = is_here && numbering.local_node(v) != none;
-            for (const unsigned int v : plus)
-              is_here = is_here && numbering.local_node(v) != none;
+            const bool is_here = is_local[face.minus_cell];
             if (!is_here)
               continue;
             typename FacePatches<dim>::Patch patch;

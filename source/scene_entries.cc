@@ -285,12 +285,11 @@ namespace Keyblock
                       maximum_iterations,
                       "Cap of iterations per group and step [-].",
                       Integer(1));
-    prm.add_parameter(
-      "Slip tolerance",
-      slip_tolerance,
-      "A pair becomes point-to-surface when it slipped or opened "
-      "by this fraction of the face size [-].",
-      Double(0., 1.));
+    prm.add_parameter("Slip tolerance",
+                      slip_tolerance,
+                      "A pair becomes point-to-surface when it has slipped "
+                      "by this fraction of the face size [-].",
+                      Double(0., 1.));
     prm.add_parameter("Weld infinite blocks",
                       weld_infinite_blocks,
                       "Joints between infinite blocks stay welded.");

@@ -55,12 +55,12 @@ namespace Keyblock
 
   template <int dim>
   double
-  StableStep<dim>::limit(const double damping_ratio,
-                         const double local_damping) const
+  StableStep<dim>::limit(const Stage &stage) const
   {
+    // y = omega dt / 2 with (1 + alpha) (y^2 + 2 c y) = 1
+    const double c = stage.damping_ratio + 0.5 * stage.mass_damping / frequency;
     return 2. / frequency *
-           (std::sqrt(1. + damping_ratio * damping_ratio) - damping_ratio) /
-           std::sqrt(1. + local_damping);
+           (std::sqrt(c * c + 1. / (1. + stage.local_damping)) - c);
   }
 
 
@@ -90,17 +90,17 @@ namespace Keyblock
       for (int d = 0; d < dim; ++d)
         fields.reference[dim * node + d] =
           split.mesh.vertices[numbering.vertex_of_node[node]][d];
-    if (scene.time_stepping.is_large())
-      {
-        fields.position = fields.reference;
-        fields.rate     = fields.velocity;
-      }
     fields.is_in_cluster.assign(numbering.n_local(), 0);
     set_up_cells();
     set_up_mass();
     set_up_supports();
     set_up_tractions();
     set_up_initial_state();
+    if (scene.time_stepping.is_large())
+      {
+        fields.position = fields.reference;
+        fields.rate     = fields.velocity;
+      }
   }
 
 

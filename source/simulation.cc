@@ -94,7 +94,8 @@ namespace Keyblock
         << split.interface.pairs.size() << " pairs; least scaled Jacobian "
         << std::setprecision(3) << quality.minimum_scaled_jacobian << "\n";
     if (n_cells_global > 0)
-      out << "        stable time step " << conditions->stable_step.limit(0.)
+      out << "        stable time step "
+          << conditions->stable_step.limit(Stage())
           << " s, set by the cell at (" << report.stable_step_place << ")\n";
     print_block_table(out, blocks, scene);
     out << std::flush;

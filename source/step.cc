@@ -87,8 +87,7 @@ namespace Keyblock
         std::fill(fields.rate.begin(), fields.rate.end(), 0.);
         starts_at_rest = true;
       }
-    dt = scene.time_stepping.safety *
-         conditions.stable_step.limit(stage.damping_ratio, stage.local_damping);
+    dt = scene.time_stepping.safety * conditions.stable_step.limit(stage);
     if (scene.time_stepping.maximum_step > 0.)
       dt = std::min(dt, scene.time_stepping.maximum_step);
     // a whole number of steps in the stage

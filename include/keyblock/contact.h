@@ -7,6 +7,8 @@
 #include <keyblock/fields.h>
 #include <keyblock/internal_force.h>
 
+#include <map>
+
 namespace Keyblock
 {
   /** State of a pair of the interface, the same index as Interface::pairs. */
@@ -142,6 +144,18 @@ namespace Keyblock
     void update_mobility(const ContactStep &step);
     void refresh_normals();
     void correct_penetration();
+
+    /** Solve points that belong together by the method of the scene. */
+    void solve_points(std::vector<ContactPoint<dim>> &points,
+                      const std::vector<PointStrength> &broken,
+                      const ContactNodes<dim> &nodes,
+                      const double step);
+    bool
+    is_published_variant() const
+    {
+      return scene.contact.method == "paper";
+    }
+
     void convert_slid_pairs();
     ContactPoint<dim> pair_as_point(const unsigned int pair,
                                     const double kick) const;
@@ -184,6 +198,9 @@ namespace Keyblock
     bool is_search_due   = true;
     unsigned int n_steps = 0;
     double last_kick     = 0.;
+
+    /** Area of a slave on a joint, for residual cohesion [m^(dim-1)]. */
+    std::map<std::array<unsigned int, 2>, double> slave_area;
 
     std::vector<SurfaceContact<dim>> contacts; ///< of the last step
 

@@ -91,7 +91,7 @@ namespace Keyblock
    * point: nothing in tension, the friction limit if that is exceeded. This is
    * the whole friction law; change it here.
    *
-   *   r_n = max(r_n, -T);  |r_t| <= C + mu_s r_n sticks,
+   *   r_n < -T opens;  |r_t| <= C + mu_s r_n sticks,
    *   else r_t = (C + mu_k r_n) r_t / |r_t|.
    *
    * The solution of the contact problem of one point if its inverse mass is

@@ -76,6 +76,21 @@ namespace Keyblock
                            const ContactNodes<dim> &nodes,
                            const SolverSettings &settings);
 
+  /**
+   * The published variant as a baseline (Chen, Xiao and Chen 2020, equations
+   * 14 to 20, without their factor 2): every point for itself from the
+   * predicted velocities, in one pass; the gap is closed in one step, overlap
+   * included; a pulled point separates when its total force exceeds c A; the
+   * mass of a point on a surface is (20) and its force is shared by mass.
+   * Points that share nodes do not know of each other, so that corners may
+   * diverge.
+   */
+  template <int dim>
+  void solve_as_published(std::vector<ContactPoint<dim>> &points,
+                          const std::vector<PointStrength> &broken,
+                          const ContactNodes<dim> &nodes,
+                          const SolverSettings &settings);
+
   /** Inverse mass of a point in all directions, sum a_k^2 / m_k [1/kg]; only
    * for points without partly held nodes. */
   template <int dim>

@@ -29,12 +29,13 @@ namespace Keyblock
     Point<dim> place;      ///< centre of that cell [m]
 
     /**
-     * 2 / omega (sqrt(1 + zeta^2) - zeta) / sqrt(1 + alpha) [s]. Local damping
-     * alpha acts on a velocity that alternates from step to step as a stiffness
-     * (1 + alpha) times the true one, whence the last factor.
+     * Stable step under a stage's damping: y = omega dt / 2 of the velocity
+     * that alternates from step to step obeys (1 + alpha) (y^2 + 2 c y) <= 1
+     * with c = zeta + a / (2 omega); stiffness damping zeta, mass damping a,
+     * local damping alpha. Without mass and local damping that is 2 / omega
+     * (sqrt(1 + zeta^2) - zeta) [s].
      */
-    double limit(const double damping_ratio,
-                 const double local_damping = 0.) const;
+    double limit(const Stage &stage) const;
   };
 
   /**
