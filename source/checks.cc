@@ -331,6 +331,51 @@ namespace Keyblock
 
 
 
+    /** Bar bonded to a wall and pulled at its free end: the stress at the wall
+     * is 2 k rho c v from (2 k - 1) L / c on, k = 1, 2, ..., until it exceeds
+     * the tensile strength. */
+    template <int dim>
+    CheckValues
+    check_bond_break(const CheckInput<dim> &input)
+    {
+      const BodyOnJoint<dim> body(input);
+      const Material<dim> &material = *input.scene.materials.front();
+      const double speed =
+        std::sqrt((material.lame_lambda() + 2. * material.shear_modulus()) /
+                  material.density);
+      const Expression<dim> pull(input.scene.supports.front()->velocity,
+                                 dim,
+                                 "Supports/*/Velocity");
+      const double level =
+        2. * material.density * speed * pull.vector(Point<dim>(), 0.).norm();
+      const double strength = body.joint->tensile_strength;
+      const double k        = std::floor(strength / level) + 1.;
+      const double time     = (2. * k - 1.) * input.scene.checks.length / speed;
+      const auto intact     = body.column(body.joint_name, "intact");
+      const auto force      = body.column(body.joint_name, "normal_force");
+      unsigned int row      = 0;
+      double largest        = 0.;
+      while (row + 1 < intact.size() && intact[row] == intact.front())
+        largest = std::max(largest, -force[row++]);
+      double area = 0.;
+      for (const auto &[joint, part] :
+           input.blocks.blocks[body.body].joint_area)
+        area += part;
+      CheckValues checks;
+      // the kick of a row is that of the time one step before it
+      const double dt = input.stages.back().time_step;
+      compare(checks, "break_time", body.time[row] - dt, time);
+      checks.emplace_back("break_error_in_steps",
+                          (body.time[row] - dt - time) / dt);
+      checks.emplace_back("force_before_break_over_strength",
+                          largest / (strength * area));
+      checks.emplace_back("force_before_break_over_strength_is_below_1",
+                          largest <= strength * area ? 1. : 0.);
+      return checks;
+    }
+
+
+
     /** Rigid block on a shaken base, integrated with a fine step (Newmark
      * 1965): it follows the base while that needs no more than mu g. */
     template <int dim>
@@ -473,6 +518,7 @@ namespace Keyblock
       {"incline", check_incline<dim>},
       {"resting", check_resting<dim>},
       {"bar_impact", check_bar_impact<dim>},
+      {"bond_break", check_bond_break<dim>},
       {"newmark", check_newmark<dim>},
       {"toppling", check_toppling<dim>},
       {"rotation", check_rotation<dim>}};

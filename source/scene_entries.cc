@@ -383,8 +383,9 @@ namespace Keyblock
     prm.add_parameter("Closed form",
                       closed_form,
                       "What the last stage is compared with.",
-                      Selection("none|resting|incline|bar_impact|newmark|"
-                                "toppling|rotation"));
+                      Selection(
+                        "none|resting|incline|bar_impact|bond_break|newmark|"
+                        "toppling|rotation"));
     prm.add_parameter("Joint", joint, "The joint it is measured on.");
     prm.add_parameter("Reference time",
                       reference_time,
@@ -398,7 +399,7 @@ namespace Keyblock
                       fraction);
     prm.add_parameter("Length",
                       length,
-                      "bar_impact: length of the bar along its velocity [m].",
+                      "bar_impact, bond_break: length of the bar [m].",
                       not_negative);
   }
 

@@ -36,6 +36,13 @@ namespace Keyblock
       return contact.get();
     }
 
+    /** Stresses of the deformable cells of this rank. */
+    const CellArrays<dim> &
+    cell_arrays() const
+    {
+      return cells;
+    }
+
     /** Displacement, or velocity, of every vertex of the split mesh, dim values
      * each, the same on all ranks (collective). */
     std::vector<double> vertex_displacements() const;

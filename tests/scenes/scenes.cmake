@@ -16,3 +16,6 @@ foreach(case stays_friction slides_friction stays_slender topples_slender
     slides_slender slides_and_topples topples_rough)
   keyblock_scene(verification/toppling_${case})
 endforeach()
+keyblock_scene(verification/crossing)
+keyblock_scene(verification/bond_break)
+keyblock_scene(verification/bond_break_fast)
