@@ -69,26 +69,39 @@ namespace Keyblock
 
   template <int dim>
   void
-  Contact<dim>::update_mobility(const ContactStep &)
+  Contact<dim>::update_mobility(const ContactStep &step)
   {
     convert_slid_pairs();
-    // has anything moved by half the skin since the last search?
-    if (!searched_position.empty())
-      for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
-        if (node_of_slot[slot] < numbering.n_owned())
-          {
-            double square = 0.;
-            for (int d = 0; d < dim; ++d)
-              {
-                const unsigned int dof = dim * node_of_slot[slot] + d;
-                const double moved     = fields.reference[dof] +
+    // has anything moved by half the skin since the last search? Looked at
+    // again before the fastest node can have gone an eighth of it
+    if (!searched_position.empty() && n_steps >= next_look)
+      {
+        double square = 0., speed = 0.;
+        for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+          if (node_of_slot[slot] < numbering.n_owned())
+            {
+              double moved = 0., fast = 0.;
+              for (int d = 0; d < dim; ++d)
+                {
+                  const unsigned int dof = dim * node_of_slot[slot] + d;
+                  const double way       = fields.reference[dof] +
                                      fields.displacement[dof] -
                                      searched_position[dim * slot + d];
-                square += moved * moved;
-              }
-            is_search_due =
-              is_search_due || square > 0.25 * search.skin() * search.skin();
-          }
+                  moved += way * way;
+                  fast += fields.velocity[dof] * fields.velocity[dof];
+                }
+              square = std::max(square, moved);
+              speed  = std::max(speed, fast);
+            }
+        square = dealii::Utilities::MPI::max(square, world());
+        speed  = std::sqrt(dealii::Utilities::MPI::max(speed, world()));
+        is_search_due =
+          is_search_due || square > 0.25 * search.skin() * search.skin();
+        const double eighth = 0.125 * search.skin();
+        next_look           = n_steps + 1;
+        if (speed * step.step * 20. < eighth)
+          next_look += 19;
+      }
     if (n_ranks() > 1)
       is_search_due =
         dealii::Utilities::MPI::max(is_search_due ? 1 : 0, world()) > 0;

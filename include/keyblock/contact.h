@@ -195,9 +195,10 @@ namespace Keyblock
     std::vector<unsigned int> mobile_corners; ///< indices into corners
     std::vector<unsigned int> active_slots;   ///< mobile and corner slots here
     std::vector<double> searched_position;
-    bool is_search_due   = true;
-    unsigned int n_steps = 0;
-    double last_kick     = 0.;
+    bool is_search_due     = true;
+    unsigned int n_steps   = 0;
+    unsigned int next_look = 0; ///< step at which motion is measured
+    double last_kick       = 0.;
 
     /** Area of a slave on a joint, for residual cohesion [m^(dim-1)]. */
     std::map<std::array<unsigned int, 2>, double> slave_area;
