@@ -334,6 +334,32 @@ namespace Keyblock
                 monitor->joint +
                 "', which is not in 'Joints/Names'; correct 'Monitors/" +
                 monitor->name + "/Joint'.");
+    const auto has_monitor = [&](const std::string &kind) {
+      for (const auto &monitor : monitors)
+        if (monitor->kind == kind)
+          return true;
+      return false;
+    };
+    const std::string &form = checks.closed_form;
+    require(form == "none" || has_monitor("block"),
+            "The entry 'Check/Closed form' is " + form +
+              ", which needs a monitor of kind block; add one to "
+              "'Monitors/Names'.");
+    require(form == "none" || form == "rotation" || has_monitor("joint"),
+            "The entry 'Check/Closed form' is " + form +
+              ", which needs a monitor of kind joint; add one to "
+              "'Monitors/Names'.");
+    require(form == "none" || form == "rotation" || form == "bar_impact" ||
+              !checks.joint.empty(),
+            "The entry 'Check/Joint' is empty, but the closed form " + form +
+              " is measured on a joint; name it.");
+    require((form != "bar_impact" && form != "bond_break") ||
+              checks.length > 0.,
+            "The entry 'Check/Length' is 0, but the closed form " + form +
+              " needs the length of the bar in metres.");
+    require(form == "none" || !stages.empty(),
+            "The entry 'Check/Closed form' is " + form +
+              ", but 'Stages/Names' is empty; name a stage to measure.");
     require(checks.joint.empty() || has_joint(*this, checks.joint),
             "The entry 'Check/Joint' is '" + checks.joint +
               "', which is not in 'Joints/Names'.");
