@@ -314,7 +314,6 @@ namespace Keyblock
       list_joint_faces(mesh, blocks, scene, kept, result.interface.joint_faces);
     make_pairs(scene, before, result);
     list_surface(result);
-    result.interface.n_vertices_before = mesh.vertices.size();
     return result;
   }
 

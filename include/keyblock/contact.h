@@ -135,7 +135,7 @@ namespace Keyblock
     void rebuild_active_slots();
     void gather_slots(const bool with_displacement);
     void scatter_slots();
-    void estimate_tractions(const double kick);
+    void estimate_tractions();
     void solve_single_pairs(const ContactStep &step);
     void solve_corner(CornerGroup &corner, const ContactStep &step);
     bool try_cluster(CornerGroup &corner, const ContactStep &step);

@@ -2,6 +2,8 @@
 #ifndef keyblock_damping_h
 #define keyblock_damping_h
 
+#include <keyblock/contact_law.h>
+
 #include <cmath>
 
 namespace Keyblock
@@ -22,6 +24,23 @@ namespace Keyblock
     return -std::copysign(std::fmin(alpha * std::fabs(total),
                                     std::fabs(velocity)),
                           velocity);
+  }
+
+  /** Take local non-viscous damping out of a cluster's velocity: component i
+   * of its total force loses alpha |F_i| against the old velocity. Returns
+   * the change. */
+  template <int dim>
+  inline Vector<dim>
+  damp_cluster(const Vector<dim> &velocity,
+               const Vector<dim> &old_velocity,
+               const double alpha)
+  {
+    Vector<dim> change{};
+    for (int d = 0; d < dim; ++d)
+      change[d] = local_damping_change(old_velocity[d],
+                                       velocity[d] - old_velocity[d],
+                                       alpha);
+    return change;
   }
 } // namespace Keyblock
 

@@ -48,9 +48,6 @@ namespace Keyblock
     /** Pairs of each group, the same way; pairs are sorted by group. */
     std::vector<unsigned int> group_pairs_begin;
 
-    /** Vertices of the mesh before the split. */
-    unsigned int n_vertices_before = 0;
-
     unsigned int
     n_groups() const
     {

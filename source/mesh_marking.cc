@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// From the generators' cells to the mesh of the run: order, materials,
+// excavations, joints and outer boundaries.
+#include <keyblock/mesh.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <keyblock/errors.h>
+#include <keyblock/excavation_region.h>
+#include <keyblock/expression.h>
+#include <keyblock/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace Keyblock
+{
+  namespace
+  {
+    template <int dim>
+    void
+    sort_cells_along_hilbert_curve(Mesh<dim> &mesh)
+    {
+      std::vector<Point<dim>> centers(mesh.n_cells());
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        centers[c] = mesh.cell_center(c);
+      const auto keys =
+        dealii::Utilities::inverse_Hilbert_space_filling_curve(centers, 20);
+      std::vector<unsigned int> order(mesh.n_cells());
+      std::iota(order.begin(), order.end(), 0);
+      std::stable_sort(order.begin(),
+                       order.end(),
+                       [&keys](unsigned int a, unsigned int b) {
+                         return keys[a] < keys[b];
+                       });
+      auto cells  = mesh.cells;
+      auto region = mesh.region;
+      for (unsigned int c = 0; c < order.size(); ++c)
+        {
+          mesh.cells[c]  = cells[order[c]];
+          mesh.region[c] = region[order[c]];
+        }
+      // vertices in the order in which the cells meet them
+      std::vector<unsigned int> rank(mesh.vertices.size(), none);
+      std::vector<Point<dim>> vertices;
+      for (auto &cell : mesh.cells)
+        for (unsigned int &v : cell)
+          {
+            if (rank[v] == none)
+              {
+                rank[v] = vertices.size();
+                vertices.push_back(mesh.vertices[v]);
+              }
+            v = rank[v];
+          }
+      std::vector<typename Mesh<dim>::BoundaryFace> kept;
+      for (auto face : mesh.boundary_faces)
+        {
+          bool is_used = true;
+          for (unsigned int &v : face.vertices)
+            is_used = is_used && (v = rank[v]) != none;
+          if (is_used)
+            kept.push_back(face);
+        }
+      mesh.boundary_faces = kept;
+      mesh.vertices       = std::move(vertices);
+    }
+
+
+
+    template <int dim>
+    void
+    mark_materials(Mesh<dim> &mesh, const Scene<dim> &scene)
+    {
+      mesh.material.assign(mesh.n_cells(), none);
+      for (unsigned int m = 0; m < scene.materials.size(); ++m)
+        {
+          const std::string &region = scene.materials[m]->region;
+          unsigned int n_hits       = 0;
+          const bool is_id          = region.rfind("id ", 0) == 0;
+          const bool is_all         = region == "all";
+          const Expression<dim> inside((is_id || is_all) ? "1" : region,
+                                       1,
+                                       "Materials/" + scene.materials[m]->name +
+                                         "/Region");
+          for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+            if (is_all ||
+                (is_id && region.substr(3) == std::to_string(mesh.region[c])) ||
+                (!is_id && inside.value(mesh.cell_center(c), 0., 0) > 0.))
+              {
+                mesh.material[c] = m;
+                ++n_hits;
+              }
+          AssertThrow(n_hits > 0,
+                      InputError("No cell lies in the region '" + region +
+                                 "' of the entry 'Materials/" +
+                                 scene.materials[m]->name +
+                                 "/Region'; correct it or drop the material."));
+        }
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        AssertThrow(mesh.material[c] != none,
+                    InputError(
+                      "A cell at " +
+                      dealii::Utilities::to_string(mesh.cell_center(c)[0]) +
+                      ", " +
+                      dealii::Utilities::to_string(mesh.cell_center(c)[1]) +
+                      " has no material; extend one of the entries "
+                      "'Materials/*/Region', for example the first to all."));
+    }
+
+
+
+    template <int dim>
+    void
+    mark_excavations(Mesh<dim> &mesh, const Scene<dim> &scene)
+    {
+      mesh.excavation_stage.assign(mesh.n_cells(), 0);
+      for (const auto &excavation : scene.excavations)
+        {
+          const bool is_formula = excavation->shape == "formula";
+          const Expression<dim> formula(is_formula ? excavation->formula : "1",
+                                        1,
+                                        "Excavations/" + excavation->name +
+                                          "/Formula");
+          unsigned int n_hits = 0;
+          for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+            {
+              const bool is_inside =
+                (is_formula
+                   ? formula.value(mesh.cell_center(c), 0., 0)
+                   : depth_inside(*excavation, mesh.cell_center(c))) > 0.;
+              const double size = std::pow(mesh.cell_volume(c), 1. / dim);
+              bool is_cut       = false;
+              for (const unsigned int v : mesh.cells[c])
+                {
+                  if (is_formula)
+                    break;
+                  const double depth =
+                    depth_inside(*excavation, mesh.vertices[v]);
+                  is_cut = is_cut || (is_inside ? depth < -1e-4 * size
+                                                : depth > 1e-4 * size);
+                }
+              AssertThrow(!is_cut,
+                          InputError(
+                            "The mesh does not follow the outline of the "
+                            "excavation '" +
+                            excavation->name +
+                            "': a cell crosses it; set 'Mesh/Generator' to "
+                            "gmsh, or move the outline to cell faces."));
+              if (is_inside)
+                {
+                  ++n_hits;
+                  if (mesh.excavation_stage[c] == 0 ||
+                      excavation->stage < mesh.excavation_stage[c])
+                    mesh.excavation_stage[c] = excavation->stage;
+                }
+            }
+          AssertThrow(n_hits > 0,
+                      InputError("The excavation '" + excavation->name +
+                                 "' contains no cell; check 'Excavations/" +
+                                 excavation->name + "' against the domain."));
+        }
+    }
+
+
+
+    /** Mean of the points where the joint's plane cuts the edges of a cell. */
+    template <int dim>
+    Point<dim>
+    cut_center(const Mesh<dim> &mesh,
+               const unsigned int cell,
+               const std::vector<double> &distance)
+    {
+      Point<dim> sum;
+      unsigned int n = 0;
+      for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int a = mesh.cells[cell][v & ~(1u << d)];
+            const unsigned int b = mesh.cells[cell][v | (1u << d)];
+            if ((distance[a] < 0.) != (distance[b] < 0.))
+              {
+                const double s = distance[a] / (distance[a] - distance[b]);
+                sum +=
+                  mesh.vertices[a] + s * (mesh.vertices[b] - mesh.vertices[a]);
+                ++n;
+              }
+          }
+      return sum / n;
+    }
+
+
+
+    template <int dim>
+    void
+    mark_joint(Mesh<dim> &mesh,
+               const Joint<dim> &joint,
+               const unsigned int index,
+               const double tolerance)
+    {
+      const Tensor<1, dim> normal = joint.normal();
+      const Point<dim> origin =
+        joint.extent == "polygon" ? joint.vertices[0] : joint.point;
+      std::vector<double> distance(mesh.vertices.size());
+      for (unsigned int v = 0; v < distance.size(); ++v)
+        distance[v] = normal * (mesh.vertices[v] - origin);
+
+      unsigned int n_faces = 0;
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        {
+          const double size = std::pow(mesh.cell_volume(c), 1. / dim);
+          double least = 0., greatest = 0.;
+          for (const unsigned int v : mesh.cells[c])
+            {
+              least    = std::min(least, distance[v]);
+              greatest = std::max(greatest, distance[v]);
+            }
+          if (greatest > tolerance * size && least < -tolerance * size)
+            AssertThrow(!joint.is_within_extent(cut_center(mesh, c, distance),
+                                                -1e-3 * size),
+                        InputError(
+                          "The mesh does not follow the joint '" + joint.name +
+                          "': a cell crosses it near x = " +
+                          std::to_string(mesh.cell_center(c)[0]) +
+                          ", y = " + std::to_string(mesh.cell_center(c)[1]) +
+                          "; set 'Mesh/Generator' to gmsh, move the joint to "
+                          "cell faces, or raise 'Mesh/Joint tolerance'."));
+          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+            {
+              bool is_on_plane = true;
+              for (const unsigned int v : mesh.face_vertices(c, f))
+                is_on_plane =
+                  is_on_plane && std::abs(distance[v]) <= tolerance * size;
+              if (is_on_plane && mesh.joint[c][f] == none &&
+                  joint.is_within_extent(mesh.face_center(c, f), 0.))
+                {
+                  mesh.joint[c][f] = index;
+                  ++n_faces;
+                }
+            }
+        }
+      AssertThrow(n_faces > 0,
+                  InputError("The joint '" + joint.name +
+                             "' misses the domain (no cell face lies on it); "
+                             "check 'Joints/" +
+                             joint.name +
+                             "/Point', 'Dip' and 'Extent' against 'Domain'."));
+    }
+
+
+
+    /** Mark the faces on the sides of the domain: of its frame if it is a box
+     * or parallelepiped, else of its bounding box. */
+    template <int dim>
+    void
+    mark_boundaries(Mesh<dim> &mesh, const Scene<dim> &scene)
+    {
+      Point<dim> origin = mesh.vertices[0];
+      Tensor<2, dim> frame;
+      if (scene.domain.shape == "box" || scene.domain.shape == "parallelepiped")
+        {
+          origin = scene.domain.corner;
+          for (unsigned int d = 0; d < dim; ++d)
+            if (scene.domain.shape == "box")
+              frame[d][d] = scene.domain.size[d];
+            else
+              frame[d] = scene.domain.edges[d];
+        }
+      else
+        {
+          Point<dim> far = origin;
+          for (const Point<dim> &p : mesh.vertices)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                origin[d] = std::min(origin[d], p[d]);
+                far[d]    = std::max(far[d], p[d]);
+              }
+          for (unsigned int d = 0; d < dim; ++d)
+            frame[d][d] = far[d] - origin[d];
+        }
+      const Tensor<2, dim> to_unit = transpose(invert(frame));
+
+      std::array<unsigned int, Mesh<dim>::n_cell_faces> no_face;
+      no_face.fill(none);
+      mesh.boundary.assign(mesh.n_cells(), no_face);
+      mesh.boundary_id.assign(mesh.n_cells(), no_face);
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          if (mesh.neighbor[c][f] == none)
+            for (unsigned int side = 0; side < 2 * dim; ++side)
+              {
+                bool is_on_side = true;
+                for (const unsigned int v : mesh.face_vertices(c, f))
+                  {
+                    const Tensor<1, dim> unit =
+                      to_unit * (mesh.vertices[v] - origin);
+                    is_on_side =
+                      is_on_side && std::abs(unit[side / 2] - side % 2) < 1e-7;
+                  }
+                if (is_on_side)
+                  mesh.boundary[c][f] = side;
+              }
+
+      std::map<typename Mesh<dim>::FaceVertices, unsigned int> ids;
+      for (auto face : mesh.boundary_faces)
+        {
+          std::sort(face.vertices.begin(), face.vertices.end());
+          ids[face.vertices] = face.id;
+        }
+      if (!ids.empty())
+        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+            if (mesh.neighbor[c][f] == none)
+              {
+                auto key = mesh.face_vertices(c, f);
+                std::sort(key.begin(), key.end());
+                const auto found = ids.find(key);
+                if (found != ids.end())
+                  mesh.boundary_id[c][f] = found->second;
+              }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Mesh<dim>
+  make_mesh(const Scene<dim> &scene)
+  {
+    Mesh<dim> mesh;
+    on_root([&]() {
+      if (scene.meshing.generator == "structured")
+        mesh = make_structured_mesh(scene);
+      else if (scene.meshing.generator == "gmsh")
+        mesh = make_gmsh_mesh(scene);
+      else
+        mesh = read_mesh(scene);
+      sort_cells_along_hilbert_curve(mesh);
+    });
+    broadcast(mesh.vertices);
+    broadcast(mesh.cells);
+    broadcast(mesh.region);
+    broadcast(mesh.boundary_faces);
+
+    find_neighbors(mesh);
+    mark_boundaries(mesh, scene);
+    mark_materials(mesh, scene);
+    mark_excavations(mesh, scene);
+    std::array<unsigned int, Mesh<dim>::n_cell_faces> no_face;
+    no_face.fill(none);
+    mesh.joint.assign(mesh.n_cells(), no_face);
+    for (unsigned int j = 0; j < scene.joints.size(); ++j)
+      mark_joint(mesh, *scene.joints[j], j, scene.meshing.joint_tolerance);
+    return mesh;
+  }
+
+
+
+  template Mesh<2> make_mesh(const Scene<2> &);
+  template Mesh<3> make_mesh(const Scene<3> &);
+} // namespace Keyblock
