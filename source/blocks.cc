@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <numeric>
 #include <ostream>
+#include <set>
 
 namespace Keyblock
 {
@@ -365,6 +366,12 @@ namespace Keyblock
       }
 
     Blocks<dim> result;
+    std::set<std::vector<signed char>> codes;
+    const std::vector<std::vector<signed char>> code = sign_code(mesh, scene);
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      if (label[c] != none)
+        codes.insert(code[c]);
+    result.n_sign_codes                   = codes.size();
     const std::vector<unsigned int> order = rank_blocks(found);
     std::vector<unsigned int> index(n_labels);
     for (unsigned int b = 0; b < n_labels; ++b)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/monitors.h>
 
+#include <keyblock/expression.h>
 #include <keyblock/mpi.h>
 
 #include <algorithm>
@@ -70,8 +71,6 @@ namespace Keyblock
     , contact(contact)
     , baseline(fields.displacement)
   {
-    const std::vector<std::string> axes = {"x", "y", "z"};
-    history.columns                     = {"stage [-]", "step [-]", "time [s]"};
     for (const unsigned int c : numbering.mesh_cell)
       cell_volume.push_back(split.mesh.cell_volume(c));
     block_of_node.assign(numbering.n_local(), none);
@@ -80,66 +79,103 @@ namespace Keyblock
         if (numbering.local_node(v) != none)
           block_of_node[numbering.local_node(v)] = split.block_of_cell[c];
     for (const auto &monitor : scene.monitors)
+      find_target(*monitor);
+    name_columns();
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::find_target(const Monitor<dim> &monitor)
+  {
+    unsigned int node = none, block = none;
+    std::vector<unsigned int> nodes;
+    double least = std::numeric_limits<double>::max();
+    if (monitor.kind == "point")
       {
-        const std::string name      = monitor->name;
-        unsigned int node           = none;
-        unsigned int block          = none;
-        double least                = std::numeric_limits<double>::max();
-        unsigned int nearest_vertex = none, nearest_cell = none;
-        if (monitor->kind == "point")
-          for (unsigned int v = 0; v < split.mesh.vertices.size(); ++v)
-            {
-              const double d =
-                split.mesh.vertices[v].distance(monitor->location);
-              if (d < least)
-                {
-                  least          = d;
-                  nearest_vertex = v;
-                }
-            }
-        if (monitor->kind == "block")
-          for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
-            {
-              const double d =
-                split.mesh.cell_center(c).distance(monitor->location);
-              if (d < least)
-                {
-                  least        = d;
-                  nearest_cell = c;
-                }
-            }
-        if (nearest_vertex != none && numbering.is_owned(nearest_vertex))
-          node = numbering.local_node(nearest_vertex);
-        if (nearest_cell != none)
-          block = split.block_of_cell[nearest_cell];
-        node_of_monitor.push_back(node);
-        block_of_monitor.push_back(block);
-        if (monitor->kind == "joint")
+        unsigned int nearest = none;
+        for (unsigned int v = 0; v < split.mesh.vertices.size(); ++v)
           {
-            for (const std::string part :
-                 {"normal_force [N]", "shear_force [N]"})
-              history.columns.push_back(name + "." + part);
-            for (unsigned int d = 0; d < dim; ++d)
-              history.columns.push_back(name + ".force_" + axes[d] + " [N]");
-            for (unsigned int d = 0; d < dim; ++d)
-              history.columns.push_back(name + ".center_" + axes[d] + " [m]");
-            for (const std::string part :
-                 {"open [-]", "sliding [-]", "sticking [-]", "intact [-]"})
-              history.columns.push_back(name + "." + part);
-          }
-        else
-          {
-            for (unsigned int d = 0; d < dim; ++d)
-              history.columns.push_back(name + ".u_" + axes[d] + " [m]");
-            for (unsigned int d = 0; d < dim; ++d)
-              history.columns.push_back(name + ".v_" + axes[d] + " [m/s]");
-            if (monitor->kind == "block")
+            const double d = split.mesh.vertices[v].distance(monitor.location);
+            if (d < least)
               {
-                history.columns.push_back(name + ".rotation [rad]");
-                history.columns.push_back(name + ".angular_momentum [N m s]");
-                history.columns.push_back(name + ".mean_stress_trace [Pa]");
+                least   = d;
+                nearest = v;
               }
           }
+        if (numbering.is_owned(nearest))
+          node = numbering.local_node(nearest);
+      }
+    if (monitor.kind == "block")
+      for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+        {
+          const double d = split.mesh.cell_center(c).distance(monitor.location);
+          if (d < least)
+            {
+              least = d;
+              block = split.block_of_cell[c];
+            }
+        }
+    if (monitor.kind == "region")
+      {
+        const Expression<dim> region(monitor.region,
+                                     1,
+                                     "Monitors/" + monitor.name + "/Region");
+        for (unsigned int i = 0; i < numbering.n_owned(); ++i)
+          if (region.value(split.mesh.vertices[numbering.vertex_of_node[i]],
+                           0.,
+                           0) > 0.)
+            nodes.push_back(i);
+        const unsigned int n_nodes =
+          dealii::Utilities::MPI::sum<unsigned int>(nodes.size(), world());
+        AssertThrow(n_nodes > 0,
+                    InputError("The formula of the entry 'Monitors/" +
+                               monitor.name +
+                               "/Region' is positive at no node; correct it, "
+                               "or leave the monitor out."));
+      }
+    node_of_monitor.push_back(node);
+    block_of_monitor.push_back(block);
+    nodes_of_monitor.push_back(nodes);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::name_columns()
+  {
+    const std::vector<std::string> axes = {"x", "y", "z"};
+    std::vector<std::string> &columns   = history.columns;
+    columns                             = {"stage [-]", "step [-]", "time [s]"};
+    for (const auto &monitor : scene.monitors)
+      {
+        const auto add_vector = [&](const std::string &quantity,
+                                    const std::string &unit) {
+          for (unsigned int d = 0; d < dim; ++d)
+            columns.push_back(monitor->name + "." + quantity + "_" + axes[d] +
+                              " [" + unit + "]");
+        };
+        const auto add_scalars = [&](const std::vector<std::string> &names) {
+          for (const std::string &name : names)
+            columns.push_back(monitor->name + "." + name);
+        };
+        if (monitor->kind == "joint")
+          {
+            add_scalars({"normal_force [N]", "shear_force [N]"});
+            add_vector("force", "N");
+            add_vector("center", "m");
+            add_scalars(
+              {"open [-]", "sliding [-]", "sticking [-]", "intact [-]"});
+            continue;
+          }
+        add_vector("u", "m");
+        add_vector("v", "m/s");
+        if (monitor->kind == "block")
+          add_scalars({"rotation [rad]",
+                       "angular_momentum [N m s]",
+                       "mean_stress_trace [Pa]"});
       }
     for (const std::string term : {"kinetic",
                                    "elastic",
@@ -152,8 +188,8 @@ namespace Keyblock
                                    "mass_damping",
                                    "local_damping",
                                    "residual"})
-      history.columns.push_back("energy." + term + " [J]");
-    history.columns.push_back("unbalanced_ratio [-]");
+      columns.push_back("energy." + term + " [J]");
+    columns.push_back("unbalanced_ratio [-]");
   }
 
 
@@ -244,6 +280,54 @@ namespace Keyblock
 
   template <int dim>
   void
+  Monitors<dim>::sample_joint(const Monitor<dim> &monitor,
+                              std::vector<double> &row)
+  {
+    unsigned int joint = none;
+    for (unsigned int j = 0; j < scene.joints.size(); ++j)
+      if (scene.joints[j]->name == monitor.joint)
+        joint = j;
+    JointSums<dim> sums;
+    if (contact)
+      sums = contact->sum_over_joint(joint);
+    row.push_back(sums.normal);
+    row.push_back(sums.shear);
+    row.insert(row.end(), sums.force.begin(), sums.force.end());
+    row.insert(row.end(), sums.center.begin(), sums.center.end());
+    for (const unsigned int n :
+         {sums.n_open, sums.n_sliding, sums.n_sticking, sums.n_intact})
+      row.push_back(n);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample_nodes(const std::vector<unsigned int> &nodes,
+                              std::vector<double> &row)
+  {
+    // mass, m u, m v
+    std::vector<double> sums(1 + 2 * dim, 0.);
+    for (const unsigned int node : nodes)
+      {
+        const double m = fields.mass[node];
+        sums[0] += m;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int i = dim * node + d;
+            sums[1 + d] += m * (fields.displacement[i] - baseline[i]);
+            sums[1 + dim + d] += m * fields.velocity[i];
+          }
+      }
+    dealii::Utilities::MPI::sum(sums, world(), sums);
+    for (unsigned int i = 1; i < sums.size(); ++i)
+      row.push_back(sums[i] / sums[0]);
+  }
+
+
+
+  template <int dim>
+  void
   Monitors<dim>::sample(const ExplicitStep<dim> &step, const unsigned int stage)
   {
     std::vector<double> row = {double(stage), double(step.n_steps), step.time};
@@ -251,38 +335,16 @@ namespace Keyblock
       {
         const Monitor<dim> &monitor = *scene.monitors[m];
         if (monitor.kind == "joint")
-          {
-            JointSums<dim> sums;
-            unsigned int joint = none;
-            for (unsigned int j = 0; j < scene.joints.size(); ++j)
-              if (scene.joints[j]->name == monitor.joint)
-                joint = j;
-            if (contact)
-              sums = contact->sum_over_joint(joint);
-            row.push_back(sums.normal);
-            row.push_back(sums.shear);
-            row.insert(row.end(), sums.force.begin(), sums.force.end());
-            row.insert(row.end(), sums.center.begin(), sums.center.end());
-            for (const unsigned int n :
-                 {sums.n_open, sums.n_sliding, sums.n_sticking, sums.n_intact})
-              row.push_back(n);
-          }
+          sample_joint(monitor, row);
         else if (monitor.kind == "block")
           sample_block(block_of_monitor[m], row);
+        else if (monitor.kind == "region")
+          sample_nodes(nodes_of_monitor[m], row);
         else
-          {
-            std::vector<double> values(2 * dim, 0.);
-            const unsigned int node = node_of_monitor[m];
-            if (node != none)
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  const unsigned int i = dim * node + d;
-                  values[d]            = fields.displacement[i] - baseline[i];
-                  values[dim + d]      = fields.velocity[i];
-                }
-            dealii::Utilities::MPI::sum(values, world(), values);
-            row.insert(row.end(), values.begin(), values.end());
-          }
+          sample_nodes(node_of_monitor[m] == none
+                         ? std::vector<unsigned int>()
+                         : std::vector<unsigned int>{node_of_monitor[m]},
+                       row);
       }
     const Energies &e = step.energies;
     for (const double term : {e.kinetic,

@@ -276,6 +276,10 @@ namespace Keyblock
                   "The entry '" + section + "/Directions' is " +
                     support->directions + ", but there is no z in 2D.");
         }
+      for (const auto &monitor : scene.monitors)
+        check_expression<dim>(monitor->region,
+                              1,
+                              "Monitors/" + monitor->name + "/Region");
       for (const auto &traction : scene.tractions)
         {
           const std::string section = "Tractions/" + traction->name;
@@ -345,12 +349,16 @@ namespace Keyblock
             "The entry 'Check/Closed form' is " + form +
               ", which needs a monitor of kind block; add one to "
               "'Monitors/Names'.");
+    require(form != "oblique_impact" || has_monitor("region"),
+            "The entry 'Check/Closed form' is oblique_impact, which needs a "
+            "monitor of kind region over the middle of the slab; add one to "
+            "'Monitors/Names'.");
     require(form == "none" || form == "rotation" || has_monitor("joint"),
             "The entry 'Check/Closed form' is " + form +
               ", which needs a monitor of kind joint; add one to "
               "'Monitors/Names'.");
     require(form == "none" || form == "rotation" || form == "bar_impact" ||
-              !checks.joint.empty(),
+              form == "oblique_impact" || !checks.joint.empty(),
             "The entry 'Check/Joint' is empty, but the closed form " + form +
               " is measured on a joint; name it.");
     require((form != "bar_impact" && form != "bond_break") ||

@@ -366,12 +366,16 @@ namespace Keyblock
     prm.add_parameter(
       "Kind",
       kind,
-      "point: nearest node; block: the block at Location; joint: "
-      "sums over a joint.",
-      Selection("point|block|joint"));
+      "point: nearest node; block: the block at Location; region: mean over "
+      "the nodes where Region is positive, by mass; joint: sums over a joint.",
+      Selection("point|block|region|joint"));
     prm.add_parameter("Location",
                       location,
                       "Point, or a point in a block [m].");
+    prm.add_parameter("Region",
+                      region,
+                      "Region: formula of the reference position, positive "
+                      "inside [-].");
     prm.add_parameter("Joint",
                       joint,
                       "Name of the joint, or all for every contact point.");
@@ -384,7 +388,8 @@ namespace Keyblock
                       closed_form,
                       "What the last stage is compared with.",
                       Selection(
-                        "none|resting|incline|bar_impact|bond_break|newmark|"
+                        "none|resting|incline|bar_impact|oblique_impact|"
+                        "bond_break|newmark|"
                         "toppling|rotation"));
     prm.add_parameter("Joint", joint, "The joint it is measured on.");
     prm.add_parameter("Reference time",

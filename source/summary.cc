@@ -140,6 +140,7 @@ namespace Keyblock
     put(scene_tree, "cells", split.mesh.n_cells());
     put(scene_tree, "nodes", numbering.n_global());
     put(scene_tree, "joints", scene.joints.size());
+    put(scene_tree, "sign_codes", blocks.n_sign_codes);
     put(scene_tree, "pairs", split.interface.pairs.size());
     put(scene_tree, "minimum_scaled_jacobian", quality.minimum_scaled_jacobian);
     put(run_tree, "steps", run.steps);

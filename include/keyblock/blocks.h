@@ -64,6 +64,10 @@ namespace Keyblock
 
     unsigned int n_stages = 0; ///< of excavation
 
+    /** Sign codes (equation 4) among the rock that is left: what the sign test
+     * alone would take for blocks. */
+    unsigned int n_sign_codes = 0;
+
     /** Whether the nodes on a face are to be duplicated. */
     bool is_split(const Mesh<dim> &mesh,
                   const unsigned int cell,

@@ -58,6 +58,14 @@ namespace Keyblock
     std::vector<unsigned int> block_of_monitor;
 
   private:
+    void find_target(const Monitor<dim> &monitor);
+    void name_columns();
+    void sample_joint(const Monitor<dim> &monitor, std::vector<double> &row);
+
+    /** Mass-weighted means of displacement and velocity over owned @p nodes of
+     * all ranks. */
+    void sample_nodes(const std::vector<unsigned int> &nodes,
+                      std::vector<double> &row);
     void sample_block(const unsigned int block, std::vector<double> &row);
 
     const Scene<dim> &scene;
@@ -69,6 +77,7 @@ namespace Keyblock
     const Contact<dim> *contact;
 
     std::vector<unsigned int> node_of_monitor; ///< owned local node or none
+    std::vector<std::vector<unsigned int>> nodes_of_monitor; ///< of regions
     std::vector<unsigned int> block_of_node;
     std::vector<double> baseline;
     std::vector<double> cell_volume; ///< of the cells of this rank

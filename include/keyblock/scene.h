@@ -217,7 +217,8 @@ namespace Keyblock
   struct Monitor
   {
     std::string name;
-    std::string kind = "point";
+    std::string kind   = "point";
+    std::string region = "1";
     std::string joint;
     Point<dim> location;
 

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 using namespace Keyblock;
 
@@ -50,6 +51,75 @@ namespace
           std::max(largest, std::abs(cells.stress_of(c)[i] - exact[i % 4]));
     return dealii::Utilities::MPI::max(largest, world()) / 1e6;
   }
+
+  /** Largest and root-mean-square deviation of the vertical stress from -1 MPa,
+   * relative, in two squares one above the other, @p n_below and @p n_above
+   * cells wide. */
+  std::array<double, 2>
+  deviation_across_unlike_meshes(const unsigned int n_below,
+                                 const unsigned int n_above)
+  {
+    const std::string name = "unlike_" + std::to_string(n_ranks());
+    if (is_root())
+      {
+        std::ostringstream vertices, cells;
+        unsigned int n_vertices = 0, n_cells = 0;
+        for (const unsigned int part : {0, 1})
+          {
+            const unsigned int n = part == 0 ? n_below : n_above;
+            for (unsigned int j = 0; j <= n; ++j)
+              for (unsigned int i = 0; i <= n; ++i)
+                vertices << n_vertices + 1 + j * (n + 1) + i << ' '
+                         << double(i) / n << ' ' << part + double(j) / n
+                         << " 0\n";
+            for (unsigned int j = 0; j < n; ++j)
+              for (unsigned int i = 0; i < n; ++i)
+                {
+                  const unsigned int v = n_vertices + 1 + j * (n + 1) + i;
+                  cells << ++n_cells << " 0 quad " << v << ' ' << v + 1 << ' '
+                        << v + n + 2 << ' ' << v + n + 1 << '\n';
+                }
+            n_vertices += (n + 1) * (n + 1);
+          }
+        std::ofstream(name + ".ucd")
+          << n_vertices << ' ' << n_cells << " 0 0 0\n"
+          << vertices.str() << cells.str();
+        std::ofstream(name + ".prm")
+          << "subsection Domain\n set Shape = file\n set File = " << name
+          << ".ucd\n set Truncated boundaries = none\nend\n"
+             "subsection Mesh\n set Generator = file\nend\nsubsection "
+             "Contact\n set Default friction angle = "
+             "60\nend\nsubsection Materials\n set Names = rock\n subsection "
+             "rock\n set Young modulus = 1e9\n set Poisson ratio = 0\n "
+             "end\nend\nsubsection Supports\n set Names = bottom\n "
+             "subsection bottom\n set Region = 1e-9 - y\n end\nend\n"
+             "subsection Tractions\n set Names = top\n subsection top\n set "
+             "Region = y - 2 + 1e-9\n set Traction = 0; -1e6*0.5*(1 - "
+             "cos(pi*min(1, t/0.3)))\n end\nend\nsubsection Stages\n set "
+             "Names = load\n subsection load\n set Maximum steps = 100000\n "
+             "set Local damping = 0.8\n set Unbalanced ratio = 1e-10\n "
+             "end\nend\nsubsection Output\n set Write VTU = false\n set "
+             "History interval = 50\nend\n";
+      }
+    MPI_Barrier(world());
+    Simulation<2> simulation(name + ".prm", {}, name);
+    simulation.run();
+    const auto &cells = simulation.cell_arrays();
+    double largest = 0., square = 0., n_points = 0.;
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      for (unsigned int q = 0; q < 4; ++q)
+        {
+          const double error =
+            std::abs(cells.stress_of(c)[4 * q + 1] + 1e6) / 1e6;
+          largest = std::max(largest, error);
+          square += error * error;
+          n_points += 1.;
+        }
+    square   = dealii::Utilities::MPI::sum(square, world());
+    n_points = dealii::Utilities::MPI::sum(n_points, world());
+    return {{dealii::Utilities::MPI::max(largest, world()),
+             std::sqrt(square / n_points)}};
+  }
 } // namespace
 
 BOOST_AUTO_TEST_CASE(inclined_joint_transmits_uniform_stress)
@@ -65,5 +135,22 @@ BOOST_AUTO_TEST_CASE(inclined_joint_transmits_uniform_stress)
                                 << pressed);
       BOOST_TEST(bonded <= 1e-10);
       BOOST_TEST(pressed <= 1e-10);
+    }
+}
+
+// Node-to-segment contact cannot pass this test exactly: its nodal areas are
+// wrong by a share that does not depend on the cell size, in the cells at the
+// interface, so that the largest error stays and the mean square one falls.
+BOOST_AUTO_TEST_CASE(unlike_meshes_transmit_stress_approximately)
+{
+  double before = 1.;
+  for (const unsigned int n : {2, 4, 8})
+    {
+      const auto error = deviation_across_unlike_meshes(n, 3 * n / 2);
+      BOOST_TEST_MESSAGE(3 * n / 2 << " cells on " << n << ": largest "
+                                   << error[0] << ", mean square " << error[1]);
+      BOOST_TEST(error[0] < 0.07);
+      BOOST_TEST(error[1] < 0.8 * before);
+      before = error[1];
     }
 }
