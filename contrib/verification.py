@@ -109,6 +109,41 @@ def rank_table(out):
                   f" | {spread:.1e} |\n")
 
 
+def toppling_table(out):
+    """The quadrants once more, with gravity switched on at once."""
+    out.write("| scene | expected | slides | topples | sudden: slides "
+              "| sudden: topples |\n|---|---|---|---|---|---|\n")
+    for name in sorted(os.listdir(f"{ROOT}/prm/verification")):
+        if not name.startswith("toppling_"):
+            continue
+        scene = "verification/" + name[:-4]
+        slow = run(scene)["checks"]
+        # time 0 of the sudden run has the final direction of gravity
+        with open(f"{ROOT}/prm/{scene}.prm", encoding="utf-8") as file:
+            gravity = re.search(r"set Gravity = (.*)", file.read())[1]
+        gravity = re.sub(r"\bt\b", "(t + 10)", gravity)
+        sudden = run(scene, "Stages/tilt/Maximum steps=1",
+                     f"Initial state/Gravity={gravity}")["checks"]
+        out.write(f"| {name[9:-4]} | {name[9:-4].replace('_', ' ')} "
+                  f"| {slow['slides']:.0f} | {slow['topples']:.0f} "
+                  f"| {sudden['slides']:.0f} | {sudden['topples']:.0f} |\n")
+
+
+def rotation_table(out):
+    """Ten turns of a free block, with and without damping."""
+    out.write("| damping ratio | angular momentum spread | mean stress over E "
+              "| mean stress against centrifugal | energy residual |\n"
+              "|---|---|---|---|---|\n")
+    for ratio in (0.3, 0.1, 0.):
+        summary = run("verification/rotation",
+                      f"Stages/spin/Damping ratio={ratio}")
+        checks = summary["checks"]
+        out.write(f"| {ratio} | {checks['angular_momentum_spread']:.1e} "
+                  f"| {checks['mean_stress_over_modulus']:.2e} "
+                  f"| {checks['mean_stress_trace_relative_error']:+.1e} "
+                  f"| {checks['energy_residual']:.1e} |\n")
+
+
 def cost_table(out):
     """Share of contact in the time loop; medians of three runs."""
     out.write("| cells | pairs | everything tied | friction only "
@@ -146,6 +181,11 @@ def main():
                   "Sudden gravity starts the block unstressed; it is reported, "
                   "not recommended.\n\n")
         incline_table(out)
+        out.write("\n## Toppling under sudden gravity\n\nThe slow column is "
+                  "the test; gravity switched on at once is reported.\n\n")
+        toppling_table(out)
+        out.write("\n## Free rotation, ten turns\n\n")
+        rotation_table(out)
         out.write("\n## Numbers of ranks\n\n")
         rank_table(out)
         out.write("\n## Cost of an interface at rest\n\nShare of contact in "

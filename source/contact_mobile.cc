@@ -240,7 +240,8 @@ namespace Keyblock
         contact.point.strength.kinetic_friction = kinetic;
         const auto range = before.equal_range(contact.slave);
         for (auto it = range.first; it != range.second; ++it)
-          if (dot<dim>(it->second->point.normal, contact.point.normal) > 0.99)
+          if (it->second->is_ridge == contact.is_ridge &&
+              dot<dim>(it->second->point.normal, contact.point.normal) > 0.99)
             contact.point.impulse =
               add<dim>(Vector<dim>{}, scale, it->second->point.impulse);
       }
@@ -351,7 +352,7 @@ namespace Keyblock
               const bool is_minus =
                 contacts[i].slave ==
                 search.slot_of_vertex[interface.pairs[p].minus];
-              if ((!is_plus && !is_minus) ||
+              if (contacts[i].is_ridge || (!is_plus && !is_minus) ||
                   contacts[i].joint != interface.pairs[p].joint ||
                   points[i].status == ContactStatus::open)
                 continue;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Broad phase: which nodes may meet which faces.
+#include <keyblock/contact_geometry.h>
 #include <keyblock/contact_search.h>
 
 #include <deal.II/numerics/rtree.h>
@@ -8,99 +10,6 @@
 
 namespace Keyblock
 {
-  namespace
-  {
-    template <int dim>
-    Vector<dim>
-    at(const std::vector<double> &position, const unsigned int slot)
-    {
-      Vector<dim> p;
-      for (int d = 0; d < dim; ++d)
-        p[d] = position[dim * slot + d];
-      return p;
-    }
-
-    template <int dim>
-    Vector<dim>
-    difference(const Vector<dim> &a, const Vector<dim> &b)
-    {
-      return add<dim>(a, -1., b);
-    }
-
-    Vector<3>
-    cross(const Vector<3> &a, const Vector<3> &b)
-    {
-      return {{a[1] * b[2] - a[2] * b[1],
-               a[2] * b[0] - a[0] * b[2],
-               a[0] * b[1] - a[1] * b[0]}};
-    }
-
-    template <int dim>
-    Vector<dim>
-    unit(const Vector<dim> &a)
-    {
-      const double length = norm<dim>(a);
-      Vector<dim> result  = a;
-      for (double &entry : result)
-        entry /= length;
-      return result;
-    }
-
-    /** Weights of bilinear interpolation at (s, t). */
-    std::array<double, 4>
-    bilinear_weights(const double s, const double t)
-    {
-      return {{(1. - s) * (1. - t), s * (1. - t), (1. - s) * t, s * t}};
-    }
-
-    /** sum of weights times corners */
-    template <int dim, std::size_t n>
-    Vector<dim>
-    combine(const std::array<Vector<dim>, n> &corner,
-            const std::array<double, n> &weight)
-    {
-      Vector<dim> sum{};
-      for (std::size_t v = 0; v < n; ++v)
-        sum = add<dim>(sum, weight[v], corner[v]);
-      return sum;
-    }
-
-    /** Parameters of the point of a bilinear face nearest to @p p, not clamped:
-     * Gauss-Newton, which is exact after one step on parallelograms. */
-    std::array<double, 2>
-    nearest_parameters(const std::array<Vector<3>, 4> &x, const Vector<3> &p)
-    {
-      double s = 0.5, t = 0.5;
-      for (int iteration = 0; iteration < 20; ++iteration)
-        {
-          const Vector<3> a = combine<3, 4>(x, {{-(1. - t), 1. - t, -t, t}});
-          const Vector<3> b = combine<3, 4>(x, {{-(1. - s), -s, 1. - s, s}});
-          const Vector<3> r =
-            difference<3>(p, combine<3, 4>(x, bilinear_weights(s, t)));
-          const double aa = dot<3>(a, a), ab = dot<3>(a, b), bb = dot<3>(b, b);
-          const double ra = dot<3>(r, a), rb = dot<3>(r, b);
-          const double det = aa * bb - ab * ab;
-          const double ds  = (bb * ra - ab * rb) / det;
-          const double dt  = (aa * rb - ab * ra) / det;
-          s                = std::clamp(s + ds, -10., 10.);
-          t                = std::clamp(t + dt, -10., 10.);
-          if (std::abs(ds) + std::abs(dt) < 1e-13)
-            break;
-        }
-      return {{s, t}};
-    }
-
-    constexpr double inside_tolerance = 1e-9;
-
-    bool
-    is_in_unit_range(const double s)
-    {
-      return s >= -inside_tolerance && s <= 1. + inside_tolerance;
-    }
-  } // namespace
-
-
-
   template <int dim>
   ContactSearch<dim>::ContactSearch(const SplitMesh<dim> &split,
                                     const Blocks<dim> &blocks)
@@ -142,12 +51,13 @@ namespace Keyblock
         is_rigid_block.push_back(blocks.blocks[b].is_rigid);
       }
     skin_width = 0.5 * smallest;
+    if constexpr (dim == 3)
+      find_ridges(mesh);
 
     std::vector<double> position(dim * n_slots());
     for (unsigned int slot = 0; slot < n_slots(); ++slot)
       for (int d = 0; d < dim; ++d)
         position[dim * slot + d] = mesh.vertices[vertex_of_slot[slot]][d];
-    const double cosine_of_sharp = std::cos(20. * 3.14159265358979 / 180.);
     for (unsigned int slot = 0; slot < n_slots(); ++slot)
       {
         bool is_edge = false;
@@ -254,6 +164,8 @@ namespace Keyblock
         if (!candidate.faces.empty())
           candidates.push_back(candidate);
       }
+    if constexpr (dim == 3)
+      search_ridges(position, is_paired);
   }
 
 
@@ -274,6 +186,11 @@ namespace Keyblock
           for (const unsigned int slot : face_slots[f])
             is_used[slot] = true;
       }
+    for (const RidgePair &pair : ridge_pairs)
+      for (const unsigned int r : {pair.master, pair.slave})
+        for (const unsigned int f : ridges[r].faces)
+          for (const unsigned int slot : face_slots[f])
+            is_used[slot] = true;
     std::vector<unsigned int> slots;
     for (unsigned int slot = 0; slot < n_slots(); ++slot)
       if (is_used[slot])
@@ -282,202 +199,6 @@ namespace Keyblock
   }
 
 
-
-  template <int dim>
-  typename ContactSearch<dim>::Projection
-  ContactSearch<dim>::project(const std::vector<double> &position,
-                              const unsigned int slave,
-                              const unsigned int face) const
-  {
-    constexpr unsigned int n = Mesh<dim>::n_face_vertices;
-    std::array<Vector<dim>, n> x;
-    for (unsigned int v = 0; v < n; ++v)
-      x[v] = at<dim>(position, face_slots[face][v]);
-    const Vector<dim> p = at<dim>(position, slave);
-
-    Projection result;
-    result.face = face;
-    // nearest point of the segment from corner a to corner b, as weights
-    const auto on_segment = [&](const unsigned int a, const unsigned int b) {
-      const Vector<dim> along = difference<dim>(x[b], x[a]);
-      const double s = std::clamp(dot<dim>(difference<dim>(p, x[a]), along) /
-                                    dot<dim>(along, along),
-                                  0.,
-                                  1.);
-      std::array<double, n> weight{};
-      weight[a] = 1. - s;
-      weight[b] = s;
-      return weight;
-    };
-    if constexpr (dim == 2)
-      {
-        const Vector<2> along = difference<2>(x[1], x[0]);
-        const double length   = norm<2>(along);
-        const double s =
-          dot<2>(difference<2>(p, x[0]), along) / (length * length);
-        result.is_inside = is_in_unit_range(s);
-        result.weight    = on_segment(0, 1);
-        result.normal    = {{along[1] / length, -along[0] / length}};
-        result.size      = length;
-      }
-    else
-      {
-        const std::array<double, 2> st = nearest_parameters(x, p);
-        result.is_inside = is_in_unit_range(st[0]) && is_in_unit_range(st[1]);
-        const double s   = std::clamp(st[0], 0., 1.);
-        const double t   = std::clamp(st[1], 0., 1.);
-        if (result.is_inside)
-          result.weight = bilinear_weights(s, t);
-        else
-          {
-            double least = std::numeric_limits<double>::max();
-            for (const auto &edge : {std::array<unsigned int, 2>{{0, 1}},
-                                     {{2, 3}},
-                                     {{0, 2}},
-                                     {{1, 3}}})
-              {
-                const auto weight = on_segment(edge[0], edge[1]);
-                const double distance =
-                  norm<3>(difference<3>(p, combine<3, 4>(x, weight)));
-                if (distance < least)
-                  {
-                    least         = distance;
-                    result.weight = weight;
-                  }
-              }
-          }
-        const Vector<3> a    = combine<3, 4>(x, {{-(1. - t), 1. - t, -t, t}});
-        const Vector<3> b    = combine<3, 4>(x, {{-(1. - s), -s, 1. - s, s}});
-        const Vector<3> area = cross(a, b);
-        result.size          = std::sqrt(norm<3>(area));
-        result.normal        = unit<3>(area);
-      }
-    result.offset = difference<dim>(p, combine<dim, n>(x, result.weight));
-    result.gap    = dot<dim>(result.offset, result.normal);
-    return result;
-  }
-
-
-
-  template <int dim>
-  bool
-  ContactSearch<dim>::opposes(const std::vector<double> &position,
-                              const unsigned int slave,
-                              const Vector<dim> &normal) const
-  {
-    for (const unsigned int f : faces_of_slot[slave])
-      if (dot<dim>(face_normal(position, f), normal) < -0.1)
-        return true;
-    return false;
-  }
-
-
-
-  template <int dim>
-  void
-  ContactSearch<dim>::add_contacts(
-    const std::vector<double> &position,
-    const double reach,
-    const Candidate &candidate,
-    std::vector<SurfaceContact<dim>> &contacts) const
-  {
-    const double cosine_of_kink = 0.996; // 5 degrees
-    std::vector<Projection> inside, outside;
-    for (const unsigned int f : candidate.faces)
-      {
-        const Projection projection = project(position, candidate.slave, f);
-        if (projection.gap > reach || projection.gap < -0.5 * projection.size)
-          continue;
-        (projection.is_inside ? inside : outside).push_back(projection);
-      }
-    const auto add_contact = [&](const Projection &projection,
-                                 const Vector<dim> &normal,
-                                 const double gap) {
-      if (!opposes(position, candidate.slave, normal))
-        return;
-      SurfaceContact<dim> contact;
-      contact.slave           = candidate.slave;
-      contact.face            = projection.face;
-      contact.joint           = interface.surface[projection.face].joint;
-      contact.point.n_nodes   = 1 + Mesh<dim>::n_face_vertices;
-      contact.point.node[0]   = candidate.slave;
-      contact.point.weight[0] = 1.;
-      for (unsigned int v = 0; v < Mesh<dim>::n_face_vertices; ++v)
-        {
-          contact.point.node[v + 1]   = face_slots[projection.face][v];
-          contact.point.weight[v + 1] = -projection.weight[v];
-        }
-      contact.point.normal = normal;
-      contact.point.gap    = gap;
-      contacts.push_back(contact);
-    };
-
-    // over faces: the nearest of those with nearly one normal, and of the two
-    // faces of a convex ridge that the slave is below; else one per face
-    std::sort(inside.begin(), inside.end(), [](const auto &a, const auto &b) {
-      return std::abs(a.gap) < std::abs(b.gap) ||
-             (std::abs(a.gap) == std::abs(b.gap) && a.face < b.face);
-    });
-    std::vector<Projection> kept;
-    for (const Projection &projection : inside)
-      {
-        bool is_covered =
-          !opposes(position, candidate.slave, projection.normal);
-        for (const Projection &other : kept)
-          is_covered =
-            is_covered ||
-            dot<dim>(projection.normal, other.normal) > cosine_of_kink ||
-            (projection.gap < 0. && other.gap < 0. &&
-             interface.surface[projection.face].block ==
-               interface.surface[other.face].block &&
-             dot<dim>(difference<dim>(
-                        at<dim>(position, face_slots[projection.face][0]),
-                        at<dim>(position, face_slots[other.face][0])),
-                      other.normal) < 0.);
-        if (!is_covered)
-          {
-            kept.push_back(projection);
-            add_contact(projection, projection.normal, projection.gap);
-          }
-      }
-    if (!kept.empty() || outside.empty())
-      return;
-
-    // beside faces: the nearest edge or corner
-    const auto nearest =
-      std::min_element(outside.begin(),
-                       outside.end(),
-                       [](const Projection &a, const Projection &b) {
-                         return norm<dim>(a.offset) < norm<dim>(b.offset);
-                       });
-    const double distance = norm<dim>(nearest->offset);
-    if (distance > reach)
-      return;
-    Vector<dim> mean{};
-    for (const Projection &projection : outside)
-      if (norm<dim>(difference<dim>(projection.offset, nearest->offset)) <
-          1e-9 * nearest->size)
-        mean = add<dim>(mean, 1., projection.normal);
-    mean             = unit<dim>(mean);
-    const double gap = dot<dim>(nearest->offset, mean);
-    if (distance > 1e-6 * nearest->size && gap > 0.)
-      add_contact(*nearest, unit<dim>(nearest->offset), distance);
-    else if (distance < 0.1 * nearest->size)
-      add_contact(*nearest, mean, gap);
-  }
-
-
-
-  template <int dim>
-  void
-  ContactSearch<dim>::evaluate(const std::vector<double> &position,
-                               const double reach,
-                               std::vector<SurfaceContact<dim>> &contacts) const
-  {
-    contacts.clear();
-    for (const Candidate &candidate : candidates)
-      add_contacts(position, reach, candidate, contacts);
-  }
 
   template class ContactSearch<2>;
   template class ContactSearch<3>;

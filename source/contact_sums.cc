@@ -122,9 +122,13 @@ namespace Keyblock
       for (const SurfaceContact<dim> &contact : contacts)
         if (joint == none || contact.joint == joint)
           {
-            Vector<dim> place;
-            for (int d = 0; d < dim; ++d)
-              place[d] = slot_position[dim * contact.slave + d];
+            // the slave's side has the positive weights
+            const ContactPoint<dim> &point = contact.point;
+            Vector<dim> place{};
+            for (int k = 0; k < point.n_nodes; ++k)
+              for (int d = 0; d < dim; ++d)
+                place[d] += std::max(0., point.weight[k]) *
+                            slot_position[dim * point.node[k] + d];
             add_point<dim>(sums,
                            moment,
                            contact.point.impulse,

@@ -9,13 +9,15 @@
 
 namespace Keyblock
 {
-  /** A slave on a master face (or its edge or corner), as found now. */
+  /** A slave on a master face (or its edge or corner), or in 3D a ridge across
+   * another, as found now. */
   template <int dim>
   struct SurfaceContact
   {
-    unsigned int slave; ///< slot
-    unsigned int face;  ///< index into Interface::surface
+    unsigned int slave; ///< slot; of ridges the first of the slave ridge
+    unsigned int face;  ///< index into Interface::surface; one of the ridge's
     unsigned int joint; ///< of the face, or `none`
+    bool is_ridge = false;
     ContactPoint<dim> point;
   };
 
@@ -26,6 +28,10 @@ namespace Keyblock
    * the nodes by an R-tree over bounding boxes widened by a skin, and stays
    * valid until something has moved by half the skin; the narrow phase
    * (evaluate) measures gaps, normals and weights of the candidates.
+   *
+   * In 3D also ridges (convex edges between faces that differ by more than 20
+   * degrees) that cross: where both closest points are inside the ridges, and
+   * their common normal is outside both bodies.
    *
    * Not found: contact of a block with itself, but for the two sides of a joint
    * that ends inside it.
@@ -65,7 +71,7 @@ namespace Keyblock
     bool
     has_candidates() const
     {
-      return !candidates.empty();
+      return !candidates.empty() || !ridge_pairs.empty();
     }
 
     /** Contacts nearer than @p reach [m] at the present @p position. */
@@ -90,6 +96,34 @@ namespace Keyblock
       unsigned int slave;
       std::vector<unsigned int> faces;
     };
+
+    /** A convex edge of the surface (3D). */
+    struct Ridge
+    {
+      std::array<unsigned int, 2> slots, faces;
+    };
+
+    /** Indices into ridges. */
+    struct RidgePair
+    {
+      unsigned int master, slave;
+    };
+
+    void find_ridges(const Mesh<dim> &mesh);
+
+    void search_ridges(
+      const std::vector<double> &position,
+      const std::function<bool(unsigned int, unsigned int)> &is_paired);
+
+    void add_ridge_contacts(const std::vector<double> &position,
+                            const double reach,
+                            std::vector<SurfaceContact<dim>> &contacts) const;
+
+    /** Whether @p direction is outside the body at a ridge: a positive
+     * combination of the normals of its faces. */
+    bool is_in_normal_cone(const std::vector<double> &position,
+                           const Ridge &ridge,
+                           const Vector<dim> &direction) const;
 
     /** The point of a face nearest to a slave. */
     struct Projection
@@ -126,8 +160,29 @@ namespace Keyblock
     std::vector<bool> is_sharp; ///< slot on an edge or corner
     std::vector<std::vector<unsigned int>> faces_of_slot;
     std::vector<Candidate> candidates;
+    std::vector<Ridge> ridges;
+    std::vector<RidgePair> ridge_pairs;
     double skin_width;
+
+    /** Cosine of 20 degrees: faces that differ by more make a sharp edge. */
+    static constexpr double cosine_of_sharp = 0.9396926207859084;
   };
+
+  template <>
+  void ContactSearch<3>::find_ridges(const Mesh<3> &mesh);
+  template <>
+  void ContactSearch<3>::search_ridges(
+    const std::vector<double> &position,
+    const std::function<bool(unsigned int, unsigned int)> &is_paired);
+  template <>
+  void ContactSearch<3>::add_ridge_contacts(
+    const std::vector<double> &position,
+    const double reach,
+    std::vector<SurfaceContact<3>> &contacts) const;
+  template <>
+  bool ContactSearch<3>::is_in_normal_cone(const std::vector<double> &position,
+                                           const Ridge &ridge,
+                                           const Vector<3> &direction) const;
 } // namespace Keyblock
 
 #endif

@@ -43,6 +43,13 @@ namespace Keyblock
       return cells;
     }
 
+    /** What the monitors measured (rank 0). */
+    const History &
+    measured() const
+    {
+      return monitors->history;
+    }
+
     /** Displacement, or velocity, of every vertex of the split mesh, dim values
      * each, the same on all ranks (collective). */
     std::vector<double> vertex_displacements() const;
