@@ -51,8 +51,9 @@ namespace Keyblock
     for (unsigned int p = 0; p < interface.pairs.size(); ++p)
       {
         const Joint<dim> &joint = *scene.joints[interface.pairs[p].joint];
-        state[p].is_intact = scene.contact.tie_all || joint.cohesion > 0. ||
-                             joint.tensile_strength > 0.;
+        state[p].is_welded      = interface.pairs[p].unwelding_stage > 1;
+        state[p].is_intact      = state[p].is_welded || scene.contact.tie_all ||
+                             joint.cohesion > 0. || joint.tensile_strength > 0.;
         Vector<dim> n;
         for (int d = 0; d < dim; ++d)
           n[d] = interface.pairs[p].normal[d];
@@ -62,8 +63,29 @@ namespace Keyblock
           slave_area[{{search.slot_of_vertex[v], interface.pairs[p].joint}}] +=
             interface.pairs[p].area;
       }
+    measure_slots();
     set_up_groups();
+    set_up_corners();
     set_up_traction_weights();
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::begin_stage(const unsigned int number)
+  {
+    measure_slots();
+    set_up_corners();
+    set_up_traction_weights();
+    for (unsigned int p = 0; p < state.size(); ++p)
+      if (state[p].is_welded && interface.pairs[p].unwelding_stage <= number)
+        {
+          const Joint<dim> &joint = *scene.joints[interface.pairs[p].joint];
+          state[p].is_welded      = false;
+          state[p].is_intact = scene.contact.tie_all || joint.cohesion > 0. ||
+                               joint.tensile_strength > 0.;
+        }
   }
 
 
@@ -103,7 +125,7 @@ namespace Keyblock
     strength.cohesion =
       (is_intact ? joint.cohesion : joint.residual_cohesion) * p.area * kick;
     strength.tension = is_intact ? joint.tensile_strength * p.area * kick : 0.;
-    if (scene.contact.tie_all)
+    if (scene.contact.tie_all || state[pair].is_welded)
       strength.cohesion = strength.tension = 1e100;
     return strength;
   }
@@ -112,7 +134,7 @@ namespace Keyblock
 
   template <int dim>
   void
-  Contact<dim>::set_up_groups()
+  Contact<dim>::measure_slots()
   {
     node_of_slot.resize(search.n_slots());
     slot_projection.assign(search.n_slots(), nullptr);
@@ -155,6 +177,17 @@ namespace Keyblock
         if (is_held)
           slot_projection[slot] = projection_storage[slot].data();
       }
+    slot_nodes = {slot_velocity.data(),
+                  slot_inverse_mass.data(),
+                  &slot_projection};
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::set_up_groups()
+  {
     for (auto *values : {&slot_velocity,
                          &slot_old_velocity,
                          &slot_displacement,
@@ -196,13 +229,22 @@ namespace Keyblock
           }
         else
           {
-            set_up_corner(corner);
             corners.push_back(corner);
             for (unsigned int p = begin; p < end; ++p)
               corner_pairs.push_back(p);
           }
       }
     rebuild_active_slots();
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::set_up_corners()
+  {
+    for (CornerGroup &corner : corners)
+      set_up_corner(corner);
   }
 
 

@@ -62,6 +62,7 @@ namespace Keyblock
                        search.slot_of_vertex[vertex]) -
              corner.slots.begin();
     };
+    corner.is_oblique = false;
     for (int d = 0; d < dim; ++d)
       {
         unsigned int n_free = 0;
@@ -108,9 +109,10 @@ namespace Keyblock
   void
   Contact<dim>::set_up_traction_weights()
   {
+    traction_weights.clear();
     std::map<unsigned int, unsigned int> local_cell;
-    for (unsigned int c = 0; c < numbering.mesh_cell.size(); ++c)
-      local_cell[numbering.mesh_cell[c]] = c;
+    for (unsigned int c = 0; c < cells.mesh_cell.size(); ++c)
+      local_cell[cells.mesh_cell[c]] = c;
     std::map<std::array<unsigned int, 3>, unsigned int> pair_at;
     for (const unsigned int p : corner_pairs)
       pair_at[{{interface.pairs[p].minus,

@@ -91,16 +91,17 @@ namespace Keyblock
 
 
 
-    /** Drop excavated cells; returns the new index of each cell, or `none`. */
+    /** Drop cells that are not there from the start; returns the new index of
+     * each cell, or `none`. */
     template <int dim>
     std::vector<unsigned int>
-    keep_rock(const Mesh<dim> &mesh,
-              const Blocks<dim> &blocks,
-              SplitMesh<dim> &result)
+    keep_cells(const Mesh<dim> &mesh,
+               const Blocks<dim> &blocks,
+               SplitMesh<dim> &result)
     {
       std::vector<unsigned int> kept(mesh.n_cells(), none);
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        if (blocks.block_of_cell[c] != none)
+        if (mesh.excavation_stage[c] != 1)
           {
             kept[c] = result.mesh.cells.size();
             result.mesh.cells.push_back(mesh.cells[c]);
@@ -109,23 +110,19 @@ namespace Keyblock
             result.mesh.joint.push_back(mesh.joint[c]);
             result.mesh.boundary.push_back(mesh.boundary[c]);
             result.mesh.boundary_id.push_back(mesh.boundary_id[c]);
+            result.mesh.excavation_stage.push_back(mesh.excavation_stage[c]);
             result.block_of_cell.push_back(blocks.block_of_cell[c]);
           }
-      result.mesh.excavation_stage.assign(result.mesh.n_cells(), 0);
       return kept;
     }
 
 
 
-    /** Renumber the corners of the kept cells by fan; returns for each new
-     * vertex the one it was before. */
-    template <int dim>
-    std::vector<unsigned int>
-    number_fans(const Mesh<dim> &mesh,
-                const Blocks<dim> &blocks,
-                const std::vector<unsigned int> &kept,
-                const bool weld,
-                SplitMesh<dim> &result)
+    /** Corners of cells (cell times vertices per cell plus vertex), joined
+     * through the faces of which @p joins(cell, face, neighbour) holds. */
+    template <int dim, typename Condition>
+    DisjointSets
+    join_corners(const Mesh<dim> &mesh, const Condition &joins)
     {
       constexpr unsigned int n = Mesh<dim>::n_cell_vertices;
       DisjointSets corners(mesh.n_cells() * n);
@@ -133,8 +130,7 @@ namespace Keyblock
         for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
           {
             const unsigned int other = mesh.neighbor[c][f];
-            if (other == none || other < c || kept[c] == none ||
-                kept[other] == none || blocks.is_split(mesh, c, f, weld))
+            if (other == none || other < c || !joins(c, f, other))
               continue;
             for (unsigned int v = 0; v < Mesh<dim>::n_face_vertices; ++v)
               {
@@ -145,61 +141,210 @@ namespace Keyblock
                 corners.join(c * n + a, other * n + b);
               }
           }
-      std::vector<unsigned int> new_vertex(mesh.n_cells() * n, none), before;
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        if (kept[c] != none)
-          for (unsigned int v = 0; v < n; ++v)
-            {
-              const unsigned int root = corners.root(c * n + v);
-              if (new_vertex[root] == none)
-                {
-                  new_vertex[root] = before.size();
-                  before.push_back(mesh.cells[c][v]);
-                  result.mesh.vertices.push_back(
-                    mesh.vertices[mesh.cells[c][v]]);
-                }
-              result.mesh.cells[kept[c]][v] = new_vertex[root];
-            }
-      return before;
+      return corners;
     }
 
 
 
+    /**
+     * Renumber the corners of the kept cells by fan, and list the joint faces.
+     *
+     * Fans are those of the rock that is left at the end. Cells that are dug
+     * later go with one of the fans that they join, and the pairs between
+     * these fans are welded until no undug cell joins them any more.
+     */
     template <int dim>
-    void
-    list_joint_faces(const Mesh<dim> &mesh,
-                     const Blocks<dim> &blocks,
-                     const Scene<dim> &scene,
-                     const std::vector<unsigned int> &kept,
-                     std::vector<JointFace> &joint_faces)
+    class FanNumbering
     {
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-          {
-            const unsigned int other = mesh.neighbor[c][f];
-            if (kept[c] == none || other == none || kept[other] == none ||
-                !blocks.is_split(
-                  mesh, c, f, scene.contact.weld_infinite_blocks))
-              continue;
-            const unsigned int joint = mesh.joint[c][f];
-            if (scene.joints[joint]->distance(mesh.cell_center(c)) > 0.)
-              continue;
-            unsigned int other_face = 0;
-            while (mesh.neighbor[other][other_face] != c)
-              ++other_face;
-            joint_faces.push_back({kept[c], f, kept[other], other_face, joint});
-          }
-    }
+    public:
+      FanNumbering(const Mesh<dim> &mesh,
+                   const Blocks<dim> &blocks,
+                   const std::vector<unsigned int> &kept,
+                   const bool weld_infinite_blocks,
+                   const Scene<dim> &scene,
+                   SplitMesh<dim> &result)
+        : mesh(mesh)
+        , blocks(blocks)
+        , kept(kept)
+        , weld(weld_infinite_blocks)
+        , result(result)
+        , rock(join_alive(none - 1))
+        , early(join_alive(1))
+      {
+        choose_vertices();
+        number_vertices();
+        for (unsigned int s = 2; s <= blocks.n_stages; ++s)
+          alive.push_back(join_alive(s));
+        list_joint_faces(scene);
+      }
+
+      /** Vertex before the split of each new vertex. */
+      std::vector<unsigned int> before;
+
+      /** Stage that unwelds a pair of new vertices (minus, plus); absent: they
+       * never were. */
+      std::map<std::array<unsigned int, 2>, unsigned int> unwelding_stage;
+
+    private:
+      static constexpr unsigned int n = Mesh<dim>::n_cell_vertices;
+
+      bool
+      is_split(const unsigned int cell, const unsigned int face) const
+      {
+        return blocks.is_split(mesh, cell, face, weld);
+      }
+
+      /** Corners joined through cells that are there after @p stage. */
+      DisjointSets
+      join_alive(const unsigned int stage) const
+      {
+        const auto is_there = [&](const unsigned int c) {
+          return mesh.excavation_stage[c] == 0 ||
+                 mesh.excavation_stage[c] > stage;
+        };
+        return join_corners(mesh,
+                            [&](const unsigned int c,
+                                const unsigned int f,
+                                const unsigned int other) {
+                              return is_there(c) && is_there(other) &&
+                                     !is_split(c, f);
+                            });
+      }
+
+      /** Corners on the two sides of a split face, by vertex of the face. */
+      std::array<unsigned int, 2>
+      facing_corners(const unsigned int c,
+                     const unsigned int f,
+                     const unsigned int v) const
+      {
+        const unsigned int a = GeometryInfo<dim>::face_to_cell_vertices(f, v);
+        const unsigned int other = mesh.neighbor[c][f];
+        return {
+          {c * n + a, other * n + local_vertex(mesh, other, mesh.cells[c][a])}};
+      }
+
+      template <typename Action>
+      void
+      for_each_split_face(const Action &action) const
+      {
+        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+            {
+              const unsigned int other = mesh.neighbor[c][f];
+              if (other != none && kept[c] != none && kept[other] != none &&
+                  is_split(c, f))
+                action(c, f, other);
+            }
+      }
+
+      /** Which fans of rock need a vertex of their own: of fans that face each
+       * other across a joint and are one fan early, all but the first. */
+      void
+      choose_vertices()
+      {
+        is_apart.assign(mesh.n_cells() * n, false);
+        DisjointSets facing(mesh.n_cells() * n);
+        std::vector<unsigned int> fans;
+        for_each_split_face(
+          [&](const unsigned int c, const unsigned int f, const unsigned int) {
+            for (unsigned int v = 0; v < Mesh<dim>::n_face_vertices; ++v)
+              {
+                const auto corners   = facing_corners(c, f, v);
+                const unsigned int a = rock.root(corners[0]),
+                                   b = rock.root(corners[1]);
+                if (a == b || early.root(a) != early.root(b))
+                  continue;
+                facing.join(a, b);
+                fans.push_back(a);
+                fans.push_back(b);
+              }
+          });
+        for (const unsigned int fan : fans)
+          is_apart[fan] = facing.root(fan) != fan;
+      }
+
+      void
+      number_vertices()
+      {
+        std::vector<unsigned int> new_vertex(mesh.n_cells() * n, none),
+          apart_vertex(new_vertex);
+        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+          if (kept[c] != none)
+            for (unsigned int v = 0; v < n; ++v)
+              {
+                const unsigned int fan = rock.root(c * n + v);
+                const unsigned int root =
+                  is_apart[fan] ? fan : early.root(c * n + v);
+                // an early fan and a fan apart may have the same root
+                unsigned int &vertex =
+                  is_apart[fan] ? apart_vertex[root] : new_vertex[root];
+                if (vertex == none)
+                  {
+                    vertex = before.size();
+                    before.push_back(mesh.cells[c][v]);
+                    result.mesh.vertices.push_back(
+                      mesh.vertices[mesh.cells[c][v]]);
+                  }
+                result.mesh.cells[kept[c]][v] = vertex;
+              }
+      }
+
+      void
+      list_joint_faces(const Scene<dim> &scene)
+      {
+        for_each_split_face([&](const unsigned int c,
+                                const unsigned int f,
+                                const unsigned int other) {
+          const unsigned int joint = mesh.joint[c][f];
+          if (scene.joints[joint]->distance(mesh.cell_center(c)) > 0.)
+            return;
+          unsigned int other_face = 0;
+          while (mesh.neighbor[other][other_face] != c)
+            ++other_face;
+          result.interface.joint_faces.push_back(
+            {kept[c], f, kept[other], other_face, joint});
+          for (unsigned int v = 0; v < Mesh<dim>::n_face_vertices; ++v)
+            note_unwelding(facing_corners(c, f, v));
+        });
+      }
+
+      void
+      note_unwelding(const std::array<unsigned int, 2> &corners)
+      {
+        if (early.root(corners[0]) != early.root(corners[1]))
+          return;
+        unsigned int stage = 2;
+        while (stage <= blocks.n_stages && alive[stage - 2].root(corners[0]) ==
+                                             alive[stage - 2].root(corners[1]))
+          ++stage;
+        const auto vertex = [&](const unsigned int corner) {
+          return result.mesh.cells[kept[corner / n]][corner % n];
+        };
+        unwelding_stage[{{vertex(corners[0]), vertex(corners[1])}}] = stage;
+      }
+
+      const Mesh<dim> &mesh;
+      const Blocks<dim> &blocks;
+      const std::vector<unsigned int> &kept;
+      const bool weld;
+      SplitMesh<dim> &result;
+
+      DisjointSets rock;               ///< fans of the rock left at the end
+      DisjointSets early;              ///< fans at the start
+      std::vector<DisjointSets> alive; ///< fans after stage 2, 3, ...
+      std::vector<bool> is_apart;      ///< by root in rock
+    };
 
 
 
     template <int dim>
     void
     make_pairs(const Scene<dim> &scene,
-               const std::vector<unsigned int> &before,
+               const FanNumbering<dim> &fans,
                SplitMesh<dim> &result)
     {
-      Interface<dim> &interface = result.interface;
+      const std::vector<unsigned int> &before = fans.before;
+      Interface<dim> &interface               = result.interface;
       std::map<std::array<unsigned int, 4>, Pair<dim>> pairs;
       for (const JointFace &face : interface.joint_faces)
         {
@@ -222,6 +367,10 @@ namespace Keyblock
                   pair.plus   = p;
                   pair.joint  = face.joint;
                   pair.normal = scene.joints[face.joint]->normal();
+                  const auto welded =
+                    fans.unwelding_stage.find({{minus[v], p}});
+                  if (welded != fans.unwelding_stage.end())
+                    pair.unwelding_stage = welded->second;
                   pair.area += areas[v];
                   pair.face_size = std::max(pair.face_size, size);
                 }
@@ -256,7 +405,9 @@ namespace Keyblock
       const Mesh<dim> &mesh = result.mesh;
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
         for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-          if (mesh.neighbor[c][f] == none)
+          if (mesh.excavation_stage[c] == 0 &&
+              (mesh.neighbor[c][f] == none ||
+               mesh.excavation_stage[mesh.neighbor[c][f]] > 0))
             {
               SurfaceFace<dim> face;
               face.vertices = mesh.face_vertices(c, f);
@@ -296,23 +447,21 @@ namespace Keyblock
              const Scene<dim> &scene)
   {
     SplitMesh<dim> result;
-    const std::vector<unsigned int> kept = keep_rock(mesh, blocks, result);
-    const bool active                    = scene.contact.method != "none";
-    std::vector<unsigned int> before;
-    if (active)
-      before = number_fans(
-        mesh, blocks, kept, scene.contact.weld_infinite_blocks, result);
-    else
-      {
-        Blocks<dim> welded = blocks;
-        for (auto &block : welded.blocks)
-          block.is_infinite = true;
-        before = number_fans(mesh, welded, kept, true, result);
-      }
+    const std::vector<unsigned int> kept = keep_cells(mesh, blocks, result);
+    Blocks<dim> welded                   = blocks;
+    const bool is_active                 = scene.contact.method != "none";
+    if (!is_active)
+      for (auto &block : welded.blocks)
+        block.is_infinite = true;
+    const FanNumbering<dim> fans(mesh,
+                                 welded,
+                                 kept,
+                                 !is_active ||
+                                   scene.contact.weld_infinite_blocks,
+                                 scene,
+                                 result);
     find_neighbors(result.mesh);
-    if (active)
-      list_joint_faces(mesh, blocks, scene, kept, result.interface.joint_faces);
-    make_pairs(scene, before, result);
+    make_pairs(scene, fans, result);
     list_surface(result);
     return result;
   }

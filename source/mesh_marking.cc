@@ -69,6 +69,33 @@ namespace Keyblock
 
 
 
+    /** The joints below and above the region `band A B` of a material. */
+    template <int dim>
+    std::array<const Joint<dim> *, 2>
+    find_band(const Scene<dim> &scene, const Material<dim> &material)
+    {
+      const std::vector<std::string> words =
+        dealii::Utilities::split_string_list(material.region, ' ');
+      std::array<const Joint<dim> *, 2> band{};
+      for (unsigned int i = 1; i < std::min<std::size_t>(words.size(), 3); ++i)
+        for (const auto &joint : scene.joints)
+          if (joint->name == words[i])
+            band[i - 1] = joint.get();
+      AssertThrow(words.size() == 3 && band[0] && band[1],
+                  InputError("The entry 'Materials/" + material.name +
+                             "/Region' is '" + material.region +
+                             "'; a band is `band A B` with two names of "
+                             "'Joints/Names'."));
+      // the lower joint first: the upper one's points are above it
+      const Point<dim> upper =
+        band[1]->extent == "polygon" ? band[1]->vertices[0] : band[1]->point;
+      if (band[0]->distance(upper) < 0.)
+        std::swap(band[0], band[1]);
+      return band;
+    }
+
+
+
     template <int dim>
     void
     mark_materials(Mesh<dim> &mesh, const Scene<dim> &scene)
@@ -80,14 +107,21 @@ namespace Keyblock
           unsigned int n_hits       = 0;
           const bool is_id          = region.rfind("id ", 0) == 0;
           const bool is_all         = region == "all";
-          const Expression<dim> inside((is_id || is_all) ? "1" : region,
+          const bool is_band        = region.rfind("band ", 0) == 0;
+          const auto band = is_band ? find_band(scene, *scene.materials[m])
+                                    : std::array<const Joint<dim> *, 2>{};
+          const Expression<dim> inside((is_id || is_all || is_band) ? "1"
+                                                                    : region,
                                        1,
                                        "Materials/" + scene.materials[m]->name +
                                          "/Region");
           for (unsigned int c = 0; c < mesh.n_cells(); ++c)
             if (is_all ||
                 (is_id && region.substr(3) == std::to_string(mesh.region[c])) ||
-                (!is_id && inside.value(mesh.cell_center(c), 0., 0) > 0.))
+                (is_band && band[0]->distance(mesh.cell_center(c)) > 0. &&
+                 band[1]->distance(mesh.cell_center(c)) < 0.) ||
+                (!is_id && !is_band &&
+                 inside.value(mesh.cell_center(c), 0., 0) > 0.))
               {
                 mesh.material[c] = m;
                 ++n_hits;
@@ -148,17 +182,18 @@ namespace Keyblock
                             excavation->name +
                             "': a cell crosses it; set 'Mesh/Generator' to "
                             "gmsh, or move the outline to cell faces."));
-              if (is_inside)
+              const unsigned int stage = scene.stage_number(*excavation);
+              if (is_inside && (mesh.excavation_stage[c] == 0 ||
+                                stage < mesh.excavation_stage[c]))
                 {
                   ++n_hits;
-                  if (mesh.excavation_stage[c] == 0 ||
-                      excavation->stage < mesh.excavation_stage[c])
-                    mesh.excavation_stage[c] = excavation->stage;
+                  mesh.excavation_stage[c] = stage;
                 }
             }
           AssertThrow(n_hits > 0,
                       InputError("The excavation '" + excavation->name +
-                                 "' contains no cell; check 'Excavations/" +
+                                 "' contains no cell that is not dug before; "
+                                 "check 'Excavations/" +
                                  excavation->name + "' against the domain."));
         }
     }

@@ -71,13 +71,15 @@ namespace Keyblock
     , contact(contact)
     , baseline(fields.displacement)
   {
+    cell_volume.assign(split.mesh.n_cells(), 0.);
     for (const unsigned int c : numbering.mesh_cell)
-      cell_volume.push_back(split.mesh.cell_volume(c));
+      cell_volume[c] = split.mesh.cell_volume(c);
     block_of_node.assign(numbering.n_local(), none);
     for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
       for (const unsigned int v : split.mesh.cells[c])
         if (numbering.local_node(v) != none)
-          block_of_node[numbering.local_node(v)] = split.block_of_cell[c];
+          if (split.block_of_cell[c] != none)
+            block_of_node[numbering.local_node(v)] = split.block_of_cell[c];
     for (const auto &monitor : scene.monitors)
       find_target(*monitor);
     name_columns();
@@ -111,7 +113,7 @@ namespace Keyblock
       for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
         {
           const double d = split.mesh.cell_center(c).distance(monitor.location);
-          if (d < least)
+          if (d < least && split.block_of_cell[c] != none)
             {
               least = d;
               block = split.block_of_cell[c];
@@ -187,6 +189,7 @@ namespace Keyblock
                                    "stiffness_damping",
                                    "mass_damping",
                                    "local_damping",
+                                   "plastic",
                                    "residual"})
       columns.push_back("energy." + term + " [J]");
     columns.push_back("unbalanced_ratio [-]");
@@ -259,17 +262,17 @@ namespace Keyblock
     double trace = 0., volume = 0.;
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       {
-        const unsigned int mesh_cell = numbering.mesh_cell[c];
+        const unsigned int mesh_cell = cells.mesh_cell[c];
         if (split.block_of_cell[mesh_cell] != block)
           continue;
-        const double share = cell_volume[c] / (1 << dim);
+        const double share = cell_volume[mesh_cell] / (1 << dim);
         for (int q = 0; q < (1 << dim); ++q)
           {
             const double *stress = cells.stress_of(c) + q * n_stress<dim>;
             for (unsigned int d = 0; d < dim; ++d)
               trace += share * stress[d];
           }
-        volume += cell_volume[c];
+        volume += cell_volume[mesh_cell];
       }
     std::vector<double> mean = {trace, volume};
     dealii::Utilities::MPI::sum(mean, world(), mean);
@@ -357,6 +360,7 @@ namespace Keyblock
                               e.stiffness_damping,
                               e.mass_damping,
                               e.local_damping,
+                              e.plastic,
                               e.residual(),
                               step.unbalanced_ratio})
       row.push_back(term);

@@ -157,28 +157,51 @@ namespace Keyblock
     std::vector<dealii::Vector<double>> stress(components.size(),
                                                dealii::Vector<double>(n));
     std::map<unsigned int, unsigned int> local_cell;
-    for (unsigned int c = 0; c < numbering.mesh_cell.size(); ++c)
-      local_cell[numbering.mesh_cell[c]] = c;
+    for (unsigned int c = 0; c < cells.mesh_cell.size(); ++c)
+      local_cell[cells.mesh_cell[c]] = c;
+    const bool has_plastic =
+      std::any_of(scene.materials.begin(),
+                  scene.materials.end(),
+                  [](const auto &m) { return m->is_plastic(); });
+    dealii::Vector<double> plastic_strain(n);
     for (const auto &cell : numbering.triangulation->active_cell_iterators())
       {
         if (cell->is_artificial())
           continue;
         const unsigned int mesh_cell = cell->id().get_coarse_cell_id();
         const unsigned int i         = cell->active_cell_index();
-        block[i]         = blocks.blocks[split.block_of_cell[mesh_cell]].id;
-        material[i]      = split.mesh.material[mesh_cell];
-        const auto found = local_cell.find(mesh_cell);
+        const unsigned int b         = split.block_of_cell[mesh_cell];
+        block[i]                     = b == none ? 0 : blocks.blocks[b].id;
+        material[i]                  = split.mesh.material[mesh_cell];
+        const auto found             = local_cell.find(mesh_cell);
         if (found != local_cell.end())
           for (unsigned int k = 0; k < components.size(); ++k)
             for (int q = 0; q < (1 << dim); ++q)
               stress[k][i] +=
                 cells.stress_of(found->second)[q * n_stress<dim> + k] /
                 (1 << dim);
+        if (found != local_cell.end() && found->second >= cells.first_plastic())
+          for (unsigned int q = 0; q < (1 << dim); ++q)
+            plastic_strain[i] +=
+              cells.plastic_strain[(found->second - cells.first_plastic()) *
+                                     (1 << dim) +
+                                   q] /
+              (1 << dim);
       }
     rock.add_data_vector(block, "block");
     rock.add_data_vector(material, "material");
     for (unsigned int k = 0; k < components.size(); ++k)
       rock.add_data_vector(stress[k], "stress_" + components[k]);
+    if (has_plastic)
+      rock.add_data_vector(plastic_strain, "plastic_strain");
+    rock.set_cell_selection([&](const auto &cell) {
+      // not those that are dug
+      if (!cell->is_locally_owned())
+        return false;
+      const unsigned int c = cell->id().get_coarse_cell_id();
+      return local_cell.count(c) > 0 ||
+             scene.materials[split.mesh.material[c]]->is_rigid();
+    });
     rock.build_patches();
     write(rock, "rock");
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -284,6 +285,66 @@ namespace Keyblock
 
 
 
+  void
+  Stage::complete()
+  {
+    if (!is_quasi_static())
+      return;
+    if (local_damping == 0.)
+      local_damping = 0.8;
+    if (unbalanced_ratio == 0.)
+      unbalanced_ratio = 1e-5;
+    if (maximum_steps == 0)
+      maximum_steps = 200000;
+  }
+
+
+
+  template <int dim>
+  double
+  Material<dim>::apex() const
+  {
+    return friction_angle > 0. ? cohesion / std::tan(radians(friction_angle))
+                               : std::numeric_limits<double>::infinity();
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Scene<dim>::stage_number(const Excavation<dim> &excavation) const
+  {
+    if (excavation.stage == "start")
+      return 1;
+    unsigned int index = 0;
+    while (index < stages.size() && stages[index]->name != excavation.stage)
+      ++index;
+    return index + 2;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Scene<dim>::warnings() const
+  {
+    std::vector<std::string> found;
+    for (const auto &material : materials)
+      if (material->is_plastic() &&
+          material->tensile_strength > material->apex())
+        {
+          std::ostringstream text;
+          text << "The entry 'Materials/" << material->name
+               << "/Tensile strength' is " << material->tensile_strength
+               << " Pa, beyond the apex of cohesion and friction at "
+               << material->apex() << " Pa, so that it never acts.";
+          found.push_back(text.str());
+        }
+    return found;
+  }
+
+
+
   template <int dim>
   void
   Scene<dim>::declare(ParameterHandler &prm)
@@ -330,6 +391,8 @@ namespace Keyblock
     make_items(monitors, read_names(names, "Monitors"));
     declare(prm);
     parse_all(prm, file_name, overrides, false);
+    for (const auto &stage : stages)
+      stage->complete();
     cross_check();
   }
 

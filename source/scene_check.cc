@@ -230,9 +230,69 @@ namespace Keyblock
     void
     check_stage(const Stage &stage)
     {
-      require(stage.duration > 0. || stage.maximum_steps > 0,
+      require(stage.duration > 0. || stage.maximum_steps > 0 ||
+                stage.is_static(),
               "The stage '" + stage.name + "' never ends; set 'Stages/" +
                 stage.name + "/Duration' or 'Maximum steps'.");
+    }
+
+    template <int dim>
+    void
+    check_material(const Material<dim> &material)
+    {
+      const std::string section = "Materials/" + material.name;
+      if (!material.is_plastic())
+        return;
+      require(material.dilation_angle <= material.friction_angle,
+              "The entry '" + section + "/Dilation angle' is " +
+                number(material.dilation_angle) +
+                " degrees, above the friction angle of " +
+                number(material.friction_angle) +
+                "; such rock would create energy, lower it.");
+      require(material.cohesion > 0. || material.friction_angle > 0.,
+              "The material '" + material.name +
+                "' has neither cohesion nor friction; set '" + section +
+                "/Cohesion' or 'Friction angle'.");
+    }
+
+    template <int dim>
+    void
+    check_stages_of_excavations(const Scene<dim> &scene)
+    {
+      for (const auto &excavation : scene.excavations)
+        require(scene.stage_number(*excavation) < scene.stages.size() + 2,
+                "The entry 'Excavations/" + excavation->name + "/Stage' is '" +
+                  excavation->stage +
+                  "', which is not in 'Stages/Names'; name a stage there, or "
+                  "start.");
+      for (const auto &stage : scene.stages)
+        require(stage->name != "start",
+                "A stage is called 'start' in 'Stages/Names', which stands for "
+                "the time before all stages; give it another name.");
+    }
+
+    template <int dim>
+    void
+    check_initial_state(const Scene<dim> &scene)
+    {
+      const InitialState<dim> &state = scene.initial_state;
+      require(
+        state.stress.empty() || !state.has_depth_stress(),
+        "The initial stress is given twice, by 'Initial state/Stress' and "
+        "by depth; remove one.");
+      require(state.lateral_ratios.size() == 1 ||
+                state.lateral_ratios.size() == 2,
+              "The entry 'Initial state/Lateral ratios' has " +
+                std::to_string(state.lateral_ratios.size()) +
+                " numbers; give one or two.");
+      require(state.equilibrium == "none" || !scene.time_stepping.is_large(),
+              "The entry 'Initial state/Equilibrium' is static, which needs "
+              "'Time stepping/Kinematics' = small.");
+      for (const auto &stage : scene.stages)
+        require(!stage->is_static() || !scene.time_stepping.is_large(),
+                "The entry 'Stages/" + stage->name +
+                  "/Kind' is static, which needs 'Time stepping/Kinematics' = "
+                  "small.");
     }
 
     template <int dim>
@@ -253,7 +313,8 @@ namespace Keyblock
         {
           const std::string section = "Materials/" + material->name;
           if (material->region != "all" &&
-              material->region.rfind("id ", 0) != 0)
+              material->region.rfind("id ", 0) != 0 &&
+              material->region.rfind("band ", 0) != 0)
             check_expression<dim>(material->region, 1, section + "/Region");
           check_expression<dim>(material->rigid_velocity,
                                 dim,
@@ -264,6 +325,15 @@ namespace Keyblock
           const std::string section = "Supports/" + support->name;
           check_expression<dim>(support->region, 1, section + "/Region");
           check_expression<dim>(support->velocity, dim, section + "/Velocity");
+          check_expression<dim>(support->displacement,
+                                dim,
+                                section + "/Displacement");
+          require(support->velocity.empty() || support->displacement.empty(),
+                  "The support '" + support->name +
+                    "' has both 'Velocity' and 'Displacement'; keep one.");
+          require(!support->is_far_field() || !support->boundaries.empty(),
+                  "The support '" + support->name +
+                    "' is a far field, which needs 'Boundaries'; name them.");
           require(support->boundaries.empty() != support->region.empty(),
                   "The support '" + support->name +
                     "' needs exactly one of 'Boundaries' and 'Region'.");
@@ -328,8 +398,12 @@ namespace Keyblock
     require(
       !materials.empty(),
       "The entry 'Materials/Names' is empty; name at least one material.");
+    for (const auto &material : materials)
+      check_material(*material);
     for (const auto &stage : stages)
       check_stage(*stage);
+    check_stages_of_excavations(*this);
+    check_initial_state(*this);
     check_expressions(*this);
     for (const auto &monitor : monitors)
       require(monitor->kind != "joint" || monitor->joint == "all" ||

@@ -122,8 +122,8 @@ namespace Keyblock
     prm.add_parameter("To", to, "Extrusion: greatest y [m].");
     prm.add_parameter("Stage",
                       stage,
-                      "The excavation stage that removes it [1, 2, ...].",
-                      Integer(1));
+                      "Name of the stage that digs it; start: it is not there "
+                      "from the beginning.");
   }
 
   template <int dim>
@@ -186,18 +186,64 @@ namespace Keyblock
       region,
       "Where: all; `id N` for cells of a mesh file; or a formula "
       "in x, y (z) that is positive at the cell centres "
-      "inside. Later materials overwrite earlier ones.");
-    prm.add_parameter("Model",
-                      model,
-                      "elastic; rigid: a fixed (or moved) body without strain, "
-                      "whose cells cost nothing.",
-                      Selection("elastic|rigid"));
+      "inside; or `band A B` for the rock between the joints A and B. Later "
+      "materials overwrite earlier ones.");
+    prm.add_parameter(
+      "Model",
+      model,
+      "elastic; mohr_coulomb: elastic until it yields; rigid: a "
+      "fixed (or moved) body without strain, whose cells cost "
+      "nothing.",
+      Selection("elastic|mohr_coulomb|rigid"));
     prm.add_parameter("Young modulus", young_modulus, "E [Pa].", positive);
     prm.add_parameter("Poisson ratio",
                       poisson_ratio,
                       "nu [-], below 0.5.",
                       Double(-0.999, 0.4999));
     prm.add_parameter("Density", density, "rho [kg/m3].", positive);
+    prm.add_parameter("Cohesion",
+                      cohesion,
+                      "mohr_coulomb: c [Pa].",
+                      not_negative);
+    prm.add_parameter("Friction angle",
+                      friction_angle,
+                      "mohr_coulomb: phi [deg].",
+                      friction_range);
+    prm.add_parameter("Dilation angle",
+                      dilation_angle,
+                      "mohr_coulomb: psi, at most phi [deg]; -1: associated, "
+                      "psi = phi.",
+                      Double(-1., 89.));
+    prm.add_parameter("Tensile strength",
+                      tensile_strength,
+                      "mohr_coulomb: cut-off of the tensile stress [Pa]; -1: "
+                      "none besides c / tan(phi).",
+                      Double(-1.));
+    prm.add_parameter("Residual cohesion",
+                      residual_cohesion,
+                      "mohr_coulomb: c after failure [Pa]; -1: unchanged.",
+                      Double(-1.));
+    prm.add_parameter("Residual friction angle",
+                      residual_friction_angle,
+                      "mohr_coulomb: phi after failure [deg]; -1: unchanged.",
+                      Double(-1., 89.));
+    prm.add_parameter(
+      "Residual tensile strength",
+      residual_tensile_strength,
+      "mohr_coulomb: cut-off after failure [Pa]; -1: unchanged.",
+      Double(-1.));
+    prm.add_parameter("Softening strain",
+                      softening_strain,
+                      "mohr_coulomb: plastic strain over which strengths fall "
+                      "to the residual ones [-]; 0: at once.",
+                      not_negative);
+    prm.add_parameter("Integration",
+                      integration,
+                      "full: all Gauss points; mean dilatation: the volume "
+                      "change is averaged over each cell, which keeps plastic "
+                      "flow from locking; automatic: mean dilatation for "
+                      "mohr_coulomb and for Poisson ratios above 0.4.",
+                      Selection("automatic|full|mean dilatation"));
     prm.add_parameter("Rigid velocity",
                       rigid_velocity,
                       "Velocity of a rigid body, a formula in t, one component "
@@ -222,6 +268,21 @@ namespace Keyblock
                       "all; normal: a roller on each named boundary; or axes, "
                       "for example x or xz.",
                       Selection("all|normal|x|y|z|xy|xz|yz"));
+    prm.add_parameter("Kind",
+                      kind,
+                      "held: fixed or moved by Velocity; far field: springs "
+                      "with the stiffness of infinite rock around the model "
+                      "(Boundaries only), after the initial state.",
+                      Selection("held|far field"));
+    prm.add_parameter("Displacement",
+                      displacement,
+                      "Instead of Velocity: displacement reached at the end of "
+                      "the ramp of the first quasi-static or static stage, a "
+                      "formula in x, y (z) per axis [m].");
+    prm.add_parameter("Center",
+                      center,
+                      "Far field: centre of the excavation, from which the "
+                      "distance to the boundary is measured [m].");
     prm.add_parameter("Velocity",
                       velocity,
                       "Prescribed velocity, a formula in x, y (z), t per axis "
@@ -260,6 +321,36 @@ namespace Keyblock
       "Velocity",
       velocity,
       "Initial velocity, a formula in x, y (z) per axis [m/s].");
+    prm.add_parameter("Surface elevation",
+                      surface_elevation,
+                      "Elevation of the ground surface, from which depth is "
+                      "counted [m].");
+    prm.add_parameter(
+      "Vertical stress gradient",
+      vertical_stress_gradient,
+      "Compression added per metre of depth [Pa/m]; with it, or "
+      "with Surface stress, the initial stress grows with "
+      "depth.",
+      not_negative);
+    prm.add_parameter("Surface stress",
+                      surface_stress,
+                      "Vertical compression at the surface elevation [Pa].");
+    prm.add_parameter("Lateral ratios",
+                      lateral_ratios,
+                      "Horizontal over vertical stress [-]: 2D along x and out "
+                      "of the plane, 3D along and across Lateral azimuth; one "
+                      "number for both.");
+    prm.add_parameter("Lateral azimuth",
+                      lateral_azimuth,
+                      "3D: azimuth of the first lateral stress, clockwise from "
+                      "north (+y) [deg].");
+    prm.add_parameter("Equilibrium",
+                      equilibrium,
+                      "static: one elastic solve with all joints tied brings "
+                      "the initial stress into equilibrium with loads and "
+                      "supports, and displacements are zeroed; none: the "
+                      "stress is taken as it is.",
+                      Selection("none|static"));
   }
 
   void
@@ -322,18 +413,25 @@ namespace Keyblock
   void
   Stage::declare(ParameterHandler &prm)
   {
+    prm.add_parameter("Kind",
+                      kind,
+                      "dynamic: Duration of true motion; quasi-static: damped "
+                      "steps with scaled density until forces balance; static: "
+                      "one elastic solve, all joints tied.",
+                      Selection("dynamic|quasi-static|static"));
     prm.add_parameter("Duration",
                       duration,
                       "Simulated time [s].",
                       not_negative);
     prm.add_parameter("Maximum steps",
                       maximum_steps,
-                      "End after so many steps; 0: no limit.",
+                      "End after so many steps; 0: no limit, quasi-static "
+                      "200,000.",
                       Integer(0));
     prm.add_parameter("Unbalanced ratio",
                       unbalanced_ratio,
                       "End as soon as the unbalanced force over the driving "
-                      "force is below this [-]; 0: never.",
+                      "force is below this [-]; 0: never, quasi-static 1e-5.",
                       not_negative);
     prm.add_parameter("Damping ratio",
                       damping_ratio,
@@ -346,8 +444,23 @@ namespace Keyblock
                       not_negative);
     prm.add_parameter("Local damping",
                       local_damping,
-                      "Local non-viscous damping [-], quasi-static only.",
+                      "Local non-viscous damping [-]; 0: none, in quasi-static "
+                      "stages 0.8.",
                       fraction);
+    prm.add_parameter("Damp contact force",
+                      damps_contact_force,
+                      "Local damping counts contact forces; without them "
+                      "sliding jams (for comparison only).");
+    prm.add_parameter("Density scaling",
+                      scales_density,
+                      "Quasi-static: masses that let all cells take the same "
+                      "step; gravity keeps the true ones.");
+    prm.add_parameter(
+      "Ramp duration",
+      ramp_duration,
+      "Time over which the forces of what is dug are taken away "
+      "[s]; 0: four periods of the lowest mode.",
+      not_negative);
     prm.add_parameter("Friction angle override",
                       friction_angle_override,
                       "Replaces every friction angle in this stage [deg]; -1: "

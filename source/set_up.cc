@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// From the scene to arrays: cells, masses, initial state.
 #include <keyblock/set_up.h>
 
 #include <keyblock/cell_geometry.h>
+#include <keyblock/initial_stress.h>
 #include <keyblock/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <regex>
 
 namespace Keyblock
 {
   namespace
   {
-    bool
-    depends_on_time(const std::string &formula)
-    {
-      return std::regex_search(formula, std::regex("\\bt\\b"));
-    }
-
     template <int dim>
     Corners<dim, double>
     corners_of(const Mesh<dim> &mesh, const unsigned int cell)
@@ -29,25 +25,48 @@ namespace Keyblock
       return corners;
     }
 
-    /** Add @p direction to those of a support, made orthonormal; nothing if it
-     * is already held. */
-    template <int dim>
-    void
-    hold_direction(NodeSupport<dim> &support, Tensor<1, dim> direction)
+    double
+    radians(const double degrees)
     {
-      for (unsigned int k = 0; k < support.n_directions; ++k)
-        {
-          Tensor<1, dim> held;
-          for (int d = 0; d < dim; ++d)
-            held[d] = support.directions[k][d];
-          direction -= (direction * held) * held;
-        }
-      if (direction.norm() < 1e-6)
-        return;
-      direction /= direction.norm();
-      for (int d = 0; d < dim; ++d)
-        support.directions[support.n_directions][d] = direction[d];
-      ++support.n_directions;
+      return degrees * dealii::numbers::PI / 180.;
+    }
+
+    template <int dim>
+    MohrCoulomb
+    strength_of(const Material<dim> &material)
+    {
+      const auto or_peak = [](const double residual, const double peak) {
+        return residual < 0. ? peak : residual;
+      };
+      const double friction = material.friction_angle;
+      const double dilation =
+        material.dilation_angle < 0. ? friction : material.dilation_angle;
+      const double residual_friction =
+        or_peak(material.residual_friction_angle, friction);
+      MohrCoulomb strength;
+      strength.peak     = YieldStrength::from(material.cohesion,
+                                          radians(friction),
+                                          radians(dilation),
+                                          material.tensile_strength);
+      strength.residual = YieldStrength::from(
+        or_peak(material.residual_cohesion, material.cohesion),
+        radians(residual_friction),
+        radians(std::min(dilation, residual_friction)),
+        or_peak(material.residual_tensile_strength, material.tensile_strength));
+      strength.softening_strain = material.softening_strain;
+      strength.has_residual     = material.residual_cohesion >= 0. ||
+                              material.residual_friction_angle >= 0. ||
+                              material.residual_tensile_strength >= 0.;
+      return strength;
+    }
+
+    template <int dim>
+    CellKind
+    kind_of(const Material<dim> &material)
+    {
+      return material.is_plastic()            ? CellKind::plastic
+             : material.has_mean_dilatation() ? CellKind::mean_dilatation
+                                              : CellKind::elastic;
     }
   } // namespace
 
@@ -91,10 +110,11 @@ namespace Keyblock
         fields.reference[dim * node + d] =
           split.mesh.vertices[numbering.vertex_of_node[node]][d];
     fields.is_in_cluster.assign(numbering.n_local(), 0);
-    set_up_cells();
-    set_up_mass();
-    set_up_supports();
-    set_up_tractions();
+    cell_of_local.assign(numbering.cell_nodes.size(), none);
+    for (const auto &material : scene.materials)
+      cells.strengths.push_back(strength_of(*material));
+    read_formulas();
+    dig(1);
     set_up_initial_state();
     if (scene.time_stepping.is_large())
       {
@@ -106,25 +126,103 @@ namespace Keyblock
 
 
   template <int dim>
-  void
-  Conditions<dim>::set_up_cells()
+  bool
+  Conditions<dim>::is_dug(const unsigned int mesh_cell) const
   {
-    const unsigned int n = numbering.cell_nodes.size();
-    cells.nodes          = numbering.cell_nodes;
-    cells.stress.assign(std::size_t(n) * (1 << dim) * n_stress<dim>, 0.);
-    cells.beta.assign(n, 0.);
-    frequency.resize(n);
-    Corners<dim, double> last_edges{};
-    unsigned int last_material = none;
-    double highest             = 0.;
-    unsigned int highest_cell  = none;
-    for (unsigned int c = 0; c < n; ++c)
+    const unsigned int dug = split.mesh.excavation_stage[mesh_cell];
+    return dug > 0 && dug <= stage_number;
+  }
+
+
+
+  template <int dim>
+  bool
+  Conditions<dim>::digs_cells(const unsigned int number) const
+  {
+    const std::vector<unsigned int> &dug = split.mesh.excavation_stage;
+    return std::find(dug.begin(), dug.end(), number) != dug.end();
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::dig(const unsigned int number)
+  {
+    stage_number = number;
+    list_cells();
+    set_up_frequencies();
+    set_up_mass();
+    set_up_supports();
+    set_up_tractions();
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::list_cells()
+  {
+    constexpr unsigned int n_values = (1 << dim) * n_stress<dim>;
+    const CellArrays<dim> old       = std::move(cells);
+    const unsigned int old_plastic  = old.first_plastic();
+    cells                           = CellArrays<dim>();
+    cells.strengths                 = old.strengths;
+    cells.plastic_work              = old.plastic_work;
+    std::vector<unsigned int> new_place(cell_of_local.size(), none);
+    for (unsigned int kind = 0; kind < n_cell_kinds; ++kind)
       {
-        const unsigned int mesh_cell  = numbering.mesh_cell[c];
+        cells.kind_begin[kind] = cells.nodes.size();
+        for (unsigned int i = 0; i < numbering.cell_nodes.size(); ++i)
+          {
+            const unsigned int mesh_cell  = numbering.mesh_cell[i];
+            const unsigned int m          = split.mesh.material[mesh_cell];
+            const Material<dim> &material = *scene.materials[m];
+            if (is_dug(mesh_cell) || unsigned(kind_of(material)) != kind)
+              continue;
+            new_place[i] = cells.nodes.size();
+            cells.nodes.push_back(numbering.cell_nodes[i]);
+            cells.mesh_cell.push_back(mesh_cell);
+            cells.lambda.push_back(material.lame_lambda());
+            cells.mu.push_back(material.shear_modulus());
+            const unsigned int before = cell_of_local[i];
+            if (before == none)
+              cells.stress.insert(cells.stress.end(), n_values, 0.);
+            else
+              cells.stress.insert(cells.stress.end(),
+                                  old.stress_of(before),
+                                  old.stress_of(before) + n_values);
+            if (!material.is_plastic())
+              continue;
+            cells.strength.push_back(m);
+            for (unsigned int q = 0; q < (1 << dim); ++q)
+              cells.plastic_strain.push_back(
+                before == none
+                  ? 0.
+                  : old
+                      .plastic_strain[(before - old_plastic) * (1 << dim) + q]);
+          }
+      }
+    cells.kind_begin[n_cell_kinds] = cells.nodes.size();
+    cells.beta.assign(cells.nodes.size(), 0.);
+    cell_of_local = new_place;
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::set_up_frequencies()
+  {
+    Corners<dim, double> last_edges{};
+    unsigned int last_material = none, highest_cell = none;
+    double highest = 0., lowest = std::numeric_limits<double>::max();
+    frequency.resize(cells.nodes.size());
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      {
+        const unsigned int mesh_cell  = cells.mesh_cell[c];
         const unsigned int m          = split.mesh.material[mesh_cell];
         const Material<dim> &material = *scene.materials[m];
-        cells.lambda.push_back(material.lame_lambda());
-        cells.mu.push_back(material.shear_modulus());
         // congruent cells, as in structured meshes, have equal frequencies
         const auto corners = corners_of(split.mesh, mesh_cell);
         auto edges         = corners;
@@ -144,17 +242,48 @@ namespace Keyblock
                                                              material.density);
         last_edges    = edges;
         last_material = m;
+        lowest        = std::min(lowest, frequency[c]);
         if (frequency[c] > highest)
           {
             highest      = frequency[c];
             highest_cell = mesh_cell;
           }
       }
-    stable_step.frequency   = dealii::Utilities::MPI::max(highest, world());
+    lowest_frequency        = dealii::Utilities::MPI::min(lowest, world());
+    true_step.frequency     = dealii::Utilities::MPI::max(highest, world());
     const unsigned int cell = dealii::Utilities::MPI::min(
-      highest == stable_step.frequency ? highest_cell : none, world());
+      highest == true_step.frequency ? highest_cell : none, world());
     if (cell != none)
-      stable_step.place = split.mesh.cell_center(cell);
+      true_step.place = split.mesh.cell_center(cell);
+    stable_step = true_step;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Conditions<dim>::sum_masses(const bool is_scaled) const
+  {
+    std::vector<double> mass(dim * numbering.n_local(), 0.);
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      {
+        const unsigned int mesh_cell = cells.mesh_cell[c];
+        const double density =
+          scene.materials[split.mesh.material[mesh_cell]]->density;
+        const double ratio = frequency[c] / lowest_frequency;
+        const auto share =
+          lumped_mass<dim>(corners_of(split.mesh, mesh_cell),
+                           is_scaled ? density * ratio * ratio : density);
+        for (int v = 0; v < (1 << dim); ++v)
+          for (int d = 0; d < dim; ++d)
+            mass[dim * cells.nodes[c][v] + d] += share[v];
+      }
+    numbering.add_ghosts_to_owners(mass);
+    numbering.update_ghosts(mass);
+    std::vector<double> by_node(numbering.n_local());
+    for (unsigned int node = 0; node < by_node.size(); ++node)
+      by_node[node] = mass[dim * node];
+    return by_node;
   }
 
 
@@ -163,189 +292,31 @@ namespace Keyblock
   void
   Conditions<dim>::set_up_mass()
   {
-    std::vector<double> mass(dim * numbering.n_local(), 0.);
-    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+    fields.weighing_mass = sum_masses(false);
+    scale_density(false);
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::scale_density(const bool is_scaled)
+  {
+    fields.mass = is_scaled ? sum_masses(true) : fields.weighing_mass;
+    fields.inverse_mass.resize(fields.mass.size());
+    for (unsigned int node = 0; node < fields.mass.size(); ++node)
       {
-        const unsigned int mesh_cell = numbering.mesh_cell[c];
-        const auto share             = lumped_mass<dim>(
-          corners_of(split.mesh, mesh_cell),
-          scene.materials[split.mesh.material[mesh_cell]]->density);
-        for (int v = 0; v < (1 << dim); ++v)
-          for (int d = 0; d < dim; ++d)
-            mass[dim * cells.nodes[c][v] + d] += share[v];
-      }
-    numbering.add_ghosts_to_owners(mass);
-    numbering.update_ghosts(mass);
-    fields.mass.resize(numbering.n_local());
-    fields.inverse_mass.resize(numbering.n_local());
-    for (unsigned int node = 0; node < numbering.n_local(); ++node)
-      {
-        fields.mass[node] = mass[dim * node];
+        const int support =
+          fields.support_of_node.empty() ? -1 : fields.support_of_node[node];
+        const bool is_free =
+          support < 0 || !fields.supports[support].is_fixed();
         fields.inverse_mass[node] =
-          mass[dim * node] > 0. ? 1. / mass[dim * node] : 0.;
+          is_free && fields.mass[node] > 0. ? 1. / fields.mass[node] : 0.;
       }
-  }
-
-
-
-  template <int dim>
-  void
-  Conditions<dim>::set_up_supports()
-  {
-    const Mesh<dim> &mesh = split.mesh;
-    std::map<unsigned int, NodeSupport<dim>> found;
-    const auto hold_all = [&](NodeSupport<dim> &support) {
-      for (int d = 0; d < dim; ++d)
-        {
-          Tensor<1, dim> axis;
-          axis[d] = 1.;
-          hold_direction(support, axis);
-        }
-    };
-    // nodes of rigid bodies first: nothing else may move them
-    for (unsigned int m = 0; m < scene.materials.size(); ++m)
-      {
-        const Material<dim> &material = *scene.materials[m];
-        if (!material.is_rigid())
-          continue;
-        int motion = -1;
-        if (!material.rigid_velocity.empty())
-          {
-            motion = motions.size();
-            motions.push_back(std::make_unique<Expression<dim>>(
-              material.rigid_velocity, dim, "Materials/*/Rigid velocity"));
-          }
-        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-          if (mesh.material[c] == m)
-            for (const unsigned int v : mesh.cells[c])
-              {
-                const unsigned int node = numbering.local_node(v);
-                if (node == none)
-                  continue;
-                NodeSupport<dim> &support = found[node];
-                hold_all(support);
-                support.motion = motion;
-              }
-      }
-    for (const auto &support : scene.supports)
-      {
-        int motion = -1;
-        if (!support->velocity.empty())
-          {
-            motion = motions.size();
-            motions.push_back(std::make_unique<Expression<dim>>(
-              support->velocity, dim, "Supports/*/Velocity"));
-          }
-        unsigned int n_hits = 0;
-        const auto hold     = [&](const unsigned int vertex,
-                              const Tensor<1, dim> &normal) {
-          ++n_hits;
-          const unsigned int node = numbering.local_node(vertex);
-          if (node == none)
-            return;
-          NodeSupport<dim> &entry = found[node];
-          if (entry.is_fixed())
-            return;
-          if (support->directions == "normal")
-            hold_direction(entry, normal);
-          else
-            for (int d = 0; d < dim; ++d)
-              if (support->directions == "all" ||
-                  support->directions.find("xyz"[d]) != std::string::npos)
-                {
-                  Tensor<1, dim> axis;
-                  axis[d] = 1.;
-                  hold_direction(entry, axis);
-                }
-          if (motion >= 0)
-            entry.motion = motion;
-        };
-        if (!support->region.empty())
-          {
-            const Expression<dim> inside(support->region,
-                                         1,
-                                         "Supports/*/Region");
-            for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
-              if (inside.value(mesh.vertices[v], 0., 0) > 0.)
-                hold(v, Tensor<1, dim>());
-          }
-        for (const std::string &name : support->boundaries)
-          for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-            for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-              if (mesh.is_on(c, f, name))
-                for (const unsigned int v : mesh.face_vertices(c, f))
-                  hold(v,
-                       mesh.face_area_vector(c, f) /
-                         mesh.face_area_vector(c, f).norm());
-        AssertThrow(n_hits > 0,
-                    InputError("The support '" + support->name +
-                               "' holds no node; check 'Supports/" +
-                               support->name +
-                               "/Boundaries' or 'Region' against the domain."));
-      }
-    fields.support_of_node.assign(numbering.n_local(), -1);
-    for (auto &[node, support] : found)
-      {
-        support.node                 = node;
-        fields.support_of_node[node] = fields.supports.size();
-        fields.supports.push_back(support);
-        if (support.is_fixed())
-          fields.inverse_mass[node] = 0.;
-      }
-  }
-
-
-
-  template <int dim>
-  void
-  Conditions<dim>::set_up_tractions()
-  {
-    const Mesh<dim> &mesh = split.mesh;
-    for (unsigned int t = 0; t < scene.tractions.size(); ++t)
-      {
-        const Traction<dim> &traction = *scene.tractions[t];
-        tractions.push_back(std::make_unique<Expression<dim>>(
-          traction.expression, dim, "Tractions/*/Traction"));
-        is_load_constant =
-          is_load_constant && !depends_on_time(traction.expression);
-        const Expression<dim> inside(traction.region.empty() ? "-1"
-                                                             : traction.region,
-                                     1,
-                                     "Tractions/*/Region");
-        unsigned int n_hits = 0;
-        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-            {
-              if (mesh.neighbor[c][f] != none)
-                continue;
-              const Point<dim> center = mesh.face_center(c, f);
-              bool is_loaded          = inside.value(center, 0., 0) > 0.;
-              for (const std::string &name : traction.boundaries)
-                is_loaded = is_loaded || mesh.is_on(c, f, name);
-              if (!is_loaded)
-                continue;
-              ++n_hits;
-              const double area =
-                mesh.face_area_vector(c, f).norm() / Mesh<dim>::n_face_vertices;
-              for (const unsigned int v : mesh.face_vertices(c, f))
-                if (numbering.is_owned(v))
-                  nodal_tractions.push_back(
-                    {numbering.local_node(v), t, area, center});
-            }
-        AssertThrow(n_hits > 0,
-                    InputError("The traction '" + traction.name +
-                               "' loads no face; check 'Tractions/" +
-                               traction.name +
-                               "/Boundaries' or 'Region' against the domain."));
-      }
-    if (!scene.initial_state.gravity.empty())
-      {
-        gravity = std::make_unique<Expression<dim>>(scene.initial_state.gravity,
-                                                    dim,
-                                                    "Initial state/Gravity");
-        is_load_constant =
-          is_load_constant && !depends_on_time(scene.initial_state.gravity);
-      }
+    stable_step = true_step;
+    if (is_scaled)
+      stable_step.frequency = lowest_frequency;
+    bound_step_by_springs();
   }
 
 
@@ -354,11 +325,10 @@ namespace Keyblock
   void
   Conditions<dim>::set_up_initial_state()
   {
-    if (!scene.initial_state.stress.empty())
+    if (!scene.initial_state.stress.empty() ||
+        scene.initial_state.has_depth_stress())
       {
-        const Expression<dim> stress(scene.initial_state.stress,
-                                     n_stress<dim>,
-                                     "Initial state/Stress");
+        const InitialStress<dim> stress(scene.initial_state);
         for (unsigned int c = 0; c < cells.nodes.size(); ++c)
           for (int q = 0; q < (1 << dim); ++q)
             {
@@ -366,11 +336,8 @@ namespace Keyblock
               for (int v = 0; v < (1 << dim); ++v)
                 place +=
                   shape<dim>.value[q][v] *
-                  split.mesh
-                    .vertices[split.mesh.cells[numbering.mesh_cell[c]][v]];
-              for (int k = 0; k < n_stress<dim>; ++k)
-                cells.stress_of(c)[q * n_stress<dim> + k] =
-                  stress.value(place, 0., k);
+                  split.mesh.vertices[split.mesh.cells[cells.mesh_cell[c]][v]];
+              stress.evaluate(place, cells.stress_of(c) + q * n_stress<dim>);
             }
       }
     if (!scene.initial_state.velocity.empty())
@@ -399,58 +366,6 @@ namespace Keyblock
   }
 
 
-
-  template <int dim>
-  void
-  Conditions<dim>::set_load(const double time)
-  {
-    if (is_load_set && is_load_constant)
-      return;
-    is_load_set = true;
-    Tensor<1, dim> g;
-    if (gravity)
-      g = gravity->vector(Point<dim>(), time);
-    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
-      for (int d = 0; d < dim; ++d)
-        fields.load[dim * node + d] = fields.mass[node] * g[d];
-    for (const NodalTraction<dim> &entry : nodal_tractions)
-      {
-        const Tensor<1, dim> t =
-          tractions[entry.traction]->vector(entry.place, time);
-        for (int d = 0; d < dim; ++d)
-          fields.load[dim * entry.node + d] += entry.area * t[d];
-      }
-  }
-
-
-
-  template <int dim>
-  void
-  Conditions<dim>::apply_supports(const double time)
-  {
-    for (const NodeSupport<dim> &support : fields.supports)
-      {
-        if (support.node >= numbering.n_owned())
-          continue;
-        double *v = fields.velocity.data() + dim * support.node;
-        Tensor<1, dim> prescribed;
-        if (support.motion >= 0)
-          {
-            Point<dim> place;
-            for (int d = 0; d < dim; ++d)
-              place[d] = fields.reference[dim * support.node + d];
-            prescribed = motions[support.motion]->vector(place, time);
-          }
-        for (unsigned int k = 0; k < support.n_directions; ++k)
-          {
-            double excess = 0.;
-            for (int d = 0; d < dim; ++d)
-              excess += support.directions[k][d] * (v[d] - prescribed[d]);
-            for (int d = 0; d < dim; ++d)
-              v[d] -= excess * support.directions[k][d];
-          }
-      }
-  }
 
   template struct StableStep<2>;
   template struct StableStep<3>;

@@ -23,8 +23,6 @@ namespace Keyblock
         .count();
     }
 
-    /** Steps between looks at the kinetic energy for numbers not finite. */
-    constexpr unsigned int finite_check_interval = 50;
   } // namespace
 
 
@@ -111,6 +109,8 @@ namespace Keyblock
     set_up();
     if (is_root())
       {
+        for (const std::string &warning : scene.warnings())
+          std::cout << "Warning: " << warning << '\n';
         print_set_up(std::cout);
         std::cout << "The scene is valid.\n";
       }
@@ -132,85 +132,16 @@ namespace Keyblock
                              "' cannot be made (" + error.message() +
                              "); choose another by --output."));
       scene.write_used(folder + "used.prm");
+      for (const std::string &warning : scene.warnings())
+        std::cout << "Warning: " << warning << '\n';
       print_set_up(std::cout);
     });
     if (scene.output.write_vtu)
       output->write_vtu(step->time);
+    establish_initial_state();
     for (unsigned int s = 0; s < scene.stages.size(); ++s)
       run_stage(s);
     finish();
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::run_stage(const unsigned int index)
-  {
-    const Stage &stage = *scene.stages[index];
-    if (stage.reset_motion)
-      monitors->reset_baseline();
-    const double dt               = step->begin_stage(stage);
-    const double start_time       = step->time;
-    const unsigned int start_step = step->n_steps;
-    const double loop_start       = now();
-    unsigned int n_steps          = stage.duration > 0.
-                                      ? std::lround(stage.duration / dt)
-                                      : stage.maximum_steps;
-    if (stage.maximum_steps > 0)
-      n_steps = std::min(n_steps, stage.maximum_steps);
-    const unsigned int interval = scene.output.history_interval;
-    unsigned int vtu_count      = 0;
-    double vtu_time             = 0.;
-    for (unsigned int i = 1; i <= n_steps; ++i)
-      {
-        const bool is_last   = i == n_steps;
-        const bool is_sample = i % interval == 0 || is_last || i == 1;
-        step->advance(is_sample);
-        if (is_sample)
-          monitors->sample(*step, index);
-        if (i % finite_check_interval == 0 || is_last)
-          check_finite();
-        if (scene.output.write_vtu && scene.output.vtu_count > 0 &&
-            i >= double(vtu_count + 1) * n_steps / scene.output.vtu_count)
-          {
-            const double before = now();
-            output->write_vtu(step->time);
-            vtu_time += now() - before;
-            ++vtu_count;
-          }
-        report_progress(index, double(i) / n_steps);
-        if (is_sample && i > 10 && stage.unbalanced_ratio > 0. &&
-            step->unbalanced_ratio < stage.unbalanced_ratio)
-          break;
-      }
-    report.loop_time += now() - loop_start - vtu_time;
-    report.element_steps += double(step->n_steps - start_step) * n_cells_global;
-
-    StageReport stage_report;
-    stage_report.name             = stage.name;
-    stage_report.steps            = step->n_steps - start_step;
-    stage_report.time_step        = dt;
-    stage_report.unbalanced_ratio = step->unbalanced_ratio;
-    stage_report.energies         = step->energies;
-    double largest                = 0.;
-    for (unsigned int node = 0; node < numbering->n_owned(); ++node)
-      {
-        double square = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          square += std::pow(fields.displacement[dim * node + d], 2);
-        largest = std::max(largest, square);
-      }
-    stage_report.max_displacement =
-      std::sqrt(dealii::Utilities::MPI::max(largest, world()));
-    stage_reports.push_back(stage_report);
-    if (is_root())
-      std::cout << "Stage   " << stage.name << ": " << stage_report.steps
-                << " steps, " << std::setprecision(6) << step->time - start_time
-                << " s, unbalanced ratio " << stage_report.unbalanced_ratio
-                << ", largest displacement " << stage_report.max_displacement
-                << " m, energy residual "
-                << stage_report.energies.relative_residual() << std::endl;
   }
 
 

@@ -28,7 +28,51 @@ namespace Keyblock
   {
     return start + external + supports - kinetic - elastic - friction -
            contact_closure - penetration - stiffness_damping - mass_damping -
-           local_damping;
+           local_damping - plastic;
+  }
+
+
+
+  std::array<double, n_energy_terms>
+  Energies::as_array() const
+  {
+    return {{kinetic,
+             elastic,
+             external,
+             supports,
+             friction,
+             contact_closure,
+             penetration,
+             stiffness_damping,
+             mass_damping,
+             local_damping,
+             plastic,
+             excavated,
+             start}};
+  }
+
+
+
+  Energies
+  Energies::from_array(const std::array<double, n_energy_terms> &values)
+  {
+    Energies e;
+    double *const terms[] = {&e.kinetic,
+                             &e.elastic,
+                             &e.external,
+                             &e.supports,
+                             &e.friction,
+                             &e.contact_closure,
+                             &e.penetration,
+                             &e.stiffness_damping,
+                             &e.mass_damping,
+                             &e.local_damping,
+                             &e.plastic,
+                             &e.excavated,
+                             &e.start};
+    for (unsigned int i = 0; i < n_energy_terms; ++i)
+      *terms[i] = values[i];
+    return e;
   }
 
 
@@ -66,7 +110,8 @@ namespace Keyblock
 
   template <int dim>
   double
-  ExplicitStep<dim>::begin_stage(const Stage &new_stage)
+  ExplicitStep<dim>::begin_stage(const Stage &new_stage,
+                                 const unsigned int number)
   {
     stage    = new_stage;
     is_first = true;
@@ -79,7 +124,7 @@ namespace Keyblock
     conditions.set_damping(stage.damping_ratio);
     fields.local_damping.assign(
       stage.local_damping > 0. ? fields.velocity.size() : 0, 0.);
-    if (stage.reset_motion)
+    if (stage.reset_motion || stage.is_quasi_static())
       {
         if (!is_stress_current)
           compute_internal_force();
@@ -87,13 +132,122 @@ namespace Keyblock
         std::fill(fields.rate.begin(), fields.rate.end(), 0.);
         starts_at_rest = true;
       }
+    conditions.scale_density(stage.is_quasi_static() && stage.scales_density);
+    return choose_step(number);
+  }
+
+
+
+  template <int dim>
+  double
+  ExplicitStep<dim>::choose_step(const unsigned int number)
+  {
+    if (contact)
+      contact->begin_stage(number);
     dt = scene.time_stepping.safety * conditions.stable_step.limit(stage);
-    if (scene.time_stepping.maximum_step > 0.)
+    if (scene.time_stepping.maximum_step > 0. && !stage.is_quasi_static())
       dt = std::min(dt, scene.time_stepping.maximum_step);
     // a whole number of steps in the stage
     if (stage.duration > 0.)
       dt = stage.duration / std::ceil(stage.duration / dt - 1e-9);
     return dt;
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::update_forces()
+  {
+    compute_internal_force();
+    conditions.set_load(time);
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::settle_contact()
+  {
+    if (contact == nullptr)
+      return;
+    const std::vector<double> velocity = fields.velocity;
+    const Stage kept                   = stage;
+    stage                              = Stage();
+    kick                               = 0.5 * dt;
+    compute_internal_force();
+    predict();
+    contact->solve({kick, dt, 0., scene.time_stepping.is_large(), false});
+    fields.shifts.clear();
+    fields.velocity = velocity;
+    stage           = kept;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  ExplicitStep<dim>::dig(const unsigned int number)
+  {
+    update_forces();
+    const double before = elastic_energy<dim>(cells, positions());
+    conditions.dig(number);
+    excavated_energy = before - elastic_energy<dim>(cells, positions());
+    update_forces();
+    std::vector<double> carried(dim * numbering.n_owned(), 0.);
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      if (split.mesh.excavation_stage[c] == number)
+        for (const unsigned int v : split.mesh.cells[c])
+          {
+            const unsigned int node = numbering.local_node(v);
+            if (node < numbering.n_owned() && fields.mass[node] > 0.)
+              for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+                carried[i] = fields.internal_force[i] - fields.load[i] -
+                             fields.contact_force[i];
+          }
+    return carried;
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::add_displacement(const std::vector<double> &change)
+  {
+    std::fill(fields.internal_force.begin(), fields.internal_force.end(), 0.);
+    ForcePass pass;
+    pass.step = 1.;
+    add_internal_force<dim>(pass,
+                            cells,
+                            fields.reference.data(),
+                            change.data(),
+                            fields.internal_force.data(),
+                            nullptr);
+    for (std::size_t i = 0; i < change.size(); ++i)
+      fields.displacement[i] += change[i];
+    is_stress_current = true;
+    update_forces();
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::zero_displacements()
+  {
+    if (!is_stress_current)
+      compute_internal_force();
+    std::fill(fields.displacement.begin(), fields.displacement.end(), 0.);
+  }
+
+
+
+  template <int dim>
+  const double *
+  ExplicitStep<dim>::positions() const
+  {
+    return scene.time_stepping.is_large() ? fields.position.data()
+                                          : fields.reference.data();
   }
 
 
@@ -146,6 +300,12 @@ namespace Keyblock
                             fields.internal_force.data(),
                             fields.damping_force.data());
     numbering.add_ghosts_to_owners(fields.internal_force);
+    for (const NodeSpring<dim> &spring : fields.springs)
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int e = 0; e < dim; ++e)
+          fields.internal_force[dim * spring.node + d] +=
+            spring.stiffness[dim * d + e] *
+            fields.displacement[dim * spring.node + e];
     if (pass.has_damping)
       numbering.add_ghosts_to_owners(fields.damping_force);
     is_stress_current = true;
@@ -176,12 +336,15 @@ namespace Keyblock
             if (alpha > 0.)
               {
                 fields.local_damping[i] = 0.;
-                if (!fields.is_in_cluster[node] && factor > 0.)
+                if (!(fields.is_in_cluster[node] &&
+                      stage.damps_contact_force) &&
+                    factor > 0.)
                   {
+                    const double contact_force =
+                      stage.damps_contact_force ? fields.contact_force[i] : 0.;
                     const double change =
                       local_damping_change(fields.velocity[i],
-                                           factor *
-                                             (force + fields.contact_force[i]),
+                                           factor * (force + contact_force),
                                            alpha);
                     fields.local_damping[i] = fields.mass[node] * change;
                     force += change / factor;
@@ -190,7 +353,7 @@ namespace Keyblock
             fields.velocity[i] += factor * force;
           }
       }
-    conditions.apply_supports(time + 0.5 * dt);
+    conditions.apply_supports(time, dt);
     numbering.update_ghosts(fields.velocity);
   }
 
@@ -205,7 +368,7 @@ namespace Keyblock
     const double start = now();
     contact->solve({kick,
                     dt,
-                    stage.local_damping,
+                    stage.damps_contact_force ? stage.local_damping : 0.,
                     scene.time_stepping.is_large(),
                     scene.time_stepping.ledger});
     contact_seconds += now() - start;
@@ -271,14 +434,21 @@ namespace Keyblock
           internal += fields.internal_force[i] * v;
           before += fields.internal_force[i] * (v + w);
         }
-    const double stored = elastic_energy<dim>(cells,
-                                              scene.time_stepping.is_large()
-                                                ? fields.position.data()
-                                                : fields.reference.data());
-    Energies mine       = sums;
+    double stored = elastic_energy<dim>(cells, positions());
+    for (const NodeSpring<dim> &spring : fields.springs)
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int e = 0; e < dim; ++e)
+          stored += 0.5 * spring.stiffness[dim * d + e] *
+                    fields.displacement[dim * spring.node + d] *
+                    fields.displacement[dim * spring.node + e];
+    Energies mine = sums;
     // discrete energy of the leapfrog between n and n + 1 (theory, eq. 12)
     mine.elastic = stored + 0.5 * dt * internal;
     mine.kinetic = kinetic;
+    if (is_first)
+      plastic_work_at_start = cells.plastic_work;
+    mine.plastic   = cells.plastic_work - plastic_work_at_start;
+    mine.excavated = excavated_energy;
     if (is_first)
       sums.start = kinetic_before + mine.elastic - 0.5 * kick * before;
     mine.start = sums.start;
@@ -290,32 +460,12 @@ namespace Keyblock
         mine.penetration =
           contact->work.penetration - contact_work_at_start.penetration;
       }
-    std::array<double, 11> values = {{mine.kinetic,
-                                      mine.elastic,
-                                      mine.external,
-                                      mine.supports,
-                                      mine.friction,
-                                      mine.contact_closure,
-                                      mine.penetration,
-                                      mine.stiffness_damping,
-                                      mine.mass_damping,
-                                      mine.local_damping,
-                                      mine.start}};
-    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(values.data(),
-                                                                11),
-                                world(),
-                                dealii::ArrayView<double>(values.data(), 11));
-    energies = {values[0],
-                values[1],
-                values[2],
-                values[3],
-                values[4],
-                values[5],
-                values[6],
-                values[7],
-                values[8],
-                values[9],
-                values[10]};
+    std::array<double, n_energy_terms> values = mine.as_array();
+    dealii::Utilities::MPI::sum(
+      dealii::ArrayView<const double>(values.data(), values.size()),
+      world(),
+      dealii::ArrayView<double>(values.data(), values.size()));
+    energies = Energies::from_array(values);
   }
 
 
@@ -324,7 +474,8 @@ namespace Keyblock
   void
   ExplicitStep<dim>::sample_unbalanced_force()
   {
-    double unbalanced = 0., driving = 0., internal = 0.;
+    double unbalanced = 0., driving = 0., internal = 0., largest = 0.;
+    double n_free = 0.;
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       {
         if (fields.inverse_mass[node] == 0.)
@@ -347,14 +498,21 @@ namespace Keyblock
               for (unsigned int d = 0; d < dim; ++d)
                 force[d] -= held * direction[d];
             }
+        ++n_free;
         for (unsigned int d = 0; d < dim; ++d)
-          unbalanced += std::abs(force[d]);
+          {
+            unbalanced += std::abs(force[d]);
+            largest = std::max(largest, std::abs(force[d]));
+          }
       }
-    unbalanced         = dealii::Utilities::MPI::sum(unbalanced, world());
-    driving            = dealii::Utilities::MPI::sum(driving, world());
-    internal           = dealii::Utilities::MPI::sum(internal, world());
-    const double scale = driving > 0. ? driving : internal;
-    unbalanced_ratio   = scale > 0. ? unbalanced / scale : 0.;
+    unbalanced          = dealii::Utilities::MPI::sum(unbalanced, world());
+    driving             = dealii::Utilities::MPI::sum(driving, world());
+    internal            = dealii::Utilities::MPI::sum(internal, world());
+    const double scale  = driving > 0. ? driving : internal;
+    unbalanced_ratio    = scale > 0. ? unbalanced / scale : 0.;
+    largest             = dealii::Utilities::MPI::max(largest, world());
+    n_free              = dealii::Utilities::MPI::sum(n_free, world());
+    largest_nodal_ratio = scale > 0. ? largest * n_free / scale : 0.;
   }
 
 

@@ -69,6 +69,8 @@ namespace Keyblock
       put(tree, "stiffness_damping", e.stiffness_damping);
       put(tree, "mass_damping", e.mass_damping);
       put(tree, "local_damping", e.local_damping);
+      put(tree, "plastic", e.plastic);
+      put(tree, "excavated", e.excavated);
       put(tree, "residual", e.residual());
       put(tree, "relative_residual", e.relative_residual());
       return tree;
@@ -163,7 +165,18 @@ namespace Keyblock
         put(tree, "steps", stage.steps);
         put(tree, "time_step", stage.time_step);
         put(tree, "unbalanced_ratio", stage.unbalanced_ratio);
+        put(tree, "largest_nodal_ratio", stage.largest_nodal_ratio);
+        put(tree, "converged", stage.is_converged);
+        if (!stage.remark.empty())
+          put(tree, "remark", stage.remark);
         put(tree, "max_displacement", stage.max_displacement);
+        put(tree, "cells", stage.cells);
+        put(tree, "plastic_cells", stage.plastic_cells);
+        put(tree, "yielding_points", stage.yielding_points);
+        put(tree, "ramp_duration", stage.ramp_duration);
+        put(tree, "open_points", stage.points.open);
+        put(tree, "sliding_points", stage.points.sliding);
+        put(tree, "sticking_points", stage.points.sticking);
         tree.add_child("energy", energies_as_tree(stage.energies));
         stage_list.push_back({"", tree});
       }

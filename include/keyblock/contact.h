@@ -19,6 +19,7 @@ namespace Keyblock
     ContactStatus status = ContactStatus::sticking;
     bool is_intact       = false;
     bool is_converted    = false; ///< point-to-surface from now on
+    bool is_welded       = false; ///< by rock that is dug later
   };
 
   /** Sums over the contact points of one joint. */
@@ -76,6 +77,12 @@ namespace Keyblock
     /** Replace all friction angles [deg]; negative: back to the scene's. */
     void override_friction(const double angle);
 
+    /**
+     * Prepare for stage @p number of the excavation: masses, supports and cells
+     * may have changed, and pairs that rock dug by then had welded are let go.
+     */
+    void begin_stage(const unsigned int number);
+
     /** Turn predicted velocities of all local nodes into final ones. */
     void solve(const ContactStep &step);
 
@@ -129,7 +136,9 @@ namespace Keyblock
       Vector<dim> weight; ///< [m^(dim-1)]
     };
 
+    void measure_slots();
     void set_up_groups();
+    void set_up_corners();
     void set_up_corner(CornerGroup &corner);
     void set_up_traction_weights();
     void rebuild_active_slots();

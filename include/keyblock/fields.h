@@ -26,6 +26,14 @@ namespace Keyblock
     }
   };
 
+  /** Elastic rest of the world beside a node. */
+  template <int dim>
+  struct NodeSpring
+  {
+    unsigned int node;
+    std::array<double, dim * dim> stiffness; ///< by rows [N/m]
+  };
+
   /**
    * The state of all local nodes: dim values per node, owned nodes first. A
    * node that is fixed in all directions has inverse mass zero.
@@ -44,8 +52,9 @@ namespace Keyblock
     std::vector<double> contact_force;  ///< impulses of the last step / h [N]
     std::vector<double> local_damping;  ///< impulse of this step, if any [N s]
 
-    std::vector<double> mass;         ///< one per node [kg]
-    std::vector<double> inverse_mass; ///< one per node [1/kg]
+    std::vector<double> mass;          ///< one per node, scaled or not [kg]
+    std::vector<double> weighing_mass; ///< the true one [kg]
+    std::vector<double> inverse_mass;  ///< one per node [1/kg]
 
     /** One per node: held by a cluster, whose solve applies the damping. */
     std::vector<unsigned char> is_in_cluster;
@@ -57,6 +66,7 @@ namespace Keyblock
     /** Velocity of the last move with its shifts, kept in `large` only. */
     std::vector<double> rate;
 
+    std::vector<NodeSpring<dim>> springs;   ///< of owned nodes
     std::vector<NodeSupport<dim>> supports; ///< sorted by node
     std::vector<int> support_of_node;       ///< index or -1, one per node
   };

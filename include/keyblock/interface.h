@@ -15,6 +15,9 @@ namespace Keyblock
     Tensor<1, dim> normal;    ///< unit, from minus to plus
     double area      = 0.;    ///< sums to the joint's area [m^(dim-1)]
     double face_size = 0.;    ///< of the largest face beside it [m]
+
+    /** Excavation stage until which undug rock welds it; 0: not welded. */
+    unsigned int unwelding_stage = 0;
   };
 
   /** A face of a joint with the cells on its two sides. */
@@ -55,20 +58,24 @@ namespace Keyblock
     }
   };
 
-  /** The mesh that is computed on: cells that are never dug, nodes on active
-   * joints duplicated. */
+  /** The mesh that is computed on: cells that are there at the start, nodes on
+   * active joints duplicated. */
   template <int dim>
   struct SplitMesh
   {
     Mesh<dim> mesh;
-    std::vector<unsigned int> block_of_cell; ///< index into Blocks::blocks
+
+    /** Index into Blocks::blocks; `none` for cells that are dug later. */
+    std::vector<unsigned int> block_of_cell;
     Interface<dim> interface;
   };
 
   /**
    * Give every vertex one copy per fan of cells around it that are joined
    * through faces on no active joint, and list the pairs this makes. The
-   * copies of joint tips stay one vertex. Excavated cells are dropped.
+   * copies of joint tips stay one vertex. Cells dug before the first stage are
+   * dropped; joints inside rock that is dug later are welded, and so are the
+   * pairs on its outline until it is dug.
    */
   template <int dim>
   SplitMesh<dim> split_mesh(const Mesh<dim> &mesh,

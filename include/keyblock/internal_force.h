@@ -3,6 +3,7 @@
 #define keyblock_internal_force_h
 
 #include <keyblock/material.h>
+#include <keyblock/mohr_coulomb.h>
 #include <keyblock/shape.h>
 
 #include <array>
@@ -10,6 +11,15 @@
 
 namespace Keyblock
 {
+  /** What a cell computes, and so which loop it is in. */
+  enum class CellKind
+  {
+    elastic,         ///< all Gauss points for themselves
+    mean_dilatation, ///< elastic, volume change averaged over the cell
+    plastic          ///< the same with Mohr-Coulomb strength
+  };
+  constexpr unsigned int n_cell_kinds = 3;
+
   /** What the hot loop over cells reads and writes, one entry per deformable
    * cell of this rank. Free of deal.II. */
   template <int dim>
@@ -18,11 +28,30 @@ namespace Keyblock
     static constexpr int n_vertices = 1 << dim;
 
     std::vector<std::array<unsigned int, n_vertices>> nodes;
+    /** Index of each cell in the split mesh. */
+    std::vector<unsigned int> mesh_cell;
+
+    /** Cells are sorted by kind: index of the first cell of each. */
+    std::array<unsigned int, n_cell_kinds + 1> kind_begin{};
+
     std::vector<double> lambda, mu; ///< [Pa]
     std::vector<double> beta;       ///< stiffness damping time [s]
 
     /** n_stress<dim> values at each Gauss point of each cell [Pa]. */
     std::vector<double> stress;
+
+    // Mohr-Coulomb cells only, counted from the first of them
+    std::vector<MohrCoulomb> strengths;   ///< one per material
+    std::vector<unsigned short> strength; ///< of each cell, into strengths
+    std::vector<double> plastic_strain;   ///< of each Gauss point [-]
+    double plastic_work     = 0.;         ///< so far, on this rank [J]
+    unsigned int n_yielding = 0;          ///< Gauss points, last pass
+
+    unsigned int
+    first_plastic() const
+    {
+      return kind_begin[unsigned(CellKind::plastic)];
+    }
 
     double *
     stress_of(const unsigned int cell)
@@ -53,6 +82,12 @@ namespace Keyblock
    * @param position reference positions if small, current ones if large [m]
    * @param rate velocity over the last step, v(n-1/2) [m/s]
    *
+   * Cells of kind mean_dilatation and plastic replace the volume change, and
+   * the pressure in the force, by its mean over the cell (B-bar, Hughes 1980);
+   * in 2D that gives an out-of-plane strain. Plastic cells return the stress to
+   * the yield surface and book the work of plastic strains with the mean of the
+   * stresses before and after the step, as the leapfrog's energy needs.
+   *
    * In `large` the gradient is taken at the middle of the step and the stress
    * is rotated by the spin, so that a rigid rotation strains nothing; the force
    * uses the geometry at the step's end, so that it has no moment.
@@ -64,6 +99,18 @@ namespace Keyblock
                           const double *rate,
                           double *internal,
                           double *damping);
+
+  /**
+   * Stiffness matrix of a cell, by rows, degrees of freedom dim * vertex +
+   * axis; the same integration as add_internal_force [N/m].
+   * @param is_averaged whether the volume change is averaged over the cell
+   */
+  template <int dim>
+  std::array<double, dim *(1 << dim) * dim *(1 << dim)>
+  cell_stiffness(const std::array<std::array<double, dim>, 1 << dim> &corners,
+                 const bool is_averaged,
+                 const double lambda,
+                 const double mu);
 
   /** Elastic energy of all cells of this rank [J]. */
   template <int dim>

@@ -80,7 +80,7 @@ namespace Keyblock
     std::vector<std::vector<unsigned int>> nodes_of_monitor; ///< of regions
     std::vector<unsigned int> block_of_node;
     std::vector<double> baseline;
-    std::vector<double> cell_volume; ///< of the cells of this rank
+    std::vector<double> cell_volume; ///< of mesh cells on this rank
   };
 } // namespace Keyblock
 

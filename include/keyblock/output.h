@@ -8,14 +8,28 @@
 
 namespace Keyblock
 {
+  /** Numbers of contact points by state. */
+  struct JointPoints
+  {
+    unsigned int open = 0, sliding = 0, sticking = 0, intact = 0;
+  };
+
   /** What happened in one stage, for summary.json. */
   struct StageReport
   {
     std::string name;
-    unsigned int steps      = 0;
-    double time_step        = 0.;
-    double unbalanced_ratio = 0.;
-    double max_displacement = 0.;
+    unsigned int steps         = 0;
+    double time_step           = 0.;
+    double unbalanced_ratio    = 0.;
+    double max_displacement    = 0.;
+    double largest_nodal_ratio = 0.; ///< largest force over the mean one [-]
+    bool is_converged          = true;
+    std::string remark; ///< for people: what moves if it did not converge
+    unsigned int cells           = 0;  ///< deformable ones
+    unsigned int plastic_cells   = 0;  ///< of these in the plastic loop
+    unsigned int yielding_points = 0;  ///< Gauss points, last step
+    double ramp_duration         = 0.; ///< [s]
+    JointPoints points;
     Energies energies;
   };
 

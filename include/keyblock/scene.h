@@ -61,7 +61,7 @@ namespace Keyblock
     double from   = 0.;
     double to     = 0.;
     std::string formula;
-    unsigned int stage = 1;
+    std::string stage = "start";
 
     void declare(ParameterHandler &prm);
   };
@@ -109,11 +109,42 @@ namespace Keyblock
     double density             = 2700.;
     std::string rigid_velocity = "";
 
+    // strength of the model mohr_coulomb; -1 as the entries explain
+    double cohesion                  = 0.;
+    double friction_angle            = 30.;
+    double dilation_angle            = 0.;
+    double tensile_strength          = -1.;
+    double residual_cohesion         = -1.;
+    double residual_friction_angle   = -1.;
+    double residual_tensile_strength = -1.;
+    double softening_strain          = 0.;
+    std::string integration          = "automatic";
+
     bool
     is_rigid() const
     {
       return model == "rigid";
     }
+    bool
+    is_plastic() const
+    {
+      return model == "mohr_coulomb";
+    }
+
+    /** Whether the volume change is averaged over each cell (B-bar), so that
+     * neither plastic flow nor a high Poisson ratio locks. */
+    bool
+    has_mean_dilatation() const
+    {
+      return integration == "mean dilatation" ||
+             (integration == "automatic" &&
+              (is_plastic() || poisson_ratio > 0.4));
+    }
+
+    /** Tensile strength at which the cone of friction and cohesion ends [Pa];
+     * infinite without friction. */
+    double apex() const;
+
     double
     lame_lambda() const
     {
@@ -138,6 +169,15 @@ namespace Keyblock
     std::string region;
     std::string directions = "all";
     std::string velocity;
+    std::string displacement;
+    std::string kind = "held";
+    Point<dim> center;
+
+    bool
+    is_far_field() const
+    {
+      return kind == "far field";
+    }
 
     void declare(ParameterHandler &prm);
   };
@@ -161,6 +201,21 @@ namespace Keyblock
     std::string gravity;
     std::string stress;
     std::string velocity;
+
+    // stress that grows with depth
+    double surface_elevation           = 0.;
+    double vertical_stress_gradient    = 0.;
+    double surface_stress              = 0.;
+    std::vector<double> lateral_ratios = {1.};
+    double lateral_azimuth             = 90.;
+
+    std::string equilibrium = "none";
+
+    bool
+    has_depth_stress() const
+    {
+      return vertical_stress_gradient > 0. || surface_stress != 0.;
+    }
 
     void declare(ParameterHandler &prm);
   };
@@ -196,18 +251,38 @@ namespace Keyblock
     void declare(ParameterHandler &prm);
   };
 
-  /** A stretch of time with its own damping. */
+  /** A stretch of time with its own damping, or a way to a new equilibrium;
+   * excavations that name it are dug at its start. */
   struct Stage
   {
     std::string name;
+    std::string kind               = "dynamic";
     double duration                = 0.;
     unsigned int maximum_steps     = 0;
     double unbalanced_ratio        = 0.;
     double damping_ratio           = 0.;
     double mass_damping            = 0.;
     double local_damping           = 0.;
+    bool damps_contact_force       = true;
+    bool scales_density            = true;
+    double ramp_duration           = 0.;
     double friction_angle_override = -1.;
     bool reset_motion              = false;
+
+    bool
+    is_quasi_static() const
+    {
+      return kind == "quasi-static";
+    }
+    bool
+    is_static() const
+    {
+      return kind == "static";
+    }
+
+    /** Give the entries of a quasi-static stage that were left at zero the
+     * values of its driver. */
+    void complete();
 
     void declare(ParameterHandler &prm);
   };
@@ -280,6 +355,13 @@ namespace Keyblock
      */
     void read(const std::string &file_name,
               const std::vector<std::string> &overrides);
+
+    /** Number of the stage that digs @p excavation: 1 before the first stage,
+     * 2 with the first one of `Stages/Names`, and so on. */
+    unsigned int stage_number(const Excavation<dim> &excavation) const;
+
+    /** What is allowed and probably not meant, one sentence each. */
+    std::vector<std::string> warnings() const;
 
     /** Contradictions between entries, before anything is computed. */
     void cross_check() const;

@@ -7,6 +7,7 @@
 #include <keyblock/fields.h>
 #include <keyblock/internal_force.h>
 
+#include <map>
 #include <memory>
 
 namespace Keyblock
@@ -55,18 +56,65 @@ namespace Keyblock
     /** Set cells.beta for stiffness-proportional damping. */
     void set_damping(const double damping_ratio);
 
-    /** Set fields.load to gravity and tractions at @p time. */
+    /**
+     * Take away the cells that are dug up to stage @p number
+     * (Scene::stage_number): cells, masses, supports and tractions are made
+     * anew, stresses of the cells that stay are kept. What the dug cells
+     * carried is left unbalanced.
+     */
+    void dig(const unsigned int number);
+
+    /** Whether stage @p number digs anything. */
+    bool digs_cells(const unsigned int number) const;
+
+    /** Use masses that give all cells the lowest frequency of them, or the
+     * true ones. Gravity is not affected. */
+    void scale_density(const bool is_scaled);
+
+    /**
+     * Add @p force (owned degrees of freedom) to the load and take it away
+     * from time @p start on over @p duration, as half a cosine [N, s].
+     * Displacements of supports grow with it.
+     */
+    void start_ramp(const std::vector<double> &force,
+                    const double start,
+                    const double duration);
+
+    /** Share of the ramped force that is left at @p time [-]. */
+    double ramp_share_left(const double time) const;
+
+    bool has_far_field() const;
+
+    /** Replace the far-field supports by springs, and what they carry now by a
+     * dead load; needs the present internal force and load. */
+    void release_far_field();
+
+    /** Set fields.load to gravity, tractions and ramped forces at @p time. */
     void set_load(const double time);
 
-    /** Remove held components of fields.velocity and put in prescribed ones
-     * at @p time, on owned nodes. */
-    void apply_supports(const double time);
+    /** Remove held components of fields.velocity and put in those prescribed
+     * for the step from @p time to time + @p step, on owned nodes. */
+    void apply_supports(const double time, const double step);
 
-    StableStep<dim> stable_step;
+    /** Displacement [m] that a support prescribes at the end of the ramp. */
+    Tensor<1, dim> prescribed_displacement(const NodeSupport<dim> &s) const;
+
+    bool is_dug(const unsigned int mesh_cell) const;
+
+    StableStep<dim> stable_step;   ///< of the masses in use
     std::vector<double> frequency; ///< of each deformable cell here [rad/s]
 
   private:
-    void set_up_cells();
+    void read_formulas();
+    void list_cells();
+    void set_up_frequencies();
+    std::vector<double> sum_masses(const bool is_scaled) const;
+    void add_far_field_face(
+      const Support<dim> &support,
+      const unsigned int cell,
+      const unsigned int face,
+      std::map<unsigned int, std::array<double, dim * dim>> &stiffness) const;
+    void bound_step_by_springs();
     void set_up_mass();
     void set_up_supports();
     void set_up_tractions();
@@ -81,8 +129,18 @@ namespace Keyblock
     std::unique_ptr<Expression<dim>> gravity;
     std::vector<std::unique_ptr<Expression<dim>>> motions, tractions;
     std::vector<NodalTraction<dim>> nodal_tractions;
+    std::vector<bool> is_displacement; ///< one per motion
     bool is_load_constant = true;
     bool is_load_set      = false;
+
+    unsigned int stage_number = 0;
+    std::vector<unsigned int> cell_of_local; ///< into cells, or `none`
+    StableStep<dim> true_step;               ///< of the true masses
+    double lowest_frequency = 0.;            ///< of all cells [rad/s]
+
+    std::vector<double> carried_force, far_field_force; ///< [N]
+    double ramp_start = 0., ramp_duration = 0., share_carried = 0.;
+    bool is_far_field_free = false;
   };
 } // namespace Keyblock
 

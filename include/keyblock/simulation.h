@@ -61,7 +61,14 @@ namespace Keyblock
     void make_geometry();
     void print_set_up(std::ostream &out) const;
     void set_up();
+    void establish_initial_state();
     void run_stage(const unsigned int index);
+    void dig_stage(const Stage &stage, const unsigned int number);
+    unsigned int step_through(const Stage &stage, const unsigned int index);
+    void solve_stage();
+    double ramp_duration_of(const Stage &stage) const;
+    void report_stage(const Stage &stage, const unsigned int n_steps);
+    std::string name_what_moves() const;
     void check_finite();
     void report_progress(const unsigned int stage, const double fraction);
     void finish();
@@ -83,8 +90,11 @@ namespace Keyblock
 
     RunReport report;
     std::vector<StageReport> stage_reports;
-    double wall_start                 = 0.;
-    double last_progress              = 0.;
+    double wall_start    = 0.;
+    double last_progress = 0.;
+    double ramp_end      = 0.; ///< of the stage [s]
+    bool is_converged    = true;
+    std::vector<double> stage_start_displacement;
     unsigned long long n_cells_global = 0;
   };
 } // namespace Keyblock

@@ -9,6 +9,8 @@
 
 namespace Keyblock
 {
+  constexpr unsigned int n_energy_terms = 13;
+
   /** Every energy of the ledger [J], per metre of thickness in 2D. Work terms
    * count since the start of the stage; losses are positive. */
   struct Energies
@@ -23,7 +25,13 @@ namespace Keyblock
     double stiffness_damping = 0.;
     double mass_damping      = 0.;
     double local_damping     = 0.;
+    double plastic           = 0.; ///< dissipated by plastic strains
+    double excavated         = 0.; ///< elastic, left with the cells dug first
     double start = 0.; ///< kinetic and elastic at the start of the stage
+
+    std::array<double, n_energy_terms> as_array() const;
+    static Energies
+    from_array(const std::array<double, n_energy_terms> &values);
 
     /** What the terms leave unexplained [J]. */
     double residual() const;
@@ -56,8 +64,33 @@ namespace Keyblock
                  Fields<dim> &fields,
                  Contact<dim> *contact);
 
-    /** Prepare a stage; returns the length of its steps [s]. */
-    double begin_stage(const Stage &stage);
+    /** Prepare stage @p number (Scene::stage_number); returns the length of its
+     * steps [s]. */
+    double begin_stage(const Stage &stage, const unsigned int number);
+
+    /** Bring stresses and forces up to the present displacements. */
+    void update_forces();
+
+    /** Solve contact for bodies at rest, without moving them: forces of points
+     * and contact_force are those that hold them. */
+    void settle_contact();
+
+    /**
+     * Dig stage @p number (Conditions::dig). Returns what the dug cells did to
+     * each owned degree of freedom: the force that keeps it balanced [N].
+     */
+    std::vector<double> dig(const unsigned int number);
+
+    /** Add the elastic response to the displacement increment @p change (local
+     * degrees of freedom), as of a static solve. */
+    void add_displacement(const std::vector<double> &change);
+
+    /** Take displacements from here on from the present state. */
+    void zero_displacements();
+
+    /** Call the masses' users after they changed, and take the step they
+     * allow. Returns its length [s]. */
+    double choose_step(const unsigned int number);
 
     /** Advance by one step; returns its length [s]. With @p sample the
      * energies and the unbalanced force are measured. */
@@ -71,10 +104,14 @@ namespace Keyblock
     /** Sum of |unbalanced force| over sum of |load|, as last sampled [-]. */
     double unbalanced_ratio = 0.;
 
+    /** Largest unbalanced force of a node over the mean force, the same [-]. */
+    double largest_nodal_ratio = 0.;
+
     double contact_seconds = 0.; ///< wall time spent in contact
     double force_seconds   = 0.; ///< wall time spent in cell forces
 
   private:
+    const double *positions() const;
     void compute_internal_force();
     void predict();
     void resolve_contact();
@@ -99,6 +136,8 @@ namespace Keyblock
     bool is_stress_current = true; ///< contains the last move
     Energies sums;                 ///< work terms of this rank
     ContactWork contact_work_at_start;
+    double plastic_work_at_start = 0.;
+    double excavated_energy      = 0.;
   };
 } // namespace Keyblock
 

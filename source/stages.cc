@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The initial state, and what happens in one stage.
+#include <keyblock/equilibrium.h>
+#include <keyblock/mpi.h>
+#include <keyblock/simulation.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    double
+    now()
+    {
+      return std::chrono::duration<double>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+    }
+
+    /** Steps between looks for numbers that are not finite. */
+    constexpr unsigned int finite_check_interval = 50;
+
+    /** Steps between measurements while forces are brought into balance. */
+    constexpr unsigned int quasi_static_interval = 25;
+
+    /** Static solves that refine each other, at most. */
+    constexpr unsigned int maximum_refinements = 4;
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::establish_initial_state()
+  {
+    const bool digs_later = blocks.n_stages > 1;
+    const bool is_static  = scene.initial_state.equilibrium == "static";
+    if (!is_static && !digs_later && !conditions->has_far_field())
+      return;
+    step->begin_stage(Stage(), 1);
+    step->update_forces();
+    if (is_static)
+      {
+        const double start = now();
+        solve_stage();
+        step->zero_displacements();
+        if (is_root())
+          std::cout << "Static  initial equilibrium in " << std::setprecision(3)
+                    << now() - start << " s, unbalanced ratio "
+                    << step->unbalanced_ratio << std::endl;
+      }
+    conditions->release_far_field();
+    step->choose_step(1);
+    step->settle_contact();
+    if (contact == nullptr)
+      return;
+    const JointSums<dim> points = contact->count_points();
+    if (is_root() && points.n_open + points.n_sliding > 0)
+      std::cout << "Joints  " << points.n_open + points.n_sliding
+                << " points cannot bear the initial stress: " << points.n_open
+                << " open, " << points.n_sliding << " slide" << std::endl;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::run_stage(const unsigned int index)
+  {
+    const Stage &stage        = *scene.stages[index];
+    const unsigned int number = index + 2;
+    if (stage.reset_motion)
+      monitors->reset_baseline();
+    stage_start_displacement = fields.displacement;
+    is_converged             = true;
+    dig_stage(stage, number);
+    const unsigned int start_step = step->n_steps;
+    unsigned int n_steps          = 0;
+    if (stage.is_static())
+      {
+        solve_stage();
+        step->settle_contact();
+        monitors->sample(*step, index);
+        if (scene.output.write_vtu && scene.output.vtu_count > 0)
+          output->write_vtu(step->time);
+      }
+    else
+      n_steps = step_through(stage, index);
+    report.element_steps += double(step->n_steps - start_step) * n_cells_global;
+    report_stage(stage, n_steps);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::dig_stage(const Stage &stage, const unsigned int number)
+  {
+    std::vector<double> carried;
+    const bool digs = conditions->digs_cells(number);
+    if (digs)
+      {
+        carried = step->dig(number);
+        n_cells_global =
+          dealii::Utilities::MPI::sum<unsigned long long>(cells.nodes.size(),
+                                                          world());
+      }
+    step->begin_stage(stage, number);
+    ramp_end       = step->time;
+    bool is_ramped = digs;
+    for (const auto &support : scene.supports)
+      is_ramped = is_ramped || (!support->displacement.empty() && number == 2);
+    if (!is_ramped || stage.is_static())
+      {
+        conditions->start_ramp({}, step->time, 0.);
+        return;
+      }
+    const double duration = ramp_duration_of(stage);
+    conditions->start_ramp(carried, step->time, duration);
+    ramp_end = step->time + duration;
+  }
+
+
+
+  template <int dim>
+  double
+  Simulation<dim>::ramp_duration_of(const Stage &stage) const
+  {
+    if (stage.ramp_duration > 0. || !stage.is_quasi_static())
+      return stage.ramp_duration;
+    StaticSolver<dim> solver(split, *numbering, *conditions, cells, fields);
+    return 4. * solver.lowest_period();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::solve_stage()
+  {
+    StaticSolver<dim> solver(split, *numbering, *conditions, cells, fields);
+    double share = 1.;
+    for (unsigned int i = 0; i < maximum_refinements; ++i)
+      {
+        step->update_forces();
+        std::vector<double> force(fields.load.size(), 0.);
+        for (unsigned int k = 0; k < dim * numbering->n_owned(); ++k)
+          force[k] = fields.load[k] - fields.internal_force[k];
+        const double ratio     = solver.residual_ratio(force);
+        step->unbalanced_ratio = ratio;
+        if (ratio < 1e-14 && share == 0.)
+          break;
+        step->add_displacement(solver.solve(force, share));
+        share = 0.;
+      }
+    step->update_forces();
+    std::vector<double> force(fields.load.size(), 0.);
+    for (unsigned int k = 0; k < dim * numbering->n_owned(); ++k)
+      force[k] = fields.load[k] - fields.internal_force[k];
+    step->unbalanced_ratio = solver.residual_ratio(force);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Simulation<dim>::step_through(const Stage &stage, const unsigned int index)
+  {
+    const double dt         = step->dt;
+    const double loop_start = now();
+    unsigned int n_steps    = stage.duration > 0.
+                                ? std::lround(stage.duration / dt)
+                                : stage.maximum_steps;
+    if (stage.maximum_steps > 0)
+      n_steps = std::min(n_steps, stage.maximum_steps);
+    const unsigned int interval =
+      stage.is_quasi_static()
+        ? std::max(scene.output.history_interval, quasi_static_interval)
+        : scene.output.history_interval;
+    unsigned int vtu_count = 0, i = 1;
+    double vtu_time      = 0.;
+    const auto write_vtu = [&]() {
+      const double before = now();
+      output->write_vtu(step->time);
+      vtu_time += now() - before;
+      ++vtu_count;
+    };
+    const bool writes = scene.output.write_vtu && scene.output.vtu_count > 0;
+    is_converged      = stage.unbalanced_ratio == 0. || stage.duration > 0.;
+    for (; i <= n_steps; ++i)
+      {
+        const bool is_last   = i == n_steps;
+        const bool is_sample = i % interval == 0 || is_last || i == 1;
+        step->advance(is_sample);
+        if (is_sample)
+          monitors->sample(*step, index);
+        if (i % finite_check_interval == 0 || is_last)
+          check_finite();
+        if (writes && !stage.is_quasi_static() &&
+            i >= double(vtu_count + 1) * n_steps / scene.output.vtu_count)
+          write_vtu();
+        report_progress(index, double(i) / n_steps);
+        if (is_sample && i > 10 && stage.unbalanced_ratio > 0. &&
+            step->time >= ramp_end &&
+            step->unbalanced_ratio < stage.unbalanced_ratio)
+          {
+            is_converged = true;
+            break;
+          }
+      }
+    if (writes && stage.is_quasi_static())
+      write_vtu();
+    report.loop_time += now() - loop_start - vtu_time;
+    return std::min(i, n_steps);
+  }
+
+
+
+  template <int dim>
+  std::string
+  Simulation<dim>::name_what_moves() const
+  {
+    // mean displacement and velocity of each block in this stage
+    const unsigned int n_blocks = blocks.blocks.size();
+    std::vector<double> sums(n_blocks * (1 + 2 * dim), 0.);
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      {
+        const unsigned int b = split.block_of_cell[cells.mesh_cell[c]];
+        if (b == none)
+          continue;
+        double *const sum = sums.data() + b * (1 + 2 * dim);
+        for (const unsigned int node : cells.nodes[c])
+          {
+            sum[0] += 1.;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const unsigned int i = dim * node + d;
+                sum[1 + d] +=
+                  fields.displacement[i] - stage_start_displacement[i];
+                sum[1 + dim + d] += fields.velocity[i];
+              }
+          }
+      }
+    dealii::Utilities::MPI::sum(sums, world(), sums);
+    std::ostringstream text;
+    for (unsigned int b = 0; b < n_blocks; ++b)
+      {
+        const double *const sum = sums.data() + b * (1 + 2 * dim);
+        if (sum[0] == 0. || blocks.blocks[b].is_infinite)
+          continue;
+        double way = 0., along = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            way += sum[1 + d] * sum[1 + d];
+            along += sum[1 + d] * sum[1 + dim + d];
+          }
+        way = std::sqrt(way) / sum[0];
+        // further than a thousandth of its size, and still going
+        if (way > 1e-3 * blocks.blocks[b].size && along > 0.)
+          text << (text.str().empty() ? "" : "; ") << "block "
+               << blocks.blocks[b].id << " is moving off ("
+               << std::setprecision(3) << way << " m so far)";
+      }
+    return text.str().empty() ? "no block is moving off; more steps may do"
+                              : text.str();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::report_stage(const Stage &stage, const unsigned int n_steps)
+  {
+    StageReport result;
+    result.name                = stage.name;
+    result.steps               = n_steps;
+    result.time_step           = step->dt;
+    result.unbalanced_ratio    = step->unbalanced_ratio;
+    result.largest_nodal_ratio = step->largest_nodal_ratio;
+    result.energies            = step->energies;
+    result.is_converged        = is_converged;
+    result.cells               = n_cells_global;
+    result.plastic_cells =
+      dealii::Utilities::MPI::sum<unsigned int>(cells.strength.size(), world());
+    result.yielding_points =
+      dealii::Utilities::MPI::sum(cells.n_yielding, world());
+    result.ramp_duration = std::max(0., ramp_end - step->time);
+    if (contact)
+      {
+        const JointSums<dim> points = contact->count_points();
+        result.points               = {points.n_open,
+                                       points.n_sliding,
+                                       points.n_sticking,
+                                       points.n_intact};
+      }
+    if (!is_converged)
+      result.remark = name_what_moves();
+    double largest = 0.;
+    for (unsigned int node = 0; node < numbering->n_owned(); ++node)
+      {
+        double square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          square += std::pow(fields.displacement[dim * node + d], 2);
+        largest = std::max(largest, square);
+      }
+    result.max_displacement =
+      std::sqrt(dealii::Utilities::MPI::max(largest, world()));
+    stage_reports.push_back(result);
+    if (!is_root())
+      return;
+    std::cout << "Stage   " << stage.name << ": " << result.steps << " steps, "
+              << std::setprecision(6) << step->time << " s, unbalanced ratio "
+              << result.unbalanced_ratio << ", largest displacement "
+              << result.max_displacement << " m, energy residual "
+              << result.energies.relative_residual() << std::endl;
+    if (!is_converged)
+      std::cout << "        not in balance (" << stage.unbalanced_ratio
+                << " wanted) after " << n_steps << " steps: " << result.remark
+                << std::endl;
+  }
+
+  template void Simulation<2>::establish_initial_state();
+  template void Simulation<3>::establish_initial_state();
+  template void Simulation<2>::run_stage(const unsigned int);
+  template void Simulation<3>::run_stage(const unsigned int);
+} // namespace Keyblock
