@@ -72,6 +72,7 @@ namespace Keyblock
     const Mesh<dim> &mesh = split.mesh;
     std::map<unsigned int, NodeSupport<dim>> found;
     fields.supports.clear();
+    fields.nodes_of_support.assign(scene.supports.size(), {});
     motions.clear();
     is_displacement.clear();
     const auto hold_all = [&](NodeSupport<dim> &support) {
@@ -112,6 +113,8 @@ namespace Keyblock
       {
         if (support->is_far_field() && is_far_field_free)
           continue;
+        std::vector<unsigned int> &nodes =
+          fields.nodes_of_support[&support - scene.supports.data()];
         int motion            = -1;
         const bool is_reached = !support->displacement.empty();
         if (!support->velocity.empty() || is_reached)
@@ -130,6 +133,8 @@ namespace Keyblock
           const unsigned int node = numbering.local_node(vertex);
           if (node == none)
             return;
+          if (node < numbering.n_owned())
+            nodes.push_back(node);
           NodeSupport<dim> &entry = found[node];
           if (entry.is_fixed())
             return;
@@ -164,6 +169,8 @@ namespace Keyblock
                   hold(v,
                        mesh.face_area_vector(c, f) /
                          mesh.face_area_vector(c, f).norm());
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
         AssertThrow(n_hits > 0 || stage_number > 1,
                     InputError("The support '" + support->name +
                                "' holds no node; check 'Supports/" +
@@ -326,7 +333,7 @@ namespace Keyblock
   void
   Conditions<dim>::set_load(const double time)
   {
-    const double left = ramp_share_left(time);
+    const double left = share_left_at(ramp_progress);
     if (is_load_set && is_load_constant && left == share_carried)
       return;
     is_load_set   = true;
@@ -354,12 +361,9 @@ namespace Keyblock
 
   template <int dim>
   double
-  Conditions<dim>::ramp_share_left(const double time) const
+  Conditions<dim>::share_left_at(const double progress) const
   {
-    if (ramp_duration <= 0.)
-      return 0.;
-    const double s = std::clamp((time - ramp_start) / ramp_duration, 0., 1.);
-    return 0.5 * (1. + std::cos(dealii::numbers::PI * s));
+    return 0.5 * (1. + std::cos(dealii::numbers::PI * progress));
   }
 
 
@@ -367,13 +371,32 @@ namespace Keyblock
   template <int dim>
   void
   Conditions<dim>::start_ramp(const std::vector<double> &force,
-                              const double start,
                               const double duration)
   {
     carried_force = force;
-    ramp_start    = start;
     ramp_duration = duration;
+    ramp_progress = duration > 0. ? 0. : 1.;
+    ramp_pace     = 1.;
     is_load_set   = false;
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::advance_ramp(const double step)
+  {
+    if (is_ramping())
+      ramp_progress = std::min(1., ramp_progress + next_progress(step));
+  }
+
+
+
+  template <int dim>
+  double
+  Conditions<dim>::next_progress(const double step) const
+  {
+    return is_ramping() ? ramp_pace * step / ramp_duration : 0.;
   }
 
 
@@ -384,7 +407,9 @@ namespace Keyblock
   {
     // increment of a displacement that is reached at the end of the ramp
     const double ramp_rate =
-      (ramp_share_left(time) - ramp_share_left(time + step)) / step;
+      (share_left_at(ramp_progress) -
+       share_left_at(std::min(1., ramp_progress + next_progress(step)))) /
+      step;
     for (const NodeSupport<dim> &support : fields.supports)
       {
         if (support.node >= numbering.n_owned())
@@ -443,13 +468,15 @@ namespace Keyblock
   template void Conditions<3>::bound_step_by_springs();
   template void Conditions<2>::set_load(const double);
   template void Conditions<3>::set_load(const double);
-  template double Conditions<2>::ramp_share_left(const double) const;
-  template double Conditions<3>::ramp_share_left(const double) const;
+  template double Conditions<2>::share_left_at(const double) const;
+  template double Conditions<3>::share_left_at(const double) const;
+  template double Conditions<2>::next_progress(const double) const;
+  template double Conditions<3>::next_progress(const double) const;
+  template void Conditions<2>::advance_ramp(const double);
+  template void Conditions<3>::advance_ramp(const double);
   template void Conditions<2>::start_ramp(const std::vector<double> &,
-                                          const double,
                                           const double);
   template void Conditions<3>::start_ramp(const std::vector<double> &,
-                                          const double,
                                           const double);
   template void Conditions<2>::apply_supports(const double, const double);
   template void Conditions<3>::apply_supports(const double, const double);

@@ -172,6 +172,11 @@ namespace Keyblock
               {"open [-]", "sliding [-]", "sticking [-]", "intact [-]"});
             continue;
           }
+        if (monitor->kind == "support")
+          {
+            add_vector("reaction", "N");
+            continue;
+          }
         add_vector("u", "m");
         add_vector("v", "m/s");
         if (monitor->kind == "block")
@@ -306,6 +311,26 @@ namespace Keyblock
 
   template <int dim>
   void
+  Monitors<dim>::sample_support(const Monitor<dim> &monitor,
+                                std::vector<double> &row)
+  {
+    // what holds the nodes of the support against all other forces
+    std::vector<double> sums(dim, 0.);
+    for (unsigned int s = 0; s < scene.supports.size(); ++s)
+      if (scene.supports[s]->name == monitor.support)
+        for (const unsigned int node : fields.nodes_of_support[s])
+          for (unsigned int d = 0; d < dim; ++d)
+            sums[d] += fields.internal_force[dim * node + d] -
+                       fields.load[dim * node + d] -
+                       fields.contact_force[dim * node + d];
+    dealii::Utilities::MPI::sum(sums, world(), sums);
+    row.insert(row.end(), sums.begin(), sums.end());
+  }
+
+
+
+  template <int dim>
+  void
   Monitors<dim>::sample_nodes(const std::vector<unsigned int> &nodes,
                               std::vector<double> &row)
   {
@@ -341,6 +366,8 @@ namespace Keyblock
           sample_joint(monitor, row);
         else if (monitor.kind == "block")
           sample_block(block_of_monitor[m], row);
+        else if (monitor.kind == "support")
+          sample_support(monitor, row);
         else if (monitor.kind == "region")
           sample_nodes(nodes_of_monitor[m], row);
         else

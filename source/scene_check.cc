@@ -412,6 +412,17 @@ namespace Keyblock
                 monitor->joint +
                 "', which is not in 'Joints/Names'; correct 'Monitors/" +
                 monitor->name + "/Joint'.");
+    for (const auto &monitor : monitors)
+      require(monitor->kind != "support" ||
+                std::any_of(supports.begin(),
+                            supports.end(),
+                            [&](const auto &support) {
+                              return support->name == monitor->support;
+                            }),
+              "The monitor '" + monitor->name + "' names the support '" +
+                monitor->support +
+                "', which is not in 'Supports/Names'; correct 'Monitors/" +
+                monitor->name + "/Support'.");
     const auto has_monitor = [&](const std::string &kind) {
       for (const auto &monitor : monitors)
         if (monitor->kind == kind)
@@ -419,7 +430,8 @@ namespace Keyblock
       return false;
     };
     const std::string &form = checks.closed_form;
-    require(form == "none" || has_monitor("block"),
+    const bool is_on_body   = form != "none" && !checks.needs_rock();
+    require(!is_on_body || has_monitor("block"),
             "The entry 'Check/Closed form' is " + form +
               ", which needs a monitor of kind block; add one to "
               "'Monitors/Names'.");
@@ -427,11 +439,19 @@ namespace Keyblock
             "The entry 'Check/Closed form' is oblique_impact, which needs a "
             "monitor of kind region over the middle of the slab; add one to "
             "'Monitors/Names'.");
-    require(form == "none" || form == "rotation" || has_monitor("joint"),
+    require(
+      form != "footing" || (has_monitor("support") && checks.length > 0.),
+      "The entry 'Check/Closed form' is footing, which needs a monitor of "
+      "kind support and the loaded width in 'Check/Length'.");
+    require((form != "kirsch" && form != "salencon") ||
+              (excavations.size() == 1 && excavations[0]->shape == "circle"),
+            "The entry 'Check/Closed form' is " + form +
+              ", which needs one excavation of shape circle.");
+    require(!is_on_body || form == "rotation" || has_monitor("joint"),
             "The entry 'Check/Closed form' is " + form +
               ", which needs a monitor of kind joint; add one to "
               "'Monitors/Names'.");
-    require(form == "none" || form == "rotation" || form == "bar_impact" ||
+    require(!is_on_body || form == "rotation" || form == "bar_impact" ||
               form == "oblique_impact" || !checks.joint.empty(),
             "The entry 'Check/Joint' is empty, but the closed form " + form +
               " is measured on a joint; name it.");

@@ -461,6 +461,11 @@ namespace Keyblock
       "Time over which the forces of what is dug are taken away "
       "[s]; 0: four periods of the lowest mode.",
       not_negative);
+    prm.add_parameter("Ramp unbalance",
+                      ramp_unbalance,
+                      "The ramp slows down where the unbalanced ratio exceeds "
+                      "this [-].",
+                      positive);
     prm.add_parameter("Friction angle override",
                       friction_angle_override,
                       "Replaces every friction angle in this stage [deg]; -1: "
@@ -480,8 +485,9 @@ namespace Keyblock
       "Kind",
       kind,
       "point: nearest node; block: the block at Location; region: mean over "
-      "the nodes where Region is positive, by mass; joint: sums over a joint.",
-      Selection("point|block|region|joint"));
+      "the nodes where Region is positive, by mass; joint: sums over a joint; "
+      "support: reaction of a support.",
+      Selection("point|block|region|joint|support"));
     prm.add_parameter("Location",
                       location,
                       "Point, or a point in a block [m].");
@@ -492,6 +498,7 @@ namespace Keyblock
     prm.add_parameter("Joint",
                       joint,
                       "Name of the joint, or all for every contact point.");
+    prm.add_parameter("Support", support, "Name of the support.");
   }
 
   void
@@ -502,7 +509,8 @@ namespace Keyblock
                       "What the last stage is compared with.",
                       Selection(
                         "none|resting|incline|bar_impact|oblique_impact|"
-                        "bond_break|newmark|"
+                        "bond_break|newmark|gravity_column|kirsch|salencon|"
+                        "footing|"
                         "toppling|rotation"));
     prm.add_parameter("Joint", joint, "The joint it is measured on.");
     prm.add_parameter("Reference time",
@@ -515,10 +523,12 @@ namespace Keyblock
                       "Begin of the window of means and fits, as a fraction of "
                       "the last stage [-].",
                       fraction);
-    prm.add_parameter("Length",
-                      length,
-                      "bar_impact, bond_break: length of the bar [m].",
-                      not_negative);
+    prm.add_parameter(
+      "Length",
+      length,
+      "bar_impact, bond_break: length of the bar; footing: loaded "
+      "width, half a cell past the last held node [m].",
+      not_negative);
   }
 
   void

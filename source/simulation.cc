@@ -221,13 +221,17 @@ namespace Keyblock
   Simulation<dim>::finish()
   {
     CheckValues checks;
+    RockState<dim> rock;
+    if (scene.checks.needs_rock())
+      rock = gather_rock(scene, split, *numbering, cells, fields);
     on_root([&]() {
       if (!scene.stages.empty())
         checks = evaluate_checks<dim>({scene,
                                        blocks,
                                        monitors->history,
                                        monitors->block_of_monitor,
-                                       stage_reports});
+                                       stage_reports,
+                                       rock});
     });
     report.steps          = step->n_steps;
     report.time_step      = step->dt;

@@ -28,6 +28,9 @@ namespace Keyblock
     /** Steps between measurements while forces are brought into balance. */
     constexpr unsigned int quasi_static_interval = 25;
 
+    /** Steps between adjustments of the pace of a ramp. */
+    constexpr unsigned int pace_interval = 10;
+
     /** Static solves that refine each other, at most. */
     constexpr unsigned int maximum_refinements = 4;
   } // namespace
@@ -103,6 +106,7 @@ namespace Keyblock
   {
     std::vector<double> carried;
     const bool digs = conditions->digs_cells(number);
+    step->forget_dug_cells();
     if (digs)
       {
         carried = step->dig(number);
@@ -111,18 +115,15 @@ namespace Keyblock
                                                           world());
       }
     step->begin_stage(stage, number);
-    ramp_end       = step->time;
     bool is_ramped = digs;
     for (const auto &support : scene.supports)
       is_ramped = is_ramped || (!support->displacement.empty() && number == 2);
     if (!is_ramped || stage.is_static())
       {
-        conditions->start_ramp({}, step->time, 0.);
+        conditions->start_ramp({}, 0.);
         return;
       }
-    const double duration = ramp_duration_of(stage);
-    conditions->start_ramp(carried, step->time, duration);
-    ramp_end = step->time + duration;
+    conditions->start_ramp(carried, ramp_duration_of(stage));
   }
 
 
@@ -199,6 +200,9 @@ namespace Keyblock
         step->advance(is_sample);
         if (is_sample)
           monitors->sample(*step, index);
+        if (stage.is_quasi_static() && i % pace_interval == 0 &&
+            conditions->is_ramping())
+          pace_ramp(stage);
         if (i % finite_check_interval == 0 || is_last)
           check_finite();
         if (writes && !stage.is_quasi_static() &&
@@ -206,7 +210,7 @@ namespace Keyblock
           write_vtu();
         report_progress(index, double(i) / n_steps);
         if (is_sample && i > 10 && stage.unbalanced_ratio > 0. &&
-            step->time >= ramp_end &&
+            !conditions->is_ramping() &&
             step->unbalanced_ratio < stage.unbalanced_ratio)
           {
             is_converged = true;
@@ -217,6 +221,19 @@ namespace Keyblock
       write_vtu();
     report.loop_time += now() - loop_start - vtu_time;
     return std::min(i, n_steps);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::pace_ramp(const Stage &stage)
+  {
+    // plastic rock answers more slowly than its lowest elastic mode; a ramp
+    // that outruns it overshoots for good
+    step->sample_unbalanced_force();
+    conditions->set_ramp_pace(
+      std::min(1., stage.ramp_unbalance / step->unbalanced_ratio));
   }
 
 
@@ -289,7 +306,6 @@ namespace Keyblock
       dealii::Utilities::MPI::sum<unsigned int>(cells.strength.size(), world());
     result.yielding_points =
       dealii::Utilities::MPI::sum(cells.n_yielding, world());
-    result.ramp_duration = std::max(0., ramp_end - step->time);
     if (contact)
       {
         const JointSums<dim> points = contact->count_points();

@@ -205,6 +205,10 @@ namespace Keyblock
                 carried[i] = fields.internal_force[i] - fields.load[i] -
                              fields.contact_force[i];
           }
+    carried_sum = 0.;
+    for (const double force : carried)
+      carried_sum += std::abs(force);
+    carried_sum = dealii::Utilities::MPI::sum(carried_sum, world());
     return carried;
   }
 
@@ -272,6 +276,7 @@ namespace Keyblock
     is_first          = false;
     is_stress_current = false;
     previous_dt       = dt;
+    conditions.advance_ramp(dt);
     time += dt;
     ++n_steps;
     return dt;
@@ -474,20 +479,19 @@ namespace Keyblock
   void
   ExplicitStep<dim>::sample_unbalanced_force()
   {
-    double unbalanced = 0., driving = 0., internal = 0., largest = 0.;
-    double n_free = 0.;
+    double unbalanced = 0., largest = 0., n_free = 0.;
+    double loads = 0., reactions = 0., internal = 0.;
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       {
-        if (fields.inverse_mass[node] == 0.)
-          continue;
         std::array<double, dim> force;
         for (unsigned int d = 0; d < dim; ++d)
           {
             const unsigned int i = dim * node + d;
             force[d]             = fields.load[i] - fields.internal_force[i] +
                        fields.contact_force[i];
-            driving += std::abs(fields.load[i]);
             internal += std::abs(fields.internal_force[i]);
+            if (fields.inverse_mass[node] > 0.)
+              loads += std::abs(fields.load[i]);
           }
         const int s = fields.support_of_node[node];
         if (s >= 0)
@@ -495,9 +499,12 @@ namespace Keyblock
             {
               const auto &direction = fields.supports[s].directions[k];
               const double held     = dot<dim>(direction, force);
+              reactions += std::abs(held);
               for (unsigned int d = 0; d < dim; ++d)
                 force[d] -= held * direction[d];
             }
+        if (fields.inverse_mass[node] == 0.)
+          continue;
         ++n_free;
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -505,14 +512,18 @@ namespace Keyblock
             largest = std::max(largest, std::abs(force[d]));
           }
       }
-    unbalanced          = dealii::Utilities::MPI::sum(unbalanced, world());
-    driving             = dealii::Utilities::MPI::sum(driving, world());
-    internal            = dealii::Utilities::MPI::sum(internal, world());
-    const double scale  = driving > 0. ? driving : internal;
-    unbalanced_ratio    = scale > 0. ? unbalanced / scale : 0.;
-    largest             = dealii::Utilities::MPI::max(largest, world());
-    n_free              = dealii::Utilities::MPI::sum(n_free, world());
-    largest_nodal_ratio = scale > 0. ? largest * n_free / scale : 0.;
+    std::array<double, 5> sums = {
+      {unbalanced, n_free, loads, reactions, internal}};
+    dealii::Utilities::MPI::sum(
+      dealii::ArrayView<const double>(sums.data(), sums.size()),
+      world(),
+      dealii::ArrayView<double>(sums.data(), sums.size()));
+    largest      = dealii::Utilities::MPI::max(largest, world());
+    double scale = carried_sum;
+    if (scale == 0.)
+      scale = sums[2] > 0. ? sums[2] : sums[3] > 0. ? sums[3] : sums[4];
+    unbalanced_ratio    = scale > 0. ? sums[0] / scale : 0.;
+    largest_nodal_ratio = scale > 0. ? largest * sums[1] / scale : 0.;
   }
 
 

@@ -173,7 +173,6 @@ namespace Keyblock
         put(tree, "cells", stage.cells);
         put(tree, "plastic_cells", stage.plastic_cells);
         put(tree, "yielding_points", stage.yielding_points);
-        put(tree, "ramp_duration", stage.ramp_duration);
         put(tree, "open_points", stage.points.open);
         put(tree, "sliding_points", stage.points.sliding);
         put(tree, "sticking_points", stage.points.sticking);

@@ -183,6 +183,14 @@ namespace Keyblock
   CheckValues check_oblique_impact(const CheckInput<dim> &input);
   template <int dim>
   CheckValues check_bond_break(const CheckInput<dim> &input);
+  template <int dim>
+  CheckValues check_gravity_column(const CheckInput<dim> &input);
+  template <int dim>
+  CheckValues check_kirsch(const CheckInput<dim> &input);
+  template <int dim>
+  CheckValues check_salencon(const CheckInput<dim> &input);
+  template <int dim>
+  CheckValues check_footing(const CheckInput<dim> &input);
 } // namespace Keyblock
 
 #endif

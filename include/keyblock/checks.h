@@ -6,6 +6,32 @@
 
 namespace Keyblock
 {
+  /** The deformable cells that are there at the end, of all ranks. */
+  template <int dim>
+  struct RockState
+  {
+    struct Cell
+    {
+      typename Mesh<dim>::CellVertices vertices; ///< of the split mesh
+      unsigned int material;
+      double volume;                            ///< [m^dim]
+      Point<dim> center;                        ///< [m]
+      std::array<double, n_stress<dim>> stress; ///< mean [Pa]
+      double plastic_share; ///< of the volume that has yielded [-]
+    };
+    std::vector<Cell> cells;
+    std::vector<Point<dim>> vertices;          ///< of the split mesh [m]
+    std::vector<Tensor<1, dim>> displacements; ///< of the vertices [m]
+  };
+
+  /** Collect the state on every rank (collective). */
+  template <int dim>
+  RockState<dim> gather_rock(const Scene<dim> &scene,
+                             const SplitMesh<dim> &split,
+                             const Numbering<dim> &numbering,
+                             const CellArrays<dim> &cells,
+                             const Fields<dim> &fields);
+
   /** What a closed form is computed from. */
   template <int dim>
   struct CheckInput
@@ -19,6 +45,8 @@ namespace Keyblock
 
     /** Energies at the end of each stage. */
     const std::vector<StageReport> &stages;
+
+    const RockState<dim> &rock;
   };
 
   /**

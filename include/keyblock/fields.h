@@ -68,7 +68,10 @@ namespace Keyblock
 
     std::vector<NodeSpring<dim>> springs;   ///< of owned nodes
     std::vector<NodeSupport<dim>> supports; ///< sorted by node
-    std::vector<int> support_of_node;       ///< index or -1, one per node
+    /** Owned nodes of each entry of Scene::supports. */
+    std::vector<std::vector<unsigned int>> nodes_of_support;
+
+    std::vector<int> support_of_node; ///< index or -1, one per node
   };
 } // namespace Keyblock
 

@@ -62,6 +62,8 @@ namespace Keyblock
     void name_columns();
     void sample_joint(const Monitor<dim> &monitor, std::vector<double> &row);
 
+    void sample_support(const Monitor<dim> &monitor, std::vector<double> &row);
+
     /** Mass-weighted means of displacement and velocity over owned @p nodes of
      * all ranks. */
     void sample_nodes(const std::vector<unsigned int> &nodes,

@@ -25,10 +25,9 @@ namespace Keyblock
     double largest_nodal_ratio = 0.; ///< largest force over the mean one [-]
     bool is_converged          = true;
     std::string remark; ///< for people: what moves if it did not converge
-    unsigned int cells           = 0;  ///< deformable ones
-    unsigned int plastic_cells   = 0;  ///< of these in the plastic loop
-    unsigned int yielding_points = 0;  ///< Gauss points, last step
-    double ramp_duration         = 0.; ///< [s]
+    unsigned int cells           = 0; ///< deformable ones
+    unsigned int plastic_cells   = 0; ///< of these in the plastic loop
+    unsigned int yielding_points = 0; ///< Gauss points, last step
     JointPoints points;
     Energies energies;
   };

@@ -266,6 +266,7 @@ namespace Keyblock
     bool damps_contact_force       = true;
     bool scales_density            = true;
     double ramp_duration           = 0.;
+    double ramp_unbalance          = 2e-3;
     double friction_angle_override = -1.;
     bool reset_motion              = false;
 
@@ -295,6 +296,7 @@ namespace Keyblock
     std::string kind   = "point";
     std::string region = "1";
     std::string joint;
+    std::string support;
     Point<dim> location;
 
     void declare(ParameterHandler &prm);
@@ -308,6 +310,14 @@ namespace Keyblock
     double reference_time   = 0.;
     double window_start     = 0.;
     double length           = 0.;
+
+    /** Whether it is measured in the rock and not by monitors. */
+    bool
+    needs_rock() const
+    {
+      return closed_form == "gravity_column" || closed_form == "kirsch" ||
+             closed_form == "salencon" || closed_form == "footing";
+    }
 
     void declare(ParameterHandler &prm);
   };

@@ -73,15 +73,26 @@ namespace Keyblock
 
     /**
      * Add @p force (owned degrees of freedom) to the load and take it away
-     * from time @p start on over @p duration, as half a cosine [N, s].
-     * Displacements of supports grow with it.
+     * over @p duration, as half a cosine [N, s]. Displacements of supports grow
+     * with it. Duration 0: nothing is added, and they are reached at once.
      */
-    void start_ramp(const std::vector<double> &force,
-                    const double start,
-                    const double duration);
+    void start_ramp(const std::vector<double> &force, const double duration);
 
-    /** Share of the ramped force that is left at @p time [-]. */
-    double ramp_share_left(const double time) const;
+    /** Move on by a step [s] times the pace. */
+    void advance_ramp(const double step);
+
+    /** Slow the ramp down, where it would outrun the rock: 0 to 1 [-]. */
+    void
+    set_ramp_pace(const double pace)
+    {
+      ramp_pace = pace;
+    }
+
+    bool
+    is_ramping() const
+    {
+      return ramp_progress < 1.;
+    }
 
     bool has_far_field() const;
 
@@ -105,6 +116,9 @@ namespace Keyblock
     std::vector<double> frequency; ///< of each deformable cell here [rad/s]
 
   private:
+    /** Share of the ramped force that is left [-]. */
+    double share_left_at(const double progress) const;
+    double next_progress(const double step) const;
     void read_formulas();
     void list_cells();
     void set_up_frequencies();
@@ -139,7 +153,8 @@ namespace Keyblock
     double lowest_frequency = 0.;            ///< of all cells [rad/s]
 
     std::vector<double> carried_force, far_field_force; ///< [N]
-    double ramp_start = 0., ramp_duration = 0., share_carried = 0.;
+    double ramp_duration = 0., ramp_progress = 1., ramp_pace = 1.;
+    double share_carried   = 0.;
     bool is_far_field_free = false;
   };
 } // namespace Keyblock

@@ -66,6 +66,7 @@ namespace Keyblock
     void dig_stage(const Stage &stage, const unsigned int number);
     unsigned int step_through(const Stage &stage, const unsigned int index);
     void solve_stage();
+    void pace_ramp(const Stage &stage);
     double ramp_duration_of(const Stage &stage) const;
     void report_stage(const Stage &stage, const unsigned int n_steps);
     std::string name_what_moves() const;
@@ -92,7 +93,6 @@ namespace Keyblock
     std::vector<StageReport> stage_reports;
     double wall_start    = 0.;
     double last_progress = 0.;
-    double ramp_end      = 0.; ///< of the stage [s]
     bool is_converged    = true;
     std::vector<double> stage_start_displacement;
     unsigned long long n_cells_global = 0;

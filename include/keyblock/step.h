@@ -64,8 +64,8 @@ namespace Keyblock
                  Fields<dim> &fields,
                  Contact<dim> *contact);
 
-    /** Prepare stage @p number (Scene::stage_number); returns the length of its
-     * steps [s]. */
+    /** Prepare (after `dig`, if it digs) stage @p number (Scene::stage_number);
+     * returns the length of its steps [s]. */
     double begin_stage(const Stage &stage, const unsigned int number);
 
     /** Bring stresses and forces up to the present displacements. */
@@ -80,6 +80,13 @@ namespace Keyblock
      * each owned degree of freedom: the force that keeps it balanced [N].
      */
     std::vector<double> dig(const unsigned int number);
+
+    /** The next stage has dug nothing yet. */
+    void
+    forget_dug_cells()
+    {
+      carried_sum = excavated_energy = 0.;
+    }
 
     /** Add the elastic response to the displacement increment @p change (local
      * degrees of freedom), as of a static solve. */
@@ -96,12 +103,17 @@ namespace Keyblock
      * energies and the unbalanced force are measured. */
     double advance(const bool sample);
 
+    /** Measure unbalanced_ratio and largest_nodal_ratio (collective). */
+    void sample_unbalanced_force();
+
     double time          = 0.; ///< of displacements [s]
     unsigned int n_steps = 0;
     double dt            = 0.;
     Energies energies; ///< as of the last sampled step
 
-    /** Sum of |unbalanced force| over sum of |load|, as last sampled [-]. */
+    /** Sum of |unbalanced force| on free nodes over the sum of |driving force|,
+     * as last sampled [-]. What drives is what dug cells carried, in a stage
+     * that digs; else loads, else reactions. */
     double unbalanced_ratio = 0.;
 
     /** Largest unbalanced force of a node over the mean force, the same [-]. */
@@ -117,7 +129,6 @@ namespace Keyblock
     void resolve_contact();
     void book_work();
     void sample_energies();
-    void sample_unbalanced_force();
     void move();
 
     const Scene<dim> &scene;
@@ -138,6 +149,7 @@ namespace Keyblock
     ContactWork contact_work_at_start;
     double plastic_work_at_start = 0.;
     double excavated_energy      = 0.;
+    double carried_sum           = 0.; ///< of |force| of the cells dug [N]
   };
 } // namespace Keyblock
 
