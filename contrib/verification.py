@@ -109,6 +109,48 @@ def rank_table(out):
                   f" | {spread:.1e} |\n")
 
 
+def rock_tables(out):
+    """Convergence of the elastic hole, the footing, and the pace of ramps."""
+    out.write("Kirsch hole, exact outer displacement, cells of size h at the "
+              "wall and 10 h far away:\n\n| h / a | cells | wall closure "
+              "| wall displacement | largest stress | mean stress |\n"
+              "|---|---|---|---|---|---|\n")
+    for h in (0.2, 0.1, 0.05, 0.025):
+        checks = run("verification/kirsch", f"Mesh/Size at excavation={h}",
+                     f"Mesh/Size={10 * h}")["checks"]
+        out.write(f"| {h} | {checks['cells']:.0f} "
+                  f"| {checks['wall_closure_relative_error']:+.2e} "
+                  f"| {checks['wall_displacement_error']:.2e} "
+                  f"| {checks['stress_error']:.2e} "
+                  f"| {checks['mean_stress_error']:.2e} |\n")
+    out.write("\nStrip footing, psi = phi, rough, width to half a cell past "
+              "the last held node:\n\n| phi | cells under the half width "
+              "| collapse pressure, relative error |\n|---|---|---|\n")
+    for phi, sizes in ((0, (5, 10, 20)), (10, (10, 20)), (30, (10,))):
+        for n in sizes:
+            width, depth = (6, 3) if phi == 30 else (3, 2)
+            checks = run("verification/footing",
+                         f"Domain/Size={width}, {depth}",
+                         f"Domain/Corner=0, {-depth}",
+                         f"Mesh/Cells={2 * width * n}, {2 * depth * n}",
+                         f"Check/Length={0.5 + 0.25 / n}",
+                         f"Stages/push/Maximum steps={1000 * n}",
+                         f"Materials/ground/Friction angle={phi}",
+                         f"Materials/ground/Dilation angle={phi}")["checks"]
+            out.write(f"| {phi} | {n} | "
+                      f"{checks['collapse_pressure_relative_error']:+.2e} |\n")
+    out.write("\nTunnel in dilating rock (psi = phi): where the ramp slows "
+              "down:\n\n| unbalanced ratio | steps | wall closure | plastic "
+              "radius |\n|---|---|---|---|\n")
+    for limit in (1., 5e-3, 1e-3, 3e-4):
+        summary = run("verification/salencon_associated",
+                      f"Stages/dig/Ramp unbalance={limit}")
+        checks = summary["checks"]
+        out.write(f"| {limit} | {summary['run']['steps']} "
+                  f"| {checks['wall_closure_relative_error']:+.2e} "
+                  f"| {checks['plastic_radius_relative_error']:+.2e} |\n")
+
+
 def toppling_table(out):
     """The quadrants once more, with gravity switched on at once."""
     out.write("| scene | expected | slides | topples | sudden: slides "
@@ -181,6 +223,8 @@ def main():
                   "Sudden gravity starts the block unstressed; it is reported, "
                   "not recommended.\n\n")
         incline_table(out)
+        out.write("\n## Rock\n\n")
+        rock_tables(out)
         out.write("\n## Toppling under sudden gravity\n\nThe slow column is "
                   "the test; gravity switched on at once is reported.\n\n")
         toppling_table(out)

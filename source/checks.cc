@@ -92,6 +92,7 @@ namespace Keyblock
       {"kirsch", check_kirsch<dim>},
       {"salencon", check_salencon<dim>},
       {"footing", check_footing<dim>},
+      {"value", check_value<dim>},
       {"newmark", check_newmark<dim>},
       {"toppling", check_toppling<dim>},
       {"rotation", check_rotation<dim>}};

@@ -150,6 +150,28 @@ namespace Keyblock
       checks.emplace_back("cells", input.rock.cells.size());
     }
 
+    /** Share of a full circle that the wall of the hole covers, 1 or what
+     * symmetry leaves [-]. */
+    template <int dim>
+    double
+    covered_share(const CheckInput<dim> &input)
+    {
+      const Excavation<dim> &hole = *input.scene.excavations.front();
+      std::vector<double> angles;
+      for (const Point<dim> &p : input.rock.vertices)
+        {
+          const double x = p[0] - hole.center[0], y = p[1] - hole.center[1];
+          if (std::abs(std::hypot(x, y) - hole.radius) < 1e-6 * hole.radius)
+            angles.push_back(std::atan2(y, x));
+        }
+      std::sort(angles.begin(), angles.end());
+      const double circle = 2. * dealii::numbers::PI;
+      double gap          = angles.front() + circle - angles.back();
+      for (unsigned int i = 1; i < angles.size(); ++i)
+        gap = std::max(gap, angles[i] - angles[i - 1]);
+      return gap > 0.5 ? 1. - gap / circle : 1.;
+    }
+
     template <int dim>
     std::array<double, n_stress<dim>>
     initial_stress(const CheckInput<dim> &input, const Point<dim> &place)
@@ -265,9 +287,27 @@ namespace Keyblock
       yielded += cell.plastic_share * cell.volume;
     compare(checks,
             "plastic_radius",
-            std::sqrt(yielded / dealii::numbers::PI +
+            std::sqrt(yielded / (covered_share(input) * dealii::numbers::PI) +
                       hole.radius * hole.radius),
             solution.plastic_radius());
+    checks.emplace_back("energy_residual",
+                        input.stages.back().energies.relative_residual());
+    return checks;
+  }
+
+
+
+  /** A column of the history against a number of the scene. */
+  template <int dim>
+  CheckValues
+  check_value(const CheckInput<dim> &input)
+  {
+    const CheckSettings &settings = input.scene.checks;
+    CheckValues checks;
+    compare(checks,
+            "value",
+            input.history.last(settings.quantity),
+            settings.reference);
     checks.emplace_back("energy_residual",
                         input.stages.back().energies.relative_residual());
     return checks;
@@ -321,6 +361,8 @@ namespace Keyblock
   template CheckValues check_kirsch(const CheckInput<3> &);
   template CheckValues check_salencon(const CheckInput<2> &);
   template CheckValues check_salencon(const CheckInput<3> &);
+  template CheckValues check_value(const CheckInput<2> &);
+  template CheckValues check_value(const CheckInput<3> &);
   template CheckValues check_footing(const CheckInput<2> &);
   template CheckValues check_footing(const CheckInput<3> &);
 } // namespace Keyblock

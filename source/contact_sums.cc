@@ -32,6 +32,7 @@ namespace Keyblock
           static_cast<ContactStatus>(std::lround(packed[n * p + dim]));
         result[p].is_intact    = packed[n * p + dim + 1] > 0.5;
         result[p].is_converted = packed[n * p + dim + 2] > 0.5;
+        result[p].is_welded    = state[p].is_welded;
       }
     return result;
   }

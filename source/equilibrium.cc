@@ -19,19 +19,20 @@ namespace Keyblock
   template <int dim>
   StaticSolver<dim>::StaticSolver(const SplitMesh<dim> &split,
                                   const Numbering<dim> &numbering,
-                                  const Conditions<dim> &conditions,
                                   const CellArrays<dim> &cells,
-                                  const Fields<dim> &fields)
+                                  const Fields<dim> &fields,
+                                  const std::vector<NodeSupport<dim>> &supports)
     : split(split)
     , numbering(numbering)
-    , conditions(conditions)
     , cells(cells)
     , fields(fields)
+    , supports(supports)
     , owned(numbering.partitioner->locally_owned_range())
     , relevant(owned)
   {
     relevant.add_indices(numbering.partitioner->ghost_indices());
-    make_constraints(0., homogeneous);
+    make_constraints([](const NodeSupport<dim> &) { return Tensor<1, dim>(); },
+                     homogeneous);
     assemble();
   }
 
@@ -40,7 +41,7 @@ namespace Keyblock
   template <int dim>
   void
   StaticSolver<dim>::make_constraints(
-    const double share,
+    const Prescribed &prescribed,
     dealii::AffineConstraints<double> &lines) const
   {
     lines.reinit(relevant);
@@ -74,13 +75,13 @@ namespace Keyblock
                ++i)
             leader[numbering.local_node(interface.group_vertices[i])] = first;
       }
-    std::map<unsigned int, NodeSupport<dim>> supports;
-    for (const NodeSupport<dim> &support : fields.supports)
+    std::map<unsigned int, NodeSupport<dim>> held;
+    for (const NodeSupport<dim> &support : supports)
       {
         const auto found = leader.find(support.node);
         const unsigned int node =
           found == leader.end() ? support.node : found->second;
-        auto &entry = supports.emplace(node, support).first->second;
+        auto &entry = held.emplace(node, support).first->second;
         if (support.n_directions > entry.n_directions)
           entry = support;
       }
@@ -91,10 +92,9 @@ namespace Keyblock
             lines.add_line(global(node, d));
             lines.add_entry(global(node, d), global(first, d), 1.);
           }
-    for (const auto &[node, support] : supports)
+    for (const auto &[node, support] : held)
       {
-        const Tensor<1, dim> u =
-          share * conditions.prescribed_displacement(support);
+        const Tensor<1, dim> u = prescribed(support);
         Tensor<1, dim> free;
         if (support.n_directions == 1)
           {
@@ -273,10 +273,11 @@ namespace Keyblock
 
   template <int dim>
   std::vector<double>
-  StaticSolver<dim>::solve(const std::vector<double> &force, const double share)
+  StaticSolver<dim>::solve(const std::vector<double> &force,
+                           const Prescribed &prescribed)
   {
     dealii::AffineConstraints<double> lines;
-    make_constraints(share, lines);
+    make_constraints(prescribed, lines);
     constexpr unsigned int n = dim * (1 << dim);
 
     // lifting of prescribed displacements: their forces on free neighbours
@@ -384,7 +385,9 @@ namespace Keyblock
       {
         for (unsigned int i = 0; i < dim * n_owned; ++i)
           force[i] = fields.mass[i / dim] * x[i];
-        const std::vector<double> y = solve(force, 0.);
+        const std::vector<double> y =
+          solve(force,
+                [](const NodeSupport<dim> &) { return Tensor<1, dim>(); });
         double yky = 0., ymy = 0.;
         for (unsigned int i = 0; i < dim * n_owned; ++i)
           {

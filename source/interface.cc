@@ -111,6 +111,7 @@ namespace Keyblock
             result.mesh.boundary.push_back(mesh.boundary[c]);
             result.mesh.boundary_id.push_back(mesh.boundary_id[c]);
             result.mesh.excavation_stage.push_back(mesh.excavation_stage[c]);
+            result.mesh.excavation.push_back(mesh.excavation[c]);
             result.block_of_cell.push_back(blocks.block_of_cell[c]);
           }
       return kept;

@@ -199,6 +199,8 @@ namespace Keyblock
     for (unsigned int t = 0; t < scene.tractions.size(); ++t)
       {
         const Traction<dim> &traction = *scene.tractions[t];
+        if (scene.stage_number(traction.stage) > stage_number)
+          continue;
         const Expression<dim> inside(traction.region.empty() ? "-1"
                                                              : traction.region,
                                      1,
@@ -450,6 +452,27 @@ namespace Keyblock
     return motions[s.motion]->vector(place, 0.);
   }
 
+  template <int dim>
+  void
+  Conditions<dim>::remove_held_components(std::vector<double> &force) const
+  {
+    for (const NodeSupport<dim> &support : fields.supports)
+      if (support.node < numbering.n_owned())
+        for (unsigned int k = 0; k < support.n_directions; ++k)
+          {
+            double *const f = force.data() + dim * support.node;
+            double held     = 0.;
+            for (int d = 0; d < dim; ++d)
+              held += support.directions[k][d] * f[d];
+            for (int d = 0; d < dim; ++d)
+              f[d] -= held * support.directions[k][d];
+          }
+  }
+
+  template void
+  Conditions<2>::remove_held_components(std::vector<double> &) const;
+  template void
+  Conditions<3>::remove_held_components(std::vector<double> &) const;
   template Tensor<1, 2>
   Conditions<2>::prescribed_displacement(const NodeSupport<2> &) const;
   template Tensor<1, 3>

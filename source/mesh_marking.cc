@@ -150,9 +150,11 @@ namespace Keyblock
     mark_excavations(Mesh<dim> &mesh, const Scene<dim> &scene)
     {
       mesh.excavation_stage.assign(mesh.n_cells(), 0);
-      for (const auto &excavation : scene.excavations)
+      mesh.excavation.assign(mesh.n_cells(), none);
+      for (unsigned int e = 0; e < scene.excavations.size(); ++e)
         {
-          const bool is_formula = excavation->shape == "formula";
+          const auto &excavation = scene.excavations[e];
+          const bool is_formula  = excavation->shape == "formula";
           const Expression<dim> formula(is_formula ? excavation->formula : "1",
                                         1,
                                         "Excavations/" + excavation->name +
@@ -182,12 +184,13 @@ namespace Keyblock
                             excavation->name +
                             "': a cell crosses it; set 'Mesh/Generator' to "
                             "gmsh, or move the outline to cell faces."));
-              const unsigned int stage = scene.stage_number(*excavation);
+              const unsigned int stage = scene.stage_number(excavation->stage);
               if (is_inside && (mesh.excavation_stage[c] == 0 ||
                                 stage < mesh.excavation_stage[c]))
                 {
                   ++n_hits;
                   mesh.excavation_stage[c] = stage;
+                  mesh.excavation[c]       = e;
                 }
             }
           AssertThrow(n_hits > 0,

@@ -312,14 +312,26 @@ namespace Keyblock
 
   template <int dim>
   unsigned int
-  Scene<dim>::stage_number(const Excavation<dim> &excavation) const
+  Scene<dim>::stage_number(const std::string &name) const
   {
-    if (excavation.stage == "start")
+    if (name == "start")
       return 1;
     unsigned int index = 0;
-    while (index < stages.size() && stages[index]->name != excavation.stage)
+    while (index < stages.size() && stages[index]->name != name)
       ++index;
     return index + 2;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Scene<dim>::material_index(const std::string &name) const
+  {
+    unsigned int index = 0;
+    while (index < materials.size() && materials[index]->name != name)
+      ++index;
+    return index;
   }
 
 

@@ -260,11 +260,40 @@ namespace Keyblock
     check_stages_of_excavations(const Scene<dim> &scene)
     {
       for (const auto &excavation : scene.excavations)
-        require(scene.stage_number(*excavation) < scene.stages.size() + 2,
+        require(scene.stage_number(excavation->stage) < scene.stages.size() + 2,
                 "The entry 'Excavations/" + excavation->name + "/Stage' is '" +
                   excavation->stage +
                   "', which is not in 'Stages/Names'; name a stage there, or "
                   "start.");
+      for (const auto &traction : scene.tractions)
+        require(scene.stage_number(traction->stage) < scene.stages.size() + 2,
+                "The entry 'Tractions/" + traction->name + "/Stage' is '" +
+                  traction->stage +
+                  "', which is not in 'Stages/Names'; name a stage there, or "
+                  "start.");
+      for (const auto &excavation : scene.excavations)
+        {
+          if (excavation->backfill_stage.empty())
+            continue;
+          const unsigned int number =
+            scene.stage_number(excavation->backfill_stage);
+          require(number < scene.stages.size() + 2 &&
+                    number > scene.stage_number(excavation->stage),
+                  "The entry 'Excavations/" + excavation->name +
+                    "/Backfill stage' is '" + excavation->backfill_stage +
+                    "', which is not a stage after the one that digs it; name "
+                    "a later one of 'Stages/Names'.");
+          require(excavation->stage != "start",
+                  "The excavation '" + excavation->name +
+                    "' is filled, but dug before the first stage, so that its "
+                    "cells are not kept; set 'Excavations/" +
+                    excavation->name + "/Stage' to the name of a stage.");
+          require(scene.material_index(excavation->backfill_material) <
+                    scene.materials.size(),
+                  "The entry 'Excavations/" + excavation->name +
+                    "/Backfill material' is '" + excavation->backfill_material +
+                    "', which is not in 'Materials/Names'.");
+        }
       for (const auto &stage : scene.stages)
         require(stage->name != "start",
                 "A stage is called 'start' in 'Stages/Names', which stands for "
@@ -280,6 +309,27 @@ namespace Keyblock
         state.stress.empty() || !state.has_depth_stress(),
         "The initial stress is given twice, by 'Initial state/Stress' and "
         "by depth; remove one.");
+      require(state.measured_points.empty() ||
+                (state.stress.empty() && !state.has_depth_stress()),
+              "The initial stress is given twice, by 'Initial state/Measured "
+              "points' and by 'Stress' or depth; remove one.");
+      require(state.measured_points.empty() == state.stress_fields.empty(),
+              "The entries 'Initial state/Measured points' and 'Stress fields' "
+              "belong together; give both or none.");
+      const std::vector<std::string> known =
+        dim == 2 ? std::vector<std::string>{"gravity", "push x", "graded x"}
+                 : std::vector<std::string>{"gravity",
+                                            "push x",
+                                            "push y",
+                                            "graded x",
+                                            "graded y",
+                                            "shear xy"};
+      for (const std::string &field : state.stress_fields)
+        require(std::find(known.begin(), known.end(), field) != known.end(),
+                "The entry 'Initial state/Stress fields' names '" + field +
+                  "'; in " + std::to_string(dim) +
+                  "D there are gravity, push x, graded x" +
+                  (dim == 3 ? ", push y, graded y, shear xy." : "."));
       require(state.lateral_ratios.size() == 1 ||
                 state.lateral_ratios.size() == 2,
               "The entry 'Initial state/Lateral ratios' has " +

@@ -124,6 +124,13 @@ namespace Keyblock
                       stage,
                       "Name of the stage that digs it; start: it is not there "
                       "from the beginning.");
+    prm.add_parameter("Backfill stage",
+                      backfill_stage,
+                      "Name of a later stage that fills it, unstressed; empty: "
+                      "none.");
+    prm.add_parameter("Backfill material",
+                      backfill_material,
+                      "Name of the material it is filled with.");
   }
 
   template <int dim>
@@ -303,6 +310,11 @@ namespace Keyblock
                       expression,
                       "Force per area, a formula in x, y (z), t per axis "
                       "separated by ';' [N/m2].");
+    prm.add_parameter("Stage",
+                      stage,
+                      "Name of the stage with which it begins, as a ramp if "
+                      "that is quasi-static; start: it belongs to the initial "
+                      "state.");
   }
 
   template <int dim>
@@ -344,6 +356,21 @@ namespace Keyblock
                       lateral_azimuth,
                       "3D: azimuth of the first lateral stress, clockwise from "
                       "north (+y) [deg].");
+    prm.add_parameter(
+      "Measured points",
+      measured_points,
+      "CSV file of measured stresses, relative to the scene "
+      "file, with the header x,y,(z,)component,value,weight: "
+      "components as in Stress, values in Pa, tension positive. "
+      "The initial stress is the sum of Stress fields that fits "
+      "them best.");
+    prm.add_parameter(
+      "Stress fields",
+      stress_fields,
+      "Unit fields of the inversion: gravity; push x (push y) "
+      "and graded x (graded y) of 1 Pa and of 1 Pa per metre of "
+      "depth below Surface elevation, compression; shear xy "
+      "(3D).");
     prm.add_parameter("Equilibrium",
                       equilibrium,
                       "static: one elastic solve with all joints tied brings "
@@ -510,9 +537,16 @@ namespace Keyblock
                       Selection(
                         "none|resting|incline|bar_impact|oblique_impact|"
                         "bond_break|newmark|gravity_column|kirsch|salencon|"
-                        "footing|"
+                        "footing|value|"
                         "toppling|rotation"));
     prm.add_parameter("Joint", joint, "The joint it is measured on.");
+    prm.add_parameter("Quantity",
+                      quantity,
+                      "value: column of history.csv whose last entry is "
+                      "compared, without its unit.");
+    prm.add_parameter("Reference",
+                      reference,
+                      "value: what it is compared with.");
     prm.add_parameter("Reference time",
                       reference_time,
                       "Time since the start of the last stage at which "

@@ -127,20 +127,54 @@ namespace Keyblock
 
   template <int dim>
   bool
-  Conditions<dim>::is_dug(const unsigned int mesh_cell) const
+  Conditions<dim>::is_filled(const unsigned int mesh_cell) const
   {
-    const unsigned int dug = split.mesh.excavation_stage[mesh_cell];
-    return dug > 0 && dug <= stage_number;
+    if (split.mesh.excavation_stage[mesh_cell] == 0)
+      return false;
+    const Excavation<dim> &excavation =
+      *scene.excavations[split.mesh.excavation[mesh_cell]];
+    return !excavation.backfill_stage.empty() &&
+           scene.stage_number(excavation.backfill_stage) <= stage_number;
   }
 
 
 
   template <int dim>
   bool
-  Conditions<dim>::digs_cells(const unsigned int number) const
+  Conditions<dim>::is_dug(const unsigned int mesh_cell) const
   {
-    const std::vector<unsigned int> &dug = split.mesh.excavation_stage;
-    return std::find(dug.begin(), dug.end(), number) != dug.end();
+    const unsigned int dug = split.mesh.excavation_stage[mesh_cell];
+    return dug > 0 && dug <= stage_number && !is_filled(mesh_cell);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Conditions<dim>::material_of(const unsigned int mesh_cell) const
+  {
+    return is_filled(mesh_cell)
+             ? scene.material_index(
+                 scene.excavations[split.mesh.excavation[mesh_cell]]
+                   ->backfill_material)
+             : split.mesh.material[mesh_cell];
+  }
+
+
+
+  template <int dim>
+  bool
+  Conditions<dim>::changes(const unsigned int number) const
+  {
+    for (const auto &excavation : scene.excavations)
+      if (scene.stage_number(excavation->stage) == number ||
+          (!excavation->backfill_stage.empty() &&
+           scene.stage_number(excavation->backfill_stage) == number))
+        return true;
+    for (const auto &traction : scene.tractions)
+      if (scene.stage_number(traction->stage) == number)
+        return true;
+    return false;
   }
 
 
@@ -176,7 +210,7 @@ namespace Keyblock
         for (unsigned int i = 0; i < numbering.cell_nodes.size(); ++i)
           {
             const unsigned int mesh_cell  = numbering.mesh_cell[i];
-            const unsigned int m          = split.mesh.material[mesh_cell];
+            const unsigned int m          = material_of(mesh_cell);
             const Material<dim> &material = *scene.materials[m];
             if (is_dug(mesh_cell) || unsigned(kind_of(material)) != kind)
               continue;
@@ -221,7 +255,7 @@ namespace Keyblock
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       {
         const unsigned int mesh_cell  = cells.mesh_cell[c];
-        const unsigned int m          = split.mesh.material[mesh_cell];
+        const unsigned int m          = material_of(mesh_cell);
         const Material<dim> &material = *scene.materials[m];
         // congruent cells, as in structured meshes, have equal frequencies
         const auto corners = corners_of(split.mesh, mesh_cell);
@@ -268,9 +302,8 @@ namespace Keyblock
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       {
         const unsigned int mesh_cell = cells.mesh_cell[c];
-        const double density =
-          scene.materials[split.mesh.material[mesh_cell]]->density;
-        const double ratio = frequency[c] / lowest_frequency;
+        const double density = scene.materials[material_of(mesh_cell)]->density;
+        const double ratio   = frequency[c] / lowest_frequency;
         const auto share =
           lumped_mass<dim>(corners_of(split.mesh, mesh_cell),
                            is_scaled ? density * ratio * ratio : density);

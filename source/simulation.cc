@@ -72,6 +72,15 @@ namespace Keyblock
       scene, split, blocks, *numbering, cells, fields, contact.get());
     output = std::make_unique<Output<dim>>(
       scene, split, blocks, *numbering, cells, fields, contact.get(), folder);
+    if (!scene.initial_state.measured_points.empty())
+      geostress =
+        invert_measured_stress(scene, split, *numbering, cells, fields);
+    AssertThrow(scene.checks.closed_form != "value" ||
+                  monitors->history.has(scene.checks.quantity),
+                InputError("The entry 'Check/Quantity' is '" +
+                           scene.checks.quantity +
+                           "', which is no column of history.csv; name a "
+                           "monitor and its quantity, for example tip.u_x."));
     n_cells_global =
       dealii::Utilities::MPI::sum<unsigned long long>(cells.nodes.size(),
                                                       world());
@@ -135,6 +144,11 @@ namespace Keyblock
       for (const std::string &warning : scene.warnings())
         std::cout << "Warning: " << warning << '\n';
       print_set_up(std::cout);
+      if (geostress)
+        {
+          write_geostress(folder + "geostress.csv", *geostress);
+          print_geostress(std::cout, *geostress);
+        }
     });
     if (scene.output.write_vtu)
       output->write_vtu(step->time);
@@ -241,8 +255,12 @@ namespace Keyblock
     report.force_time     = step->force_seconds;
     report.capped_groups  = contact ? contact->n_capped : 0;
     monitors->write_csv(folder + "history.csv");
-    output->write_summary(
-      quality, report, stage_reports, monitors->history, checks);
+    output->write_summary(quality,
+                          report,
+                          stage_reports,
+                          monitors->history,
+                          checks,
+                          geostress.get());
     if (!is_root())
       return;
     for (const auto &[name, value] : checks)

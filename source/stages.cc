@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The initial state, and what happens in one stage.
 #include <keyblock/equilibrium.h>
+#include <keyblock/geostress.h>
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
 
@@ -41,9 +42,11 @@ namespace Keyblock
   void
   Simulation<dim>::establish_initial_state()
   {
-    const bool digs_later = blocks.n_stages > 1;
-    const bool is_static  = scene.initial_state.equilibrium == "static";
-    if (!is_static && !digs_later && !conditions->has_far_field())
+    bool changes_later = false;
+    for (unsigned int s = 0; s < scene.stages.size(); ++s)
+      changes_later = changes_later || conditions->changes(s + 2);
+    const bool is_static = scene.initial_state.equilibrium == "static";
+    if (!is_static && !changes_later && !conditions->has_far_field())
       return;
     step->begin_stage(Stage(), 1);
     step->update_forces();
@@ -105,9 +108,9 @@ namespace Keyblock
   Simulation<dim>::dig_stage(const Stage &stage, const unsigned int number)
   {
     std::vector<double> carried;
-    const bool digs = conditions->digs_cells(number);
+    const bool changes = conditions->changes(number);
     step->forget_dug_cells();
-    if (digs)
+    if (changes)
       {
         carried = step->dig(number);
         n_cells_global =
@@ -115,7 +118,7 @@ namespace Keyblock
                                                           world());
       }
     step->begin_stage(stage, number);
-    bool is_ramped = digs;
+    bool is_ramped = changes;
     for (const auto &support : scene.supports)
       is_ramped = is_ramped || (!support->displacement.empty() && number == 2);
     if (!is_ramped || stage.is_static())
@@ -134,7 +137,7 @@ namespace Keyblock
   {
     if (stage.ramp_duration > 0. || !stage.is_quasi_static())
       return stage.ramp_duration;
-    StaticSolver<dim> solver(split, *numbering, *conditions, cells, fields);
+    StaticSolver<dim> solver(split, *numbering, cells, fields, fields.supports);
     return 4. * solver.lowest_period();
   }
 
@@ -144,7 +147,7 @@ namespace Keyblock
   void
   Simulation<dim>::solve_stage()
   {
-    StaticSolver<dim> solver(split, *numbering, *conditions, cells, fields);
+    StaticSolver<dim> solver(split, *numbering, cells, fields, fields.supports);
     double share = 1.;
     for (unsigned int i = 0; i < maximum_refinements; ++i)
       {
@@ -156,7 +159,10 @@ namespace Keyblock
         step->unbalanced_ratio = ratio;
         if (ratio < 1e-14 && share == 0.)
           break;
-        step->add_displacement(solver.solve(force, share));
+        step->add_displacement(
+          solver.solve(force, [&](const NodeSupport<dim> &support) {
+            return share * conditions->prescribed_displacement(support);
+          }));
         share = 0.;
       }
     step->update_forces();

@@ -195,16 +195,12 @@ namespace Keyblock
     excavated_energy = before - elastic_energy<dim>(cells, positions());
     update_forces();
     std::vector<double> carried(dim * numbering.n_owned(), 0.);
-    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
-      if (split.mesh.excavation_stage[c] == number)
-        for (const unsigned int v : split.mesh.cells[c])
-          {
-            const unsigned int node = numbering.local_node(v);
-            if (node < numbering.n_owned() && fields.mass[node] > 0.)
-              for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
-                carried[i] = fields.internal_force[i] - fields.load[i] -
-                             fields.contact_force[i];
-          }
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      if (fields.inverse_mass[node] > 0.)
+        for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+          carried[i] =
+            fields.internal_force[i] - fields.load[i] - fields.contact_force[i];
+    conditions.remove_held_components(carried);
     carried_sum = 0.;
     for (const double force : carried)
       carried_sum += std::abs(force);

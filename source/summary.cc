@@ -122,7 +122,8 @@ namespace Keyblock
                              const RunReport &run,
                              const std::vector<StageReport> &stages,
                              const History &history,
-                             const CheckValues &checks) const
+                             const CheckValues &checks,
+                             const Geostress *geostress) const
   {
     const double memory = dealii::Utilities::MPI::sum(peak_memory(), world());
     if (!is_root())
@@ -185,6 +186,22 @@ namespace Keyblock
     for (const auto &[name, value] : checks)
       put(check_tree, name, value);
 
+    if (geostress != nullptr)
+      {
+        Tree fit, coefficients, errors;
+        for (unsigned int j = 0; j < geostress->names.size(); ++j)
+          {
+            put(coefficients,
+                geostress->names[j],
+                geostress->fit.coefficients[j]);
+            put(errors, geostress->names[j], geostress->fit.standard_errors[j]);
+          }
+        fit.add_child("coefficients", coefficients);
+        fit.add_child("standard_errors", errors);
+        put(fit, "r_squared", geostress->fit.r_squared);
+        put(fit, "condition_number", geostress->fit.condition_number);
+        root.add_child("geostress", fit);
+      }
     root.add_child("program", program);
     root.add_child("scene", scene_tree);
     root.add_child("run", run_tree);
@@ -219,10 +236,12 @@ namespace Keyblock
                                          const RunReport &,
                                          const std::vector<StageReport> &,
                                          const History &,
-                                         const CheckValues &) const;
+                                         const CheckValues &,
+                                         const Geostress *) const;
   template void Output<3>::write_summary(const MeshQuality &,
                                          const RunReport &,
                                          const std::vector<StageReport> &,
                                          const History &,
-                                         const CheckValues &) const;
+                                         const CheckValues &,
+                                         const Geostress *) const;
 } // namespace Keyblock

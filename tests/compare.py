@@ -41,7 +41,7 @@ def main():
         for line in file:
             if not line.strip() or line.startswith("#"):
                 continue
-            name, value, absolute, relative, origin = line.split()
+            name, value, absolute, relative, origin = line.rsplit(None, 4)
             assert origin in ("analytic", "published", "regression"), line
             n_lines += 1
             found = look_up(summary, name)

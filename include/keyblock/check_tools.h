@@ -190,6 +190,8 @@ namespace Keyblock
   template <int dim>
   CheckValues check_salencon(const CheckInput<dim> &input);
   template <int dim>
+  CheckValues check_value(const CheckInput<dim> &input);
+  template <int dim>
   CheckValues check_footing(const CheckInput<dim> &input);
 } // namespace Keyblock
 

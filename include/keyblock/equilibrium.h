@@ -9,6 +9,8 @@
 
 #include <keyblock/set_up.h>
 
+#include <functional>
+
 namespace Keyblock
 {
   /**
@@ -26,20 +28,22 @@ namespace Keyblock
      * springs changed (collective). */
     StaticSolver(const SplitMesh<dim> &split,
                  const Numbering<dim> &numbering,
-                 const Conditions<dim> &conditions,
                  const CellArrays<dim> &cells,
-                 const Fields<dim> &fields);
+                 const Fields<dim> &fields,
+                 const std::vector<NodeSupport<dim>> &supports);
+
+    /** Displacement that a support prescribes [m]. */
+    using Prescribed = std::function<Tensor<1, dim>(const NodeSupport<dim> &)>;
 
     /**
      * Displacement [m] of all local degrees of freedom under the nodal forces
      * @p force (local degrees of freedom, owned ones count) [N].
-     * @param share of the displacements that supports prescribe
      *
      * Throws ComputationError if the iteration does not converge, as for a body
      * that nothing holds.
      */
     std::vector<double> solve(const std::vector<double> &force,
-                              const double share);
+                              const Prescribed &prescribed);
 
     /** Norm of what @p force (owned degrees of freedom) leaves unbalanced on
      * free nodes, ties summed, over the norm of internal forces [-]. */
@@ -54,7 +58,7 @@ namespace Keyblock
   private:
     using TrilinosVector = dealii::TrilinosWrappers::MPI::Vector;
 
-    void make_constraints(const double share,
+    void make_constraints(const Prescribed &prescribed,
                           dealii::AffineConstraints<double> &lines) const;
     void assemble();
 
@@ -66,9 +70,9 @@ namespace Keyblock
 
     const SplitMesh<dim> &split;
     const Numbering<dim> &numbering;
-    const Conditions<dim> &conditions;
     const CellArrays<dim> &cells;
     const Fields<dim> &fields;
+    const std::vector<NodeSupport<dim>> &supports;
 
     dealii::IndexSet owned, relevant;
     dealii::AffineConstraints<double> homogeneous;

@@ -52,8 +52,12 @@ namespace Keyblock
     /** Index into Scene::materials of each cell. */
     std::vector<unsigned int> material;
 
-    /** Stage that removes each cell; 0: never. */
+    /** Number of the stage that digs each cell (Scene::stage_number); 0: none.
+     */
     std::vector<unsigned int> excavation_stage;
+
+    /** Index into Scene::excavations of the one that digs each cell. */
+    std::vector<unsigned int> excavation;
 
     /** Ids of outer faces, where the generator gave any. */
     std::vector<BoundaryFace> boundary_faces;

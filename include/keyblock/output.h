@@ -2,6 +2,7 @@
 #ifndef keyblock_output_h
 #define keyblock_output_h
 
+#include <keyblock/geostress.h>
 #include <keyblock/monitors.h>
 
 #include <map>
@@ -74,7 +75,8 @@ namespace Keyblock
                        const RunReport &run,
                        const std::vector<StageReport> &stages,
                        const History &history,
-                       const CheckValues &checks) const;
+                       const CheckValues &checks,
+                       const Geostress *geostress) const;
 
   private:
     const Scene<dim> &scene;

@@ -62,6 +62,8 @@ namespace Keyblock
     double to     = 0.;
     std::string formula;
     std::string stage = "start";
+    std::string backfill_stage;
+    std::string backfill_material;
 
     void declare(ParameterHandler &prm);
   };
@@ -190,6 +192,7 @@ namespace Keyblock
     std::vector<std::string> boundaries;
     std::string region;
     std::string expression;
+    std::string stage = "start";
 
     void declare(ParameterHandler &prm);
   };
@@ -210,6 +213,10 @@ namespace Keyblock
     double lateral_azimuth             = 90.;
 
     std::string equilibrium = "none";
+
+    // stress inverted from measurements
+    std::string measured_points;
+    std::vector<std::string> stress_fields;
 
     bool
     has_depth_stress() const
@@ -310,13 +317,16 @@ namespace Keyblock
     double reference_time   = 0.;
     double window_start     = 0.;
     double length           = 0.;
+    std::string quantity    = "";
+    double reference        = 0.;
 
     /** Whether it is measured in the rock and not by monitors. */
     bool
     needs_rock() const
     {
       return closed_form == "gravity_column" || closed_form == "kirsch" ||
-             closed_form == "salencon" || closed_form == "footing";
+             closed_form == "salencon" || closed_form == "footing" ||
+             closed_form == "value";
     }
 
     void declare(ParameterHandler &prm);
@@ -366,9 +376,12 @@ namespace Keyblock
     void read(const std::string &file_name,
               const std::vector<std::string> &overrides);
 
-    /** Number of the stage that digs @p excavation: 1 before the first stage,
-     * 2 with the first one of `Stages/Names`, and so on. */
-    unsigned int stage_number(const Excavation<dim> &excavation) const;
+    /** Number of the stage called @p name: 1 for start, before the first stage,
+     * 2 for the first one of `Stages/Names`, and so on. */
+    unsigned int stage_number(const std::string &name) const;
+
+    /** Index into materials of the one called @p name, or their number. */
+    unsigned int material_index(const std::string &name) const;
 
     /** What is allowed and probably not meant, one sentence each. */
     std::vector<std::string> warnings() const;

@@ -57,15 +57,15 @@ namespace Keyblock
     void set_damping(const double damping_ratio);
 
     /**
-     * Take away the cells that are dug up to stage @p number
-     * (Scene::stage_number): cells, masses, supports and tractions are made
-     * anew, stresses of the cells that stay are kept. What the dug cells
-     * carried is left unbalanced.
+     * Go to stage @p number (Scene::stage_number): take away the cells that are
+     * dug, put in those that are filled, apply the tractions of the stage;
+     * cells, masses, supports and tractions are made anew, stresses of the
+     * cells that stay are kept. What the dug cells carried is left unbalanced.
      */
     void dig(const unsigned int number);
 
-    /** Whether stage @p number digs anything. */
-    bool digs_cells(const unsigned int number) const;
+    /** Whether stage @p number digs, fills or loads anything. */
+    bool changes(const unsigned int number) const;
 
     /** Use masses that give all cells the lowest frequency of them, or the
      * true ones. Gravity is not affected. */
@@ -107,10 +107,17 @@ namespace Keyblock
      * for the step from @p time to time + @p step, on owned nodes. */
     void apply_supports(const double time, const double step);
 
+    /** Take the held components out of @p force (owned degrees of freedom). */
+    void remove_held_components(std::vector<double> &force) const;
+
     /** Displacement [m] that a support prescribes at the end of the ramp. */
     Tensor<1, dim> prescribed_displacement(const NodeSupport<dim> &s) const;
 
     bool is_dug(const unsigned int mesh_cell) const;
+    bool is_filled(const unsigned int mesh_cell) const;
+
+    /** Index into Scene::materials, that of the fill where it is filled. */
+    unsigned int material_of(const unsigned int mesh_cell) const;
 
     StableStep<dim> stable_step;   ///< of the masses in use
     std::vector<double> frequency; ///< of each deformable cell here [rad/s]

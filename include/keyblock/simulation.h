@@ -3,6 +3,7 @@
 #define keyblock_simulation_h
 
 #include <keyblock/checks.h>
+#include <keyblock/geostress.h>
 
 namespace Keyblock
 {
@@ -41,6 +42,24 @@ namespace Keyblock
     cell_arrays() const
     {
       return cells;
+    }
+
+    const Fields<dim> &
+    nodal_fields() const
+    {
+      return fields;
+    }
+    const Numbering<dim> &
+    node_numbering() const
+    {
+      return *numbering;
+    }
+
+    /** Stable time step without damping, before the safety factor [s]. */
+    double
+    stable_step() const
+    {
+      return conditions->stable_step.limit(Stage());
     }
 
     /** What the monitors measured (rank 0). */
@@ -89,6 +108,7 @@ namespace Keyblock
     std::unique_ptr<Monitors<dim>> monitors;
     std::unique_ptr<Output<dim>> output;
 
+    std::unique_ptr<Geostress> geostress;
     RunReport report;
     std::vector<StageReport> stage_reports;
     double wall_start    = 0.;

@@ -76,8 +76,9 @@ namespace Keyblock
     void settle_contact();
 
     /**
-     * Dig stage @p number (Conditions::dig). Returns what the dug cells did to
-     * each owned degree of freedom: the force that keeps it balanced [N].
+     * Go to stage @p number (Conditions::dig). Returns the forces that keep the
+     * owned degrees of freedom balanced all the same: what dug cells carried,
+     * what new loads ask for [N].
      */
     std::vector<double> dig(const unsigned int number);
 

@@ -1,0 +1,524 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/geostress.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <keyblock/equilibrium.h>
+#include <keyblock/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+namespace Keyblock
+{
+  FieldFit
+  fit_fields(const std::vector<std::vector<double>> &fields,
+             const std::vector<double> &values,
+             const std::vector<double> &weights,
+             const std::vector<std::string> &names)
+  {
+    const unsigned int n = values.size(), m = names.size();
+    AssertThrow(n > m,
+                InputError("There are " + std::to_string(n) +
+                           " measured components for " + std::to_string(m) +
+                           " fields; measure more, or take fields out of "
+                           "'Initial state/Stress fields'."));
+    // columns of length one, rows times the root of the weight
+    std::vector<double> scale(m, 0.);
+    for (unsigned int j = 0; j < m; ++j)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          scale[j] += weights[i] * fields[i][j] * fields[i][j];
+        scale[j] = std::sqrt(scale[j]);
+        AssertThrow(scale[j] > 0.,
+                    InputError("The measured components do not feel the field "
+                               "'" +
+                               names[j] +
+                               "' at all; take it out of 'Initial state/Stress "
+                               "fields'."));
+      }
+    dealii::LAPACKFullMatrix<double> normal(m);
+    std::vector<double> right_side(m, 0.);
+    for (unsigned int j = 0; j < m; ++j)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double a = weights[i] * fields[i][j] / scale[j];
+          right_side[j] += a * values[i];
+          for (unsigned int k = 0; k < m; ++k)
+            normal(j, k) += a * fields[i][k] / scale[k];
+        }
+    dealii::FullMatrix<double> vectors(m, m);
+    dealii::Vector<double> eigenvalues(m);
+    dealii::LAPACKFullMatrix<double> copy(normal);
+    copy.compute_eigenvalues_symmetric(
+      -1., 2. * m, 1e-300, eigenvalues, vectors);
+
+    FieldFit fit;
+    const double largest = eigenvalues(m - 1);
+    fit.condition_number =
+      std::sqrt(largest / std::max(eigenvalues(0), 1e-300 * largest));
+    if (eigenvalues(0) < 1e-12 * largest)
+      {
+        std::string mixed;
+        for (unsigned int j = 0; j < m; ++j)
+          if (std::abs(vectors(j, 0)) > 0.05)
+            mixed += (mixed.empty() ? "'" : ", '") + names[j] + "'";
+        AssertThrow(
+          false,
+          InputError("The measured components cannot tell the fields " + mixed +
+                     " from each other; take one of them out of "
+                     "'Initial state/Stress fields'."));
+      }
+    fit.coefficients.assign(m, 0.);
+    std::vector<double> variance(m, 0.);
+    for (unsigned int e = 0; e < m; ++e)
+      {
+        double part = 0.;
+        for (unsigned int j = 0; j < m; ++j)
+          part += vectors(j, e) * right_side[j];
+        for (unsigned int j = 0; j < m; ++j)
+          {
+            fit.coefficients[j] += vectors(j, e) * part / eigenvalues(e);
+            variance[j] += vectors(j, e) * vectors(j, e) / eigenvalues(e);
+          }
+      }
+    double residual = 0., mean = 0., total = 0., sum = 0.;
+    for (unsigned int j = 0; j < m; ++j)
+      fit.coefficients[j] /= scale[j];
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        fit.fitted.push_back(0.);
+        for (unsigned int j = 0; j < m; ++j)
+          fit.fitted[i] += fields[i][j] * fit.coefficients[j];
+        residual += weights[i] * std::pow(values[i] - fit.fitted[i], 2);
+        mean += weights[i] * values[i];
+        sum += weights[i];
+      }
+    for (unsigned int i = 0; i < n; ++i)
+      total += weights[i] * std::pow(values[i] - mean / sum, 2);
+    fit.r_squared = total > 0. ? 1. - residual / total : 1.;
+    for (unsigned int j = 0; j < m; ++j)
+      fit.standard_errors.push_back(
+        std::sqrt(residual / (n - m) * variance[j]) / scale[j]);
+    return fit;
+  }
+
+
+
+  namespace
+  {
+    template <int dim>
+    struct Measurement
+    {
+      Point<dim> place;
+      unsigned int component;
+      double value, weight;
+      std::string text;
+    };
+
+    template <int dim>
+    const std::vector<std::string> &
+    component_names()
+    {
+      static const std::vector<std::string> names =
+        dim == 2 ? std::vector<std::string>{"xx", "yy", "zz", "xy"}
+                 : std::vector<std::string>{"xx", "yy", "zz", "yz", "xz", "xy"};
+      return names;
+    }
+
+    template <int dim>
+    std::vector<Measurement<dim>>
+    read_measurements(const Scene<dim> &scene)
+    {
+      const std::filesystem::path path =
+        std::filesystem::path(scene.file).parent_path() /
+        scene.initial_state.measured_points;
+      std::ifstream in(path);
+      AssertThrow(in,
+                  InputError("The file '" + path.string() +
+                             "' of the entry 'Initial state/Measured points' "
+                             "cannot be read; check its path."));
+      std::vector<Measurement<dim>> list;
+      std::string line;
+      for (unsigned int number = 1; std::getline(in, line); ++number)
+        {
+          if (number == 1 || line.empty() || line[0] == '#')
+            continue;
+          const std::vector<std::string> words =
+            dealii::Utilities::split_string_list(line, ',');
+          const auto complain = [&](const std::string &what) {
+            AssertThrow(false,
+                        InputError("Line " + std::to_string(number) + " of '" +
+                                   path.string() + "' " + what +
+                                   "; a line is x,y," + (dim == 3 ? "z," : "") +
+                                   "component,value,weight."));
+          };
+          if (words.size() != dim + 3)
+            complain("has " + std::to_string(words.size()) + " columns");
+          Measurement<dim> m;
+          try
+            {
+              for (unsigned int d = 0; d < dim; ++d)
+                m.place[d] = dealii::Utilities::string_to_double(words[d]);
+              m.value  = dealii::Utilities::string_to_double(words[dim + 1]);
+              m.weight = dealii::Utilities::string_to_double(words[dim + 2]);
+            }
+          catch (const dealii::ExceptionBase &)
+            {
+              complain("has a number that cannot be read");
+            }
+          const auto &names = component_names<dim>();
+          m.component =
+            std::find(names.begin(), names.end(), words[dim]) - names.begin();
+          if (m.component == names.size())
+            complain("names the component '" + words[dim] + "'");
+          if (!(m.weight > 0.) || !std::isfinite(m.value))
+            complain("needs a finite value and a positive weight");
+          for (unsigned int d = 0; d <= dim; ++d)
+            m.text += words[d] + (d < dim ? "," : "");
+          list.push_back(m);
+        }
+      return list;
+    }
+
+
+
+    /** Means of the cells near a point, and their centres. */
+    template <int dim>
+    class PointSampler
+    {
+    public:
+      explicit PointSampler(const Mesh<dim> &mesh)
+        : mesh(mesh)
+      {
+        std::vector<std::pair<Point<dim>, unsigned int>> centers;
+        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+          centers.emplace_back(mesh.cell_center(c), c);
+        tree = dealii::pack_rtree(centers);
+      }
+
+      /** Weights of the cell means that make the value at @p place: least
+       * squares of a linear function over the nearest cells. */
+      std::map<unsigned int, double>
+      weights_at(const Point<dim> &place) const
+      {
+        namespace bgi               = boost::geometry::index;
+        constexpr unsigned int near = dim == 2 ? 9 : 27;
+        std::vector<unsigned int> nearest;
+        for (const auto &hit :
+             tree | bgi::adaptors::queried(bgi::nearest(place, near)))
+          nearest.push_back(hit.second);
+        dealii::FullMatrix<double> normal(dim + 1, dim + 1);
+        std::vector<std::array<double, dim + 1>> rows;
+        const double size =
+          std::pow(mesh.cell_volume(nearest.front()), 1. / dim);
+        for (const unsigned int c : nearest)
+          {
+            std::array<double, dim + 1> row;
+            row[0] = 1.;
+            for (unsigned int d = 0; d < dim; ++d)
+              row[d + 1] = (mesh.cell_center(c)[d] - place[d]) / size;
+            rows.push_back(row);
+            for (unsigned int i = 0; i <= dim; ++i)
+              for (unsigned int j = 0; j <= dim; ++j)
+                normal(i, j) += row[i] * row[j];
+          }
+        // a layer of cells has no slope across it
+        for (unsigned int i = 0; i <= dim; ++i)
+          normal(i, i) += 1e-13 * nearest.size();
+        normal.gauss_jordan();
+        std::map<unsigned int, double> weights;
+        for (unsigned int i = 0; i < nearest.size(); ++i)
+          for (unsigned int j = 0; j <= dim; ++j)
+            weights[nearest[i]] += normal(0, j) * rows[i][j];
+        return weights;
+      }
+
+      bool
+      is_inside(const Point<dim> &place) const
+      {
+        namespace bgi = boost::geometry::index;
+        double least = 1e300, size = 1.;
+        for (const auto &hit :
+             tree | bgi::adaptors::queried(bgi::nearest(place, 1)))
+          {
+            least = place.distance(hit.first);
+            size  = std::pow(mesh.cell_volume(hit.second), 1. / dim);
+            for (const unsigned int v : mesh.cells[hit.second])
+              size = std::max(size, mesh.vertices[v].distance(hit.first));
+          }
+        return least <= size;
+      }
+
+    private:
+      const Mesh<dim> &mesh;
+      dealii::RTree<std::pair<Point<dim>, unsigned int>> tree;
+    };
+
+
+
+    /** The unit fields: supports of the outer boundary and what moves them. */
+    template <int dim>
+    class UnitFields
+    {
+    public:
+      UnitFields(const Scene<dim> &scene,
+                 const SplitMesh<dim> &split,
+                 const Numbering<dim> &numbering,
+                 const CellArrays<dim> &cells,
+                 const Fields<dim> &fields)
+        : scene(scene)
+        , split(split)
+        , numbering(numbering)
+        , cells(cells)
+        , fields(fields)
+        , rollers(hold_boundary(true))
+        , clamps(hold_boundary(false))
+      {}
+
+      /** Stresses of all cells, ordered as those of CellArrays [Pa]. */
+      std::vector<double>
+      solve(const std::string &name)
+      {
+        const bool is_gravity = name == "gravity";
+        auto &solver          = is_gravity ? roller_solver : clamp_solver;
+        if (!solver)
+          solver = std::make_unique<StaticSolver<dim>>(
+            split, numbering, cells, fields, is_gravity ? rollers : clamps);
+        std::vector<double> force(fields.load.size(), 0.);
+        if (is_gravity)
+          {
+            const Expression<dim> gravity(scene.initial_state.gravity,
+                                          dim,
+                                          "Initial state/Gravity");
+            const Tensor<1, dim> g = gravity.vector(Point<dim>(), 0.);
+            for (unsigned int i = 0; i < dim * numbering.n_owned(); ++i)
+              force[i] = fields.weighing_mass[i / dim] * g[i % dim];
+          }
+        const std::vector<double> displacement =
+          solver->solve(force, [&](const NodeSupport<dim> &support) {
+            Point<dim> place;
+            for (unsigned int d = 0; d < dim; ++d)
+              place[d] = fields.reference[dim * support.node + d];
+            return is_gravity ? Tensor<1, dim>()
+                              : boundary_displacement(name, place);
+          });
+        CellArrays<dim> unit = cells;
+        std::fill(unit.stress.begin(), unit.stress.end(), 0.);
+        for (MohrCoulomb &strength : unit.strengths)
+          strength.peak.uniaxial       = strength.peak.tension =
+            strength.residual.uniaxial = strength.residual.tension = 1e100;
+        ForcePass pass;
+        pass.step = 1.;
+        std::vector<double> internal(force.size(), 0.);
+        add_internal_force<dim>(pass,
+                                unit,
+                                fields.reference.data(),
+                                displacement.data(),
+                                internal.data(),
+                                nullptr);
+        return unit.stress;
+      }
+
+    private:
+      std::vector<NodeSupport<dim>>
+      hold_boundary(const bool as_rollers) const
+      {
+        const Mesh<dim> &mesh = split.mesh;
+        std::map<unsigned int, NodeSupport<dim>> held;
+        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+            {
+              if (mesh.neighbor[c][f] != none || mesh.joint[c][f] != none ||
+                  mesh.boundary[c][f] == none || mesh.is_on(c, f, "top"))
+                continue;
+              const Tensor<1, dim> normal = mesh.face_area_vector(c, f);
+              unsigned int axis           = 0;
+              for (unsigned int d = 0; d < dim; ++d)
+                axis = std::abs(normal[d]) > std::abs(normal[axis]) ? d : axis;
+              for (const unsigned int v : mesh.face_vertices(c, f))
+                {
+                  const unsigned int node = numbering.local_node(v);
+                  if (node == none)
+                    continue;
+                  NodeSupport<dim> &support = held[node];
+                  support.node              = node;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    if (!as_rollers || d == axis)
+                      add_axis(support, d);
+                }
+            }
+        std::vector<NodeSupport<dim>> list;
+        for (const auto &[node, support] : held)
+          list.push_back(support);
+        return list;
+      }
+
+      static void
+      add_axis(NodeSupport<dim> &support, const unsigned int axis)
+      {
+        for (unsigned int k = 0; k < support.n_directions; ++k)
+          if (support.directions[k][axis] != 0.)
+            return;
+        support.directions[support.n_directions++][axis] = 1.;
+      }
+
+      /** Displacement of a homogeneous body under a unit field, zero strain
+       * along the other horizontal axis, free top. */
+      Tensor<1, dim>
+      boundary_displacement(const std::string &name,
+                            const Point<dim> &place) const
+      {
+        const Material<dim> &rock = *scene.materials.front();
+        const double nu = rock.poisson_ratio, E = rock.young_modulus;
+        const double along = (1. - nu * nu) / E, up = -nu * (1. + nu) / E;
+        const double height =
+          place[dim - 1] - scene.initial_state.surface_elevation;
+        Tensor<1, dim> u;
+        if (name == "shear xy")
+          {
+            u[0] = place[1] / (2. * rock.shear_modulus());
+            u[1] = place[0] / (2. * rock.shear_modulus());
+            return u;
+          }
+        const unsigned int d = name.back() == 'x' ? 0 : 1;
+        if (name.rfind("push", 0) == 0)
+          {
+            u[d]       = -along * place[d];
+            u[dim - 1] = -up * height;
+          }
+        else
+          {
+            // stress = height, at depth -height: compression of depth
+            u[d] = along * place[d] * height;
+            u[dim - 1] =
+              0.5 * up * height * height - 0.5 * along * place[d] * place[d];
+          }
+        return u;
+      }
+
+      const Scene<dim> &scene;
+      const SplitMesh<dim> &split;
+      const Numbering<dim> &numbering;
+      const CellArrays<dim> &cells;
+      const Fields<dim> &fields;
+      const std::vector<NodeSupport<dim>> rollers, clamps;
+      std::unique_ptr<StaticSolver<dim>> roller_solver, clamp_solver;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  std::unique_ptr<Geostress>
+  invert_measured_stress(const Scene<dim> &scene,
+                         const SplitMesh<dim> &split,
+                         const Numbering<dim> &numbering,
+                         CellArrays<dim> &cells,
+                         Fields<dim> &fields)
+  {
+    const std::vector<Measurement<dim>> measurements = read_measurements(scene);
+    auto result   = std::make_unique<Geostress>();
+    result->names = scene.initial_state.stress_fields;
+    const PointSampler<dim> sampler(split.mesh);
+    std::vector<std::map<unsigned int, double>> samples;
+    std::vector<double> weights;
+    for (const Measurement<dim> &m : measurements)
+      {
+        AssertThrow(sampler.is_inside(m.place),
+                    InputError("The measured point (" + m.text +
+                               ") is outside the model; extend the model, or "
+                               "take the point out of '" +
+                               scene.initial_state.measured_points + "'."));
+        samples.push_back(sampler.weights_at(m.place));
+        weights.push_back(m.weight);
+        result->measured.push_back(m.value);
+        result->measurements.push_back(m.text);
+      }
+
+    UnitFields<dim> unit_fields(scene, split, numbering, cells, fields);
+    std::vector<std::vector<double>> stresses;
+    std::vector<std::vector<double>> matrix(
+      measurements.size(), std::vector<double>(result->names.size(), 0.));
+    std::map<unsigned int, unsigned int> local_cell;
+    for (unsigned int c = 0; c < cells.mesh_cell.size(); ++c)
+      local_cell[cells.mesh_cell[c]] = c;
+    constexpr unsigned int n = 1 << dim;
+    for (unsigned int j = 0; j < result->names.size(); ++j)
+      {
+        stresses.push_back(unit_fields.solve(result->names[j]));
+        std::vector<double> values(measurements.size(), 0.);
+        for (unsigned int i = 0; i < measurements.size(); ++i)
+          for (const auto &[mesh_cell, weight] : samples[i])
+            if (const auto found = local_cell.find(mesh_cell);
+                found != local_cell.end())
+              for (unsigned int q = 0; q < n; ++q)
+                values[i] +=
+                  weight / n *
+                  stresses[j][(found->second * n + q) * n_stress<dim> +
+                              measurements[i].component];
+        dealii::Utilities::MPI::sum(values, world(), values);
+        for (unsigned int i = 0; i < measurements.size(); ++i)
+          matrix[i][j] = values[i];
+      }
+    result->fit = fit_fields(matrix, result->measured, weights, result->names);
+    for (unsigned int k = 0; k < cells.stress.size(); ++k)
+      {
+        cells.stress[k] = 0.;
+        for (unsigned int j = 0; j < stresses.size(); ++j)
+          cells.stress[k] += result->fit.coefficients[j] * stresses[j][k];
+      }
+    return result;
+  }
+
+
+
+  void
+  write_geostress(const std::string &file_name, const Geostress &result)
+  {
+    std::ofstream out(file_name);
+    out << "measurement,measured [Pa],fitted [Pa],residual [Pa]\n"
+        << std::setprecision(12);
+    for (unsigned int i = 0; i < result.measured.size(); ++i)
+      out << '"' << result.measurements[i] << "\"," << result.measured[i] << ','
+          << result.fit.fitted[i] << ','
+          << result.measured[i] - result.fit.fitted[i] << '\n';
+    AssertThrow(out,
+                ComputationError("The file '" + file_name +
+                                 "' cannot be written; check free space."));
+  }
+
+
+
+  void
+  print_geostress(std::ostream &out, const Geostress &result)
+  {
+    out << "Stress  " << result.measured.size() << " measured components, R2 "
+        << std::setprecision(6) << result.fit.r_squared << ", condition number "
+        << result.fit.condition_number << '\n';
+    for (unsigned int j = 0; j < result.names.size(); ++j)
+      out << "        " << result.names[j] << " = "
+          << result.fit.coefficients[j] << " +- "
+          << result.fit.standard_errors[j] << '\n';
+  }
+
+  template std::unique_ptr<Geostress>
+  invert_measured_stress(const Scene<2> &,
+                         const SplitMesh<2> &,
+                         const Numbering<2> &,
+                         CellArrays<2> &,
+                         Fields<2> &);
+  template std::unique_ptr<Geostress>
+  invert_measured_stress(const Scene<3> &,
+                         const SplitMesh<3> &,
+                         const Numbering<3> &,
+                         CellArrays<3> &,
+                         Fields<3> &);
+} // namespace Keyblock
