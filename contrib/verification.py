@@ -3,7 +3,7 @@
 
 usage: contrib/verification.py [KEYBLOCK]        (default: build/keyblock)
 
-All numbers of that file come from here; runs take a minute or two.
+All numbers of that file come from here; runs take some ten minutes.
 """
 import json
 import os
@@ -223,7 +223,10 @@ def main():
                   "Sudden gravity starts the block unstressed; it is reported, "
                   "not recommended.\n\n")
         incline_table(out)
-        out.write("\n## Rock\n\n")
+        out.write("\n## Rock\n\n![Roof wedge on the floor of a room]"
+                  "(roof_block_falls.png)\n\n![Mechanism under a strip footing, "
+                  "displacements](footing.png)\n\n![Plastic strain around a "
+                  "tunnel](salencon.png)\n\n")
         rock_tables(out)
         out.write("\n## Toppling under sudden gravity\n\nThe slow column is "
                   "the test; gravity switched on at once is reported.\n\n")

@@ -283,14 +283,16 @@ namespace Keyblock
             along += sum[1 + d] * sum[1 + dim + d];
           }
         way = std::sqrt(way) / sum[0];
-        // further than a thousandth of its size, and still going
-        if (way > 1e-3 * blocks.blocks[b].size && along > 0.)
+        // a thousandth of its size and still going, or far, and come to rest
+        const bool is_moving =
+          way > 1e-3 * blocks.blocks[b].size && along > 0. && !is_converged;
+        if (is_moving || way > 0.05 * blocks.blocks[b].size)
           text << (text.str().empty() ? "" : "; ") << "block "
-               << blocks.blocks[b].id << " is moving off ("
-               << std::setprecision(3) << way << " m so far)";
+               << blocks.blocks[b].id
+               << (is_moving ? " is moving off (" : " moved off (")
+               << std::setprecision(3) << way << " m)";
       }
-    return text.str().empty() ? "no block is moving off; more steps may do"
-                              : text.str();
+    return text.str();
   }
 
 
@@ -320,8 +322,9 @@ namespace Keyblock
                                        points.n_sticking,
                                        points.n_intact};
       }
-    if (!is_converged)
-      result.remark = name_what_moves();
+    result.remark = name_what_moves();
+    if (result.remark.empty() && !is_converged)
+      result.remark = "no block is moving off; more steps may do";
     double largest = 0.;
     for (unsigned int node = 0; node < numbering->n_owned(); ++node)
       {
@@ -344,6 +347,8 @@ namespace Keyblock
       std::cout << "        not in balance (" << stage.unbalanced_ratio
                 << " wanted) after " << n_steps << " steps: " << result.remark
                 << std::endl;
+    else if (!result.remark.empty())
+      std::cout << "        " << result.remark << std::endl;
   }
 
   template void Simulation<2>::establish_initial_state();
