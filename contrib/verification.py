@@ -129,12 +129,13 @@ def rock_tables(out):
     for phi, sizes in ((0, (5, 10, 20)), (10, (10, 20)), (30, (10,))):
         for n in sizes:
             width, depth = (6, 3) if phi == 30 else (3, 2)
+            steps = (2000 if phi == 30 else 1000) * n
             checks = run("verification/footing",
                          f"Domain/Size={width}, {depth}",
                          f"Domain/Corner=0, {-depth}",
                          f"Mesh/Cells={2 * width * n}, {2 * depth * n}",
                          f"Check/Length={0.5 + 0.25 / n}",
-                         f"Stages/push/Maximum steps={1000 * n}",
+                         f"Stages/push/Maximum steps={steps}",
                          f"Materials/ground/Friction angle={phi}",
                          f"Materials/ground/Dilation angle={phi}")["checks"]
             out.write(f"| {phi} | {n} | "
