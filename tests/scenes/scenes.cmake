@@ -35,3 +35,5 @@ keyblock_scene(verification/order_left_first)
 keyblock_scene(verification/order_stepped)
 keyblock_scene(verification/roof_block_falls)
 keyblock_scene(verification/roof_block_stays)
+keyblock_scene(verification/gravity_column REFERENCES gravity_column_relaxed
+  SET "Stages/settle/Kind=quasi-static" "Stages/settle/Unbalanced ratio=1e-7")
