@@ -170,7 +170,7 @@ namespace Keyblock
         , weld(weld_infinite_blocks)
         , result(result)
         , rock(join_alive(none - 1))
-        , early(join_alive(1))
+        , early(blocks.n_stages > 1 ? join_alive(1) : rock)
       {
         choose_vertices();
         number_vertices();

@@ -5,7 +5,6 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
@@ -13,25 +12,11 @@
 
 namespace Keyblock
 {
-  namespace
-  {
-    double
-    now()
-    {
-      return std::chrono::duration<double>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-    }
-
-  } // namespace
-
-
-
   template <int dim>
   Simulation<dim>::Simulation(const std::string &scene_file,
                               const std::vector<std::string> &overrides,
                               const std::string &output_folder)
-    : wall_start(now())
+    : wall_start(MPI_Wtime())
   {
     scene.read(scene_file, overrides);
     folder = !output_folder.empty() ? output_folder
@@ -199,7 +184,7 @@ namespace Keyblock
   Simulation<dim>::report_progress(const unsigned int stage,
                                    const double fraction)
   {
-    const double time     = now();
+    const double time     = MPI_Wtime();
     const bool is_live    = isatty(STDOUT_FILENO);
     const double interval = is_live ? 0.5 : 30.;
     if (last_progress == 0.)
@@ -250,7 +235,7 @@ namespace Keyblock
     report.steps          = step->n_steps;
     report.time_step      = step->dt;
     report.simulated_time = step->time;
-    report.wall_time      = now() - wall_start;
+    report.wall_time      = MPI_Wtime() - wall_start;
     report.contact_time   = step->contact_seconds;
     report.force_time     = step->force_seconds;
     report.capped_groups  = contact ? contact->n_capped : 0;

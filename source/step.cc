@@ -5,24 +5,10 @@
 #include <keyblock/mpi.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace Keyblock
 {
-  namespace
-  {
-    double
-    now()
-    {
-      return std::chrono::duration<double>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-    }
-  } // namespace
-
-
-
   template <int dim>
   ExplicitStep<dim>::ExplicitStep(const Scene<dim> &scene,
                                   const SplitMesh<dim> &split,
@@ -218,7 +204,7 @@ namespace Keyblock
   void
   ExplicitStep<dim>::compute_internal_force()
   {
-    const double start = now();
+    const double start = MPI_Wtime();
     std::fill(fields.internal_force.begin(), fields.internal_force.end(), 0.);
     ForcePass pass;
     pass.step        = is_stress_current ? 0. : previous_dt;
@@ -244,7 +230,7 @@ namespace Keyblock
     if (pass.has_damping)
       numbering.add_ghosts_to_owners(fields.damping_force);
     is_stress_current = true;
-    force_seconds += now() - start;
+    force_seconds += MPI_Wtime() - start;
   }
 
 
@@ -300,13 +286,13 @@ namespace Keyblock
   {
     if (contact == nullptr)
       return;
-    const double start = now();
+    const double start = MPI_Wtime();
     contact->solve({kick,
                     dt,
                     stage.damps_contact_force ? stage.local_damping : 0.,
                     scene.time_stepping.is_large(),
                     scene.time_stepping.ledger});
-    contact_seconds += now() - start;
+    contact_seconds += MPI_Wtime() - start;
   }
 
 

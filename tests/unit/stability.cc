@@ -95,6 +95,7 @@ BOOST_AUTO_TEST_CASE(time_step_limit)
   BOOST_TEST_MESSAGE("bound " << bound * c_p << ", true limit " << limit * c_p
                               << " of h / c_p; ratio " << limit / bound);
   BOOST_TEST(std::abs(bound * c_p - std::sqrt(0.7)) < 1e-4);
+  BOOST_TEST(std::abs(limit * c_p - 0.99018) < 1e-4);
   BOOST_TEST(bound <= limit);
   {
     const std::string name = write_plate(0.99 * limit / bound, 100000);
