@@ -11,7 +11,7 @@ keyblock_scene(verification/newmark)
 keyblock_scene(verification/newmark_rectangular)
 foreach(case e1 e2a e2b e3a e3b e3c e3d sets_2d lines tunnel_15 tunnel_20
     tunnel_25 tunnel_30 cube_3 cube_4 sets_3d planes_4 planes_5 planes_6)
-  keyblock_scene(verification/blocks_${case} RANKS 1 2)
+  keyblock_scene(verification/blocks_${case})
 endforeach()
 keyblock_scene(verification/rotation)
 foreach(case stays_friction slides_friction stays_slender topples_slender
