@@ -138,15 +138,15 @@ namespace Keyblock
               const unsigned int c = front.back();
               front.pop_back();
               for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-                {
-                  const unsigned int other = mesh.neighbor[c][f];
-                  if (other != none && mesh.joint[c][f] == none &&
-                      label[other] == none && mesh.excavation_stage[other] == 0)
-                    {
-                      label[other] = n_labels;
-                      front.push_back(other);
-                    }
-                }
+                if (mesh.joint[c][f] == none)
+                  mesh.for_each_across(c, f, [&](const unsigned int other) {
+                    if (label[other] == none &&
+                        mesh.excavation_stage[other] == 0)
+                      {
+                        label[other] = n_labels;
+                        front.push_back(other);
+                      }
+                  });
             }
           ++n_labels;
         }

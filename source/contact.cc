@@ -63,6 +63,14 @@ namespace Keyblock
           slave_area[{{search.slot_of_vertex[v], interface.pairs[p].joint}}] +=
             interface.pairs[p].area;
       }
+    for (const HangingVertex &hanging : split.hanging)
+      AssertThrow(!scene.time_stepping.is_large() ||
+                    search.slot_of_vertex[hanging.vertex] == none,
+                  InputError(
+                    "The local refinement leaves a hanging node on the surface "
+                    "of a block, which contact by search cannot treat; set "
+                    "'Time stepping/Kinematics' to small, or give 'Mesh/Refine "
+                    "at joints' distances that reach all joint faces alike."));
     measure_slots();
     set_up_groups();
     set_up_corners();

@@ -106,8 +106,12 @@ namespace Keyblock
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const unsigned int v : mesh.cells[cell->id().get_coarse_cell_id()])
-          if (is_ghost(node_of_vertex[v]))
-            ghosts.insert(node_of_vertex[v]);
+          split.for_each_carrier(v, [&](const unsigned int carrier, double) {
+            for (const unsigned int node :
+                 {node_of_vertex[v], node_of_vertex[carrier]})
+              if (is_ghost(node))
+                ghosts.insert(node);
+          });
     const Interface<dim> &interface    = split.interface;
     std::set<unsigned int> cell_ghosts = ghosts;
     for (unsigned int g = 0; g < interface.n_groups(); ++g)
@@ -147,6 +151,57 @@ namespace Keyblock
             nodes[v] = local_node(mesh.cells[c][v]);
           cell_nodes.push_back(nodes);
           mesh_cell.push_back(c);
+        }
+    list_hanging_nodes(split);
+  }
+
+
+
+  template <int dim>
+  void
+  Numbering<dim>::list_hanging_nodes(const SplitMesh<dim> &split)
+  {
+    masters_begin = {0};
+    for (const HangingVertex &hanging : split.hanging)
+      {
+        if (local_node(hanging.vertex) == none)
+          continue;
+        hanging_nodes.push_back(local_node(hanging.vertex));
+        for (const auto &[master, weight] : hanging.masters)
+          masters.push_back({local_node(master), weight});
+        masters_begin.push_back(masters.size());
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Numbering<dim>::add_hanging_to_masters(std::vector<double> &field) const
+  {
+    for (unsigned int h = 0; h < hanging_nodes.size(); ++h)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          double &value = field[dim * hanging_nodes[h] + d];
+          for (unsigned int m = masters_begin[h]; m < masters_begin[h + 1]; ++m)
+            field[dim * masters[m].node + d] += masters[m].weight * value;
+          value = 0.;
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  Numbering<dim>::interpolate_hanging(std::vector<double> &field) const
+  {
+    for (unsigned int h = 0; h < hanging_nodes.size(); ++h)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          double value = 0.;
+          for (unsigned int m = masters_begin[h]; m < masters_begin[h + 1]; ++m)
+            value += masters[m].weight * field[dim * masters[m].node + d];
+          field[dim * hanging_nodes[h] + d] = value;
         }
   }
 

@@ -50,6 +50,19 @@ namespace Keyblock
       return partitioner.local_to_global(dim * node + d);
     };
 
+    for (unsigned int h = 0; h < numbering.hanging_nodes.size(); ++h)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const auto line = global(numbering.hanging_nodes[h], d);
+          lines.add_line(line);
+          for (unsigned int m = numbering.masters_begin[h];
+               m < numbering.masters_begin[h + 1];
+               ++m)
+            lines.add_entry(line,
+                            global(numbering.masters[m].node, d),
+                            numbering.masters[m].weight);
+        }
+
     // nodes that one vertex had before the split move together: the one with
     // the least number leads, and takes the supports of all
     std::map<unsigned int, unsigned int> leader;

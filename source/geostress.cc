@@ -252,7 +252,7 @@ namespace Keyblock
               for (const unsigned int v : mesh.face_vertices(c, f))
                 {
                   const unsigned int node = numbering.local_node(v);
-                  if (node == none)
+                  if (node == none || split.is_hanging(v))
                     continue;
                   NodeSupport<dim> &support = held[node];
                   support.node              = node;

@@ -50,7 +50,6 @@ namespace Keyblock
       for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
         if (mesh.cells[cell][v] == vertex)
           return v;
-      Assert(false, dealii::ExcInternalError());
       return none;
     }
 
@@ -114,6 +113,13 @@ namespace Keyblock
             result.mesh.excavation.push_back(mesh.excavation[c]);
             result.block_of_cell.push_back(blocks.block_of_cell[c]);
           }
+      for (auto hanging : mesh.hanging_faces)
+        {
+          hanging.coarse_cell = kept[hanging.coarse_cell];
+          hanging.fine_cell   = kept[hanging.fine_cell];
+          if (hanging.coarse_cell != none && hanging.fine_cell != none)
+            result.mesh.hanging_faces.push_back(hanging);
+        }
       return kept;
     }
 
@@ -131,7 +137,7 @@ namespace Keyblock
         for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
           {
             const unsigned int other = mesh.neighbor[c][f];
-            if (other == none || other < c || !joins(c, f, other))
+            if (other == none || !joins(c, f, other))
               continue;
             for (unsigned int v = 0; v < Mesh<dim>::n_face_vertices; ++v)
               {
@@ -139,7 +145,8 @@ namespace Keyblock
                   GeometryInfo<dim>::face_to_cell_vertices(f, v);
                 const unsigned int b =
                   local_vertex(mesh, other, mesh.cells[c][a]);
-                corners.join(c * n + a, other * n + b);
+                if (b != none) // a vertex hanging on a larger cell is apart
+                  corners.join(c * n + a, other * n + b);
               }
           }
       return corners;
@@ -338,6 +345,46 @@ namespace Keyblock
 
 
 
+    /** Pairs by vertex before the split, joint, minus and plus vertex. */
+    template <int dim>
+    using PairMap = std::map<std::array<unsigned int, 4>, Pair<dim>>;
+
+
+
+    /** Drop pairs of hanging vertices: with their masters' gaps closed theirs
+     * is closed, so the masters' pairs carry their area. */
+    template <int dim>
+    void
+    give_hanging_area_to_masters(const std::vector<unsigned int> &before,
+                                 const SplitMesh<dim> &split,
+                                 PairMap<dim> &pairs)
+    {
+      for (auto entry = pairs.begin(); entry != pairs.end();)
+        {
+          const Pair<dim> pair = entry->second;
+          if (!split.is_hanging(pair.minus) && !split.is_hanging(pair.plus))
+            {
+              ++entry;
+              continue;
+            }
+          Assert(split.is_hanging(pair.minus) && split.is_hanging(pair.plus),
+                 dealii::ExcInternalError());
+          entry = pairs.erase(entry);
+          split.for_each_carrier(
+            pair.minus, [&](const unsigned int minus, const double weight) {
+              split.for_each_carrier(
+                pair.plus, [&](const unsigned int plus, const double) {
+                  const auto found =
+                    pairs.find({{before[minus], pair.joint, minus, plus}});
+                  if (found != pairs.end())
+                    found->second.area += weight * pair.area;
+                });
+            });
+        }
+    }
+
+
+
     template <int dim>
     void
     make_pairs(const Scene<dim> &scene,
@@ -346,7 +393,7 @@ namespace Keyblock
     {
       const std::vector<unsigned int> &before = fans.before;
       Interface<dim> &interface               = result.interface;
-      std::map<std::array<unsigned int, 4>, Pair<dim>> pairs;
+      PairMap<dim> pairs;
       for (const JointFace &face : interface.joint_faces)
         {
           const auto areas =
@@ -376,6 +423,7 @@ namespace Keyblock
                   pair.face_size = std::max(pair.face_size, size);
                 }
         }
+      give_hanging_area_to_masters(before, result, pairs);
       unsigned int last = none;
       for (const auto &[key, pair] : pairs)
         {
@@ -462,6 +510,7 @@ namespace Keyblock
                                  scene,
                                  result);
     find_neighbors(result.mesh);
+    result.hanging = list_hanging_vertices(result.mesh);
     make_pairs(scene, fans, result);
     list_surface(result);
     return result;

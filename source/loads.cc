@@ -76,9 +76,14 @@ namespace Keyblock
               const double area =
                 mesh.face_area_vector(c, f).norm() / Mesh<dim>::n_face_vertices;
               for (const unsigned int v : mesh.face_vertices(c, f))
-                if (numbering.is_owned(v))
-                  nodal_tractions.push_back(
-                    {numbering.local_node(v), t, area, center});
+                split.for_each_carrier(
+                  v, [&](const unsigned int carrier, const double weight) {
+                    if (numbering.is_owned(carrier))
+                      nodal_tractions.push_back({numbering.local_node(carrier),
+                                                 t,
+                                                 weight * area,
+                                                 center});
+                  });
             }
         AssertThrow(n_hits > 0 || stage_number > 1,
                     InputError("The traction '" + traction.name +

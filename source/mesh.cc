@@ -190,6 +190,13 @@ namespace Keyblock
           mesh.neighbor[a.cell][a.face] = b.cell;
           mesh.neighbor[b.cell][b.face] = a.cell;
         }
+    for (const auto &hanging : mesh.hanging_faces)
+      {
+        mesh.neighbor[hanging.coarse_cell][hanging.coarse_face] =
+          hanging.fine_cell;
+        mesh.neighbor[hanging.fine_cell][hanging.fine_face] =
+          hanging.coarse_cell;
+      }
   }
 
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace Keyblock
 {
@@ -41,6 +42,20 @@ namespace Keyblock
           mesh.cells[c]  = cells[order[c]];
           mesh.region[c] = region[order[c]];
         }
+      std::vector<unsigned int> place(order.size());
+      for (unsigned int c = 0; c < order.size(); ++c)
+        place[order[c]] = c;
+      for (auto &hanging : mesh.hanging_faces)
+        {
+          hanging.coarse_cell = place[hanging.coarse_cell];
+          hanging.fine_cell   = place[hanging.fine_cell];
+        }
+      std::sort(mesh.hanging_faces.begin(),
+                mesh.hanging_faces.end(),
+                [](const auto &a, const auto &b) {
+                  return std::tie(a.coarse_cell, a.fine_cell) <
+                         std::tie(b.coarse_cell, b.fine_cell);
+                });
       // vertices in the order in which the cells meet them
       std::vector<unsigned int> rank(mesh.vertices.size(), none);
       std::vector<Point<dim>> vertices;
@@ -374,12 +389,15 @@ namespace Keyblock
         mesh = make_gmsh_mesh(scene);
       else
         mesh = read_mesh(scene);
+      if (scene.meshing.is_refined())
+        refine_mesh(mesh, scene);
       sort_cells_along_hilbert_curve(mesh);
     });
     broadcast(mesh.vertices);
     broadcast(mesh.cells);
     broadcast(mesh.region);
     broadcast(mesh.boundary_faces);
+    broadcast(mesh.hanging_faces);
 
     find_neighbors(mesh);
     mark_boundaries(mesh, scene);

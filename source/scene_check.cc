@@ -102,6 +102,29 @@ namespace Keyblock
     check_meshing(const Scene<dim> &scene)
     {
       const Meshing<dim> &meshing = scene.meshing;
+      const auto check_distances  = [](const std::vector<double> &distances,
+                                      const std::string &entry) {
+        for (unsigned int i = 0; i < distances.size(); ++i)
+          require(distances[i] > 0. &&
+                    (i == 0 || distances[i] <= distances[i - 1]),
+                  "The entry 'Mesh/" + entry +
+                    "' is not a list of decreasing distances (number " +
+                    std::to_string(i + 1) + " is " +
+                    std::to_string(distances[i]) +
+                    "); begin with the distance of the first halving.");
+      };
+      check_distances(meshing.refine_at_excavations, "Refine at excavations");
+      check_distances(meshing.refine_at_joints, "Refine at joints");
+      require(meshing.refine_at_excavations.empty() ||
+                std::any_of(scene.excavations.begin(),
+                            scene.excavations.end(),
+                            [](const auto &e) {
+                              return e->shape != "formula";
+                            }),
+              "The entry 'Mesh/Refine at excavations' needs an excavation with "
+              "an outline; use 'Mesh/Refinement levels'.");
+      require(meshing.refine_at_joints.empty() || !scene.joints.empty(),
+              "The entry 'Mesh/Refine at joints' needs 'Joints/Names'.");
       if (meshing.generator != "structured")
         return;
       require(meshing.cells.size() == dim,

@@ -90,6 +90,19 @@ namespace Keyblock
                       "A cell face lies on a joint if its vertices are within "
                       "this fraction of the face's size [-].",
                       Double(0., 0.1));
+    prm.add_parameter("Refine at excavations",
+                      refine_at_excavations,
+                      "Distances from outlines of excavations [m], decreasing: "
+                      "cells nearer than the first are halved once, nearer "
+                      "than the second twice, and so on.");
+    prm.add_parameter("Refine at joints",
+                      refine_at_joints,
+                      "Distances from joints [m], used in the same way.");
+    prm.add_parameter(
+      "Refinement levels",
+      refinement_levels,
+      "A formula in x, y (z): how often cells are halved whose centre is "
+      "there. A box: `2 * (abs(x) < 5) * (abs(y) < 8)`.");
   }
 
   template <int dim>

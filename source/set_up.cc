@@ -311,6 +311,7 @@ namespace Keyblock
           for (int d = 0; d < dim; ++d)
             mass[dim * cells.nodes[c][v] + d] += share[v];
       }
+    numbering.add_hanging_to_masters(mass);
     numbering.add_ghosts_to_owners(mass);
     numbering.update_ghosts(mass);
     std::vector<double> by_node(numbering.n_local());
@@ -383,6 +384,7 @@ namespace Keyblock
             for (int d = 0; d < dim; ++d)
               fields.velocity[dim * node + d] = velocity.value(
                 split.mesh.vertices[numbering.vertex_of_node[node]], 0., d);
+        numbering.interpolate_hanging(fields.velocity);
       }
   }
 

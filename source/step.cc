@@ -220,6 +220,7 @@ namespace Keyblock
                                           : fields.velocity.data(),
                             fields.internal_force.data(),
                             fields.damping_force.data());
+    numbering.add_hanging_to_masters(fields.internal_force);
     numbering.add_ghosts_to_owners(fields.internal_force);
     for (const NodeSpring<dim> &spring : fields.springs)
       for (unsigned int d = 0; d < dim; ++d)
@@ -228,7 +229,10 @@ namespace Keyblock
             spring.stiffness[dim * d + e] *
             fields.displacement[dim * spring.node + e];
     if (pass.has_damping)
-      numbering.add_ghosts_to_owners(fields.damping_force);
+      {
+        numbering.add_hanging_to_masters(fields.damping_force);
+        numbering.add_ghosts_to_owners(fields.damping_force);
+      }
     is_stress_current = true;
     force_seconds += MPI_Wtime() - start;
   }
@@ -301,6 +305,7 @@ namespace Keyblock
   void
   ExplicitStep<dim>::move()
   {
+    numbering.interpolate_hanging(fields.velocity);
     const std::size_t n = fields.displacement.size();
     for (std::size_t i = 0; i < n; ++i)
       fields.displacement[i] += dt * fields.velocity[i];

@@ -72,7 +72,7 @@ namespace Keyblock
             for (const unsigned int v : mesh.cells[c])
               {
                 const unsigned int node = numbering.local_node(v);
-                if (node == none)
+                if (node == none || split.is_hanging(v))
                   continue;
                 NodeSupport<dim> &support = found[node];
                 hold_all(support);
@@ -101,7 +101,7 @@ namespace Keyblock
                               const Tensor<1, dim> &normal) {
           ++n_hits;
           const unsigned int node = numbering.local_node(vertex);
-          if (node == none)
+          if (node == none || split.is_hanging(vertex))
             return;
           if (node < numbering.n_owned())
             nodes.push_back(node);
@@ -222,13 +222,14 @@ namespace Keyblock
     const double area =
       mesh.face_area_vector(cell, face).norm() / Mesh<dim>::n_face_vertices;
     for (const unsigned int v : mesh.face_vertices(cell, face))
-      if (numbering.local_node(v) != none)
-        {
-          auto &k = stiffness[numbering.local_node(v)];
+      split.for_each_carrier(
+        v, [&](const unsigned int carrier, const double weight) {
+          if (numbering.local_node(carrier) == none)
+            return;
+          auto &k = stiffness[numbering.local_node(carrier)];
           for (int d = 0; d < dim; ++d)
-            for (int e = 0; e < dim; ++e)
-              k[dim * d + e] += area * normal * (d == e ? 1. : 0.);
-        }
+            k[(dim + 1) * d] += weight * area * normal;
+        });
   }
 
 

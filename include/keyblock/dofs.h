@@ -57,6 +57,13 @@ namespace Keyblock
       return node != none && node < n_owned();
     }
 
+    /** Add the values of @p field (dim per node) at hanging nodes to their
+     * masters and clear them; before ghosts are added to owners. */
+    void add_hanging_to_masters(std::vector<double> &field) const;
+
+    /** Set @p field (dim per node) at hanging nodes to their masters' mean. */
+    void interpolate_hanging(std::vector<double> &field) const;
+
     /** Add the ghosts' values of @p field (dim per node) to their owners and
      * clear them. */
     void add_ghosts_to_owners(std::vector<double> &field) const;
@@ -72,6 +79,16 @@ namespace Keyblock
     /** Vertex of the split mesh of each local node. */
     std::vector<unsigned int> vertex_of_node;
 
+    /** Nodes that hang, each with a stretch of `masters`: first index, one
+     * more entry than nodes. Masters of local hanging nodes are local. */
+    struct Master
+    {
+      unsigned int node;
+      double weight;
+    };
+    std::vector<unsigned int> hanging_nodes, masters_begin;
+    std::vector<Master> masters;
+
     std::unique_ptr<dealii::Triangulation<dim>> triangulation;
     dealii::FESystem<dim> fe;
     dealii::DoFHandler<dim> dof_handler;
@@ -82,6 +99,8 @@ namespace Keyblock
     void create_triangulation(const Scene<dim> &scene, const Mesh<dim> &mesh);
 
     void create_numbering(const Scene<dim> &scene, const SplitMesh<dim> &split);
+
+    void list_hanging_nodes(const SplitMesh<dim> &split);
 
     std::vector<unsigned int> node_of_vertex; ///< global numbers
 

@@ -68,6 +68,41 @@ namespace Keyblock
     /** Index into Blocks::blocks; `none` for cells that are dug later. */
     std::vector<unsigned int> block_of_cell;
     Interface<dim> interface;
+
+    /** Vertices of smaller cells in the middle of larger ones' edges and faces;
+     * they carry no mass and are in no pair. */
+    std::vector<HangingVertex> hanging;
+
+    /** Call @p action(vertex, weight) for each vertex that carries what acts at
+     * @p vertex: itself, or its masters if it hangs. */
+    template <typename Action>
+    void
+    for_each_carrier(const unsigned int vertex, const Action &action) const
+    {
+      const auto found =
+        std::lower_bound(hanging.begin(),
+                         hanging.end(),
+                         vertex,
+                         [](const HangingVertex &h, const unsigned int v) {
+                           return h.vertex < v;
+                         });
+      if (found == hanging.end() || found->vertex != vertex)
+        action(vertex, 1.);
+      else
+        for (const auto &[master, weight] : found->masters)
+          action(master, weight);
+    }
+
+    bool
+    is_hanging(const unsigned int vertex) const
+    {
+      return std::binary_search(hanging.begin(),
+                                hanging.end(),
+                                HangingVertex{vertex, {}},
+                                [](const auto &a, const auto &b) {
+                                  return a.vertex < b.vertex;
+                                });
+    }
   };
 
   /**

@@ -7,8 +7,10 @@
 
 #include <keyblock/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <iosfwd>
+#include <utility>
 #include <vector>
 
 namespace Keyblock
@@ -62,7 +64,17 @@ namespace Keyblock
     /** Ids of outer faces, where the generator gave any. */
     std::vector<BoundaryFace> boundary_faces;
 
-    /** The cell across each face of each cell, or `none`. */
+    /** A face of a cell and the part of it that a smaller cell covers. */
+    struct HangingFace
+    {
+      unsigned int coarse_cell, coarse_face, fine_cell, fine_face;
+    };
+
+    /** Where the refinement changes by a level, sorted by coarse cell. */
+    std::vector<HangingFace> hanging_faces;
+
+    /** The cell across each face of each cell, or `none`; of several smaller
+     * ones, one. */
     std::vector<std::array<unsigned int, n_cell_faces>> neighbor;
 
     /** Index into Scene::joints of the joint each face lies on, or `none`.
@@ -105,6 +117,35 @@ namespace Keyblock
      * product of the lengths of its edges [-]. */
     double scaled_jacobian(const unsigned int cell) const;
 
+    /** Call @p action with each cell across a face: one, none, or the smaller
+     * ones beside a hanging face. */
+    template <typename Action>
+    void
+    for_each_across(const unsigned int cell,
+                    const unsigned int face,
+                    const Action &action) const
+    {
+      if (neighbor[cell][face] == none)
+        return;
+      auto hanging =
+        std::lower_bound(hanging_faces.begin(),
+                         hanging_faces.end(),
+                         cell,
+                         [](const HangingFace &h, const unsigned int c) {
+                           return h.coarse_cell < c;
+                         });
+      bool is_coarse = false;
+      for (; hanging != hanging_faces.end() && hanging->coarse_cell == cell;
+           ++hanging)
+        if (hanging->coarse_face == face)
+          {
+            is_coarse = true;
+            action(hanging->fine_cell);
+          }
+      if (!is_coarse)
+        action(neighbor[cell][face]);
+    }
+
     /** Whether the face lies on an outer boundary called @p name (or `all`). */
     bool is_on(const unsigned int cell,
                const unsigned int face,
@@ -143,6 +184,27 @@ namespace Keyblock
   /** Fill Mesh::neighbor from the cells' vertices. */
   template <int dim>
   void find_neighbors(Mesh<dim> &mesh);
+
+  /**
+   * Refine the cells that Mesh/Refine at excavations, Refine at joints and
+   * Refinement levels ask for, and what keeps neighbours within one level and
+   * the two sides of joints and outlines alike; fills Mesh::hanging_faces.
+   * New vertices on circular outlines go to the circle.
+   */
+  template <int dim>
+  void refine_mesh(Mesh<dim> &mesh, const Scene<dim> &scene);
+
+  /** A vertex in the middle of an edge or face of a larger cell: its motion is
+   * the weighted mean of its masters'. */
+  struct HangingVertex
+  {
+    unsigned int vertex;
+    std::vector<std::pair<unsigned int, double>> masters; ///< vertex, weight
+  };
+
+  /** All of them, sorted by vertex; no master hangs itself. */
+  template <int dim>
+  std::vector<HangingVertex> list_hanging_vertices(const Mesh<dim> &mesh);
 
   template <int dim>
   MeshQuality measure_quality(const Mesh<dim> &mesh);

@@ -44,6 +44,18 @@ namespace Keyblock
     double grading_distance   = 0.;
     double joint_tolerance    = 1e-6;
 
+    // local refinement
+    std::vector<double> refine_at_excavations;
+    std::vector<double> refine_at_joints;
+    std::string refinement_levels;
+
+    bool
+    is_refined() const
+    {
+      return !refine_at_excavations.empty() || !refine_at_joints.empty() ||
+             !refinement_levels.empty();
+    }
+
     void declare(ParameterHandler &prm);
   };
 

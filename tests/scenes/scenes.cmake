@@ -24,6 +24,7 @@ keyblock_scene(verification/bond_break)
 keyblock_scene(verification/bond_break_fast)
 keyblock_scene(verification/gravity_column)
 keyblock_scene(verification/kirsch)
+keyblock_scene(verification/kirsch_refined)
 keyblock_scene(verification/kirsch_far_field)
 keyblock_scene(verification/salencon RANKS 1 2)
 keyblock_scene(verification/salencon_associated RANKS 2)
@@ -37,3 +38,8 @@ keyblock_scene(verification/roof_block_falls)
 keyblock_scene(verification/roof_block_stays)
 keyblock_scene(verification/gravity_column REFERENCES gravity_column_relaxed
   SET "Stages/settle/Kind=quasi-static" "Stages/settle/Unbalanced ratio=1e-7")
+keyblock_scene(verification/bar_impact REFERENCES bar_impact_refined
+  SET "Mesh/Refinement levels=(x < -6) + 2*(x > -3)*(y > 0.2)")
+# half of the base's faces halved: nodes hang on the joint itself
+keyblock_scene(verification/incline_3d REFERENCES incline_3d_refined
+  SET "Mesh/Refinement levels=(0.389948096*x + 0.713134173*y - 0.582563416*z < 0.125)")
