@@ -32,17 +32,55 @@ def run(scene, *overrides, ranks=1):
         return json.load(file)
 
 
-def scene_table(out):
-    """Each line of each reference file with what was measured."""
+def read_scenes():
+    """The scenes that are tested, as in verification/incline_30."""
     with open(f"{ROOT}/tests/scenes/scenes.cmake", encoding="utf-8") as file:
         text = file.read()
     text = re.sub(r"foreach\(case ([^)]*)\)\s*keyblock_scene\(([^$]*)"
                   r"\$\{case\}\)\s*endforeach\(\)",
                   lambda m: "\n".join(f"keyblock_scene({m[2]}{case})"
                                       for case in m[1].split()), text)
+    return re.findall(r"keyblock_scene\(([\w/]+)", text)
+
+
+def gallery(out):
+    """The pictures of doc/pictures, three in a row, with titles of scenes.
+
+    They are drawn by contrib/pictures.py."""
+    cells = []
+    for scene in dict.fromkeys(read_scenes()):
+        name = os.path.basename(scene)
+        if not os.path.exists(f"{ROOT}/doc/pictures/{name}.png"):
+            continue
+        with open(f"{ROOT}/prm/{scene}.prm", encoding="utf-8") as file:
+            title = re.search(r"set Title = (.*)", file.read())[1]
+        cells.append((f"![{title}](pictures/{name}.png)",
+                      f"`{name}`: {title}"))
+    cells += [("", "")] * (-len(cells) % 3)
+    out.write("| | | |\n|---|---|---|\n")
+    for i in range(0, len(cells), 3):
+        for part in zip(*cells[i:i + 3]):
+            out.write("| " + " | ".join(part) + " |\n")
+
+
+def write_gallery(out):
+    """The section of pictures."""
+    out.write("## Pictures of the scenes\n\nDrawn by `contrib/pictures.py`: "
+              "the last state, or one on the way where that shows more. Where "
+              "gravity is tilted the picture is turned so that it points "
+              "down. Times, fields and exaggerations are in the pictures; "
+              "colours and numbers without a bar are those of blocks.\n\n")
+    gallery(out)
+    out.write("\n![Measured against fitted stresses]"
+              "(pictures/geostress_fit.png)\n\nThe six measured points of "
+              "`geostress`, by `contrib/plot_geostress.py`.\n")
+
+
+def scene_table(out):
+    """Each line of each reference file with what was measured."""
     out.write("| scene | quantity | measured | reference | tolerance |\n"
               "|---|---|---|---|---|\n")
-    for scene in re.findall(r"keyblock_scene\(([\w/]+)", text):
+    for scene in read_scenes():
         name = os.path.basename(scene)
         summary = subprocess.run(
             [sys.executable, f"{ROOT}/tests/compare.py", KEYBLOCK,
@@ -52,7 +90,8 @@ def scene_table(out):
             found = re.match(r"(\S+)\s+(\S+) (\S+)(?: \(reference (\S+) \+- "
                              r"(\S+), \w+\))?", line)
             state, quantity, value, reference, tolerance = found.groups()
-            out.write(f"| {name} | {quantity} | {value} | {reference or value} "
+            out.write(f"| {name} | {quantity} | {value} "
+                      f"| {reference or value} "
                       f"| {tolerance or 'exact'} |"
                       f"{'' if state == 'ok' else ' FAILED'}\n")
 
@@ -73,7 +112,8 @@ def incline_row(out, label, summary):
 def incline_table(out):
     """Meshes, elastic base, sudden gravity, and the published variant."""
     out.write("| run | acceleration | slip | normal force | offset "
-              "| energy residual | loop time [s] |\n|---|---|---|---|---|---|---|\n")
+              "| energy residual | loop time [s] |\n"
+              "|---|---|---|---|---|---|---|\n")
     for method in ("exact", "paper"):
         for cells, size in ((8, "40, 10"), (16, "80, 20"), (32, "160, 40")):
             incline_row(out, f"rigid base, {cells} x {cells}, {method}",
@@ -212,22 +252,24 @@ def main():
     with open(f"{ROOT}/doc/verification.md", "w", encoding="utf-8") as out:
         out.write("# Verification\n\nWritten by `contrib/verification.py`; do "
                   "not edit. Errors are relative. Unit tests besides: split "
-                  "meshes against unsplit ones, rest under in-situ stress, the "
-                  "patch test of inclined joints "
+                  "meshes against unsplit ones, rest under in-situ stress, "
+                  "the patch test of inclined joints "
                   "(`tests/unit_tests --log_level=message` prints their "
                   "figures).\n\n## Scenes against closed forms\n\n")
         scene_table(out)
+        out.write("\n")
+        write_gallery(out)
         out.write("\n## Incline of 40 degrees: mesh, base, contact method\n\n"
                   "Friction 30 degrees unless stated; errors relative to the "
                   "closed form. `exact` is the coupled solution, `paper` the "
                   "published one-pass variant with its factor corrected. "
-                  "Sudden gravity starts the block unstressed; it is reported, "
-                  "not recommended.\n\n")
+                  "Sudden gravity starts the block unstressed; it is "
+                  "reported, not recommended.\n\n")
         incline_table(out)
         out.write("\n## Rock\n\n![Roof wedge on the floor of a room]"
-                  "(roof_block_falls.png)\n\n![Mechanism under a strip footing, "
-                  "displacements](footing.png)\n\n![Plastic strain around a "
-                  "tunnel](salencon.png)\n\n")
+                  "(roof_block_falls.png)\n\n![Mechanism under a strip "
+                  "footing, displacements](footing.png)\n\n![Plastic strain "
+                  "around a tunnel](salencon.png)\n\n")
         rock_tables(out)
         out.write("\n## Toppling under sudden gravity\n\nThe slow column is "
                   "the test; gravity switched on at once is reported.\n\n")

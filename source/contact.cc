@@ -63,14 +63,7 @@ namespace Keyblock
           slave_area[{{search.slot_of_vertex[v], interface.pairs[p].joint}}] +=
             interface.pairs[p].area;
       }
-    for (const HangingVertex &hanging : split.hanging)
-      AssertThrow(!scene.time_stepping.is_large() ||
-                    search.slot_of_vertex[hanging.vertex] == none,
-                  InputError(
-                    "The local refinement leaves a hanging node on the surface "
-                    "of a block, which contact by search cannot treat; set "
-                    "'Time stepping/Kinematics' to small, or give 'Mesh/Refine "
-                    "at joints' distances that reach all joint faces alike."));
+    is_removed_block.assign(blocks.blocks.size(), false);
     measure_slots();
     set_up_groups();
     set_up_corners();
@@ -126,13 +119,19 @@ namespace Keyblock
     const Pair<dim> &p      = interface.pairs[pair];
     const Joint<dim> &joint = *scene.joints[p.joint];
     PointStrength strength;
+    const auto sides   = blocks_of_pair(pair);
+    const double share = reduction.share_between(sides[0], sides[1], p.joint);
     strength.static_friction =
-      override_tangent >= 0. ? override_tangent : static_tangent[p.joint];
+      share *
+      (override_tangent >= 0. ? override_tangent : static_tangent[p.joint]);
     strength.kinetic_friction =
-      override_tangent >= 0. ? override_tangent : kinetic_tangent[p.joint];
-    strength.cohesion =
-      (is_intact ? joint.cohesion : joint.residual_cohesion) * p.area * kick;
-    strength.tension = is_intact ? joint.tensile_strength * p.area * kick : 0.;
+      share *
+      (override_tangent >= 0. ? override_tangent : kinetic_tangent[p.joint]);
+    strength.cohesion = share *
+                        (is_intact ? joint.cohesion : joint.residual_cohesion) *
+                        p.area * kick;
+    strength.tension =
+      is_intact ? share * joint.tensile_strength * p.area * kick : 0.;
     if (scene.contact.tie_all || state[pair].is_welded)
       strength.cohesion = strength.tension = 1e100;
     return strength;
@@ -218,12 +217,9 @@ namespace Keyblock
         for (unsigned int i = interface.group_begin[g];
              i < interface.group_begin[g + 1];
              ++i)
-          {
-            corner.slots.push_back(
-              search.slot_of_vertex[interface.group_vertices[i]]);
-            corner.has_supports =
-              corner.has_supports || slot_projection[corner.slots.back()];
-          }
+          corner.has_supports =
+            corner.has_supports ||
+            slot_projection[search.slot_of_vertex[interface.group_vertices[i]]];
         for (unsigned int p = begin; p < end; ++p)
           group_of_pair[p] = g;
         if (end - begin == 1 && !corner.has_supports)
@@ -242,7 +238,29 @@ namespace Keyblock
               corner_pairs.push_back(p);
           }
       }
+    list_corner_slots();
     rebuild_active_slots();
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::list_corner_slots()
+  {
+    for (CornerGroup &corner : corners)
+      {
+        corner.slots.clear();
+        for (unsigned int i = interface.group_begin[corner.group];
+             i < interface.group_begin[corner.group + 1];
+             ++i)
+          {
+            const unsigned int slot =
+              search.slot_of_vertex[interface.group_vertices[i]];
+            if (!is_removed_block[search.block_of_slot[slot]])
+              corner.slots.push_back(slot);
+          }
+      }
   }
 
 
@@ -355,6 +373,107 @@ namespace Keyblock
 
 
   template <int dim>
+  std::array<unsigned int, 2>
+  Contact<dim>::blocks_of_pair(const unsigned int pair) const
+  {
+    return {
+      {search.block_of_slot[search.slot_of_vertex[interface.pairs[pair].minus]],
+       search
+         .block_of_slot[search.slot_of_vertex[interface.pairs[pair].plus]]}};
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::remove_block(const unsigned int block)
+  {
+    is_removed_block[block] = true;
+    const double kick       = present_kick();
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const auto sides = blocks_of_pair(p);
+        if (state[p].is_removed || (sides[0] != block && sides[1] != block))
+          continue;
+        const unsigned int minus =
+          numbering.local_node(interface.pairs[p].minus);
+        const unsigned int plus = numbering.local_node(interface.pairs[p].plus);
+        for (int d = 0; d < dim && !state[p].is_converted; ++d)
+          {
+            if (plus != none)
+              fields.contact_force[dim * plus + d] -=
+                state[p].impulse[d] / kick;
+            if (minus != none)
+              fields.contact_force[dim * minus + d] +=
+                state[p].impulse[d] / kick;
+          }
+        for (const unsigned int node : {minus, plus})
+          if (node != none)
+            fields.is_in_cluster[node] = false;
+        state[p].is_removed = true;
+        state[p].impulse    = Vector<dim>{};
+        state[p].status     = ContactStatus::open;
+      }
+    for (const SurfaceContact<dim> &contact : contacts)
+      if (contact.master_block == block ||
+          search.block_of_slot[contact.slave] == block)
+        for (int k = 0; k < contact.point.n_nodes; ++k)
+          if (node_of_slot[contact.point.node[k]] != none)
+            for (int d = 0; d < dim; ++d)
+              fields
+                .contact_force[dim * node_of_slot[contact.point.node[k]] + d] -=
+                contact.point.weight[k] * contact.point.impulse[d] / kick;
+    contacts.clear();
+    list_corner_slots();
+    is_search_due = true;
+  }
+
+
+
+  template <int dim>
+  ContactMemory<dim>
+  Contact<dim>::remember() const
+  {
+    ContactMemory<dim> memory;
+    memory.state            = state;
+    memory.normal           = normal;
+    memory.is_removed_block = is_removed_block;
+    memory.is_mobile_group  = is_mobile_group;
+    memory.is_mobile_slot   = is_mobile_slot;
+    memory.mobile_slots     = mobile_slots;
+    memory.mobile_corners   = mobile_corners;
+    memory.contacts         = contacts;
+    memory.n_steps          = n_steps;
+    memory.last_kick        = last_kick;
+    return memory;
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::recall(const ContactMemory<dim> &memory)
+  {
+    state            = memory.state;
+    normal           = memory.normal;
+    is_removed_block = memory.is_removed_block;
+    is_mobile_group  = memory.is_mobile_group;
+    is_mobile_slot   = memory.is_mobile_slot;
+    mobile_slots     = memory.mobile_slots;
+    mobile_corners   = memory.mobile_corners;
+    contacts         = memory.contacts;
+    n_steps          = memory.n_steps;
+    last_kick        = memory.last_kick;
+    n_mobile         = mobile_slots.size();
+    is_search_due    = true;
+    next_look        = n_steps;
+    list_corner_slots();
+    rebuild_active_slots();
+  }
+
+
+
+  template <int dim>
   ContactPoint<dim>
   Contact<dim>::pair_as_point(const unsigned int pair, const double kick) const
   {
@@ -441,7 +560,7 @@ namespace Keyblock
     last_kick = previous_kick > 0. ? previous_kick : step.kick;
     solve_single_pairs(step);
     for (CornerGroup &corner : corners)
-      if (!is_mobile_group[corner.group] &&
+      if (!is_mobile_group[corner.group] && !corner.slots.empty() &&
           node_of_slot[corner.slots[0]] != none)
         solve_corner(corner, step);
     if (!mobile_slots.empty())

@@ -84,6 +84,8 @@ namespace Keyblock
              p < interface.group_pairs_begin[g + 1];
              ++p)
           {
+            if (state[p].is_removed)
+              continue;
             const double area = interface.pairs[p].area;
             const int plus =
               corner.free_index[d][index_of(interface.pairs[p].plus)];
@@ -261,6 +263,8 @@ namespace Keyblock
             rest[corner.free_index[d][i]] = needed[dim * i + d];
         for (unsigned int p = begin; p < end; ++p)
           {
+            if (state[p].is_removed)
+              continue;
             const int plus =
               corner.free_index[d][index(interface.pairs[p].plus)];
             const int minus =
@@ -275,6 +279,8 @@ namespace Keyblock
             lambda[i] += corner.inverse[d][n_free * i + j] * rest[j];
         for (unsigned int p = begin; p < end; ++p)
           {
+            if (state[p].is_removed)
+              continue;
             const int plus =
               corner.free_index[d][index(interface.pairs[p].plus)];
             const int minus =
@@ -298,7 +304,8 @@ namespace Keyblock
     if (corner.is_oblique || is_published_variant())
       return false;
     for (unsigned int p = begin; p < end; ++p)
-      if (state[p].status != ContactStatus::sticking || state[p].is_converted)
+      if (!state[p].is_removed &&
+          (state[p].status != ContactStatus::sticking || state[p].is_converted))
         return false;
 
     Vector<dim> common{};
@@ -335,10 +342,12 @@ namespace Keyblock
             (common[d] - slot_velocity[dim * corner.slots[i] + d]) /
             slot_inverse_mass[corner.slots[i]];
     for (unsigned int p = begin; p < end; ++p)
-      state[p].impulse = add<dim>(Vector<dim>{}, step.kick, traction[p]);
+      if (!state[p].is_removed)
+        state[p].impulse = add<dim>(Vector<dim>{}, step.kick, traction[p]);
     recover_impulses(corner, needed.data());
     for (unsigned int p = begin; p < end; ++p)
-      if (violation<dim>(state[p].impulse,
+      if (!state[p].is_removed &&
+          violation<dim>(state[p].impulse,
                          normal[p],
                          pair_strength(p, state[p].is_intact, step.kick)) > 0.)
         return false;
@@ -367,6 +376,8 @@ namespace Keyblock
     if (step.keeps_ledger && (is_mobile_group[g] ? is_root() : is_primary(g)))
       for (unsigned int p = begin; p < end; ++p)
         {
+          if (state[p].is_removed)
+            continue;
           const ContactPoint<dim> point = pair_as_point(p, step.kick);
           const Vector<dim> old =
             relative_velocity<dim>(point, slot_old_velocity.data());
@@ -399,7 +410,7 @@ namespace Keyblock
             for (const unsigned int v :
                  {interface.pairs[p].minus, interface.pairs[p].plus})
               w += slot_inverse_mass[search.slot_of_vertex[v]];
-            if (state[p].is_converted || w == 0.)
+            if (state[p].is_removed || state[p].is_converted || w == 0.)
               continue;
             points.push_back(pair_as_point(p, step.kick));
             if (state[p].status == ContactStatus::sticking)
@@ -425,7 +436,7 @@ namespace Keyblock
           }
       }
     for (unsigned int p = begin; p < end; ++p)
-      if (!state[p].is_converted)
+      if (!state[p].is_converted && !state[p].is_removed)
         for (int d = 0; d < dim; ++d)
           {
             const auto plus  = search.slot_of_vertex[interface.pairs[p].plus];

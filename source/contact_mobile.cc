@@ -44,7 +44,8 @@ namespace Keyblock
   {
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        if (state[p].is_converted || state[p].status == ContactStatus::sticking)
+        if (state[p].is_removed || state[p].is_converted ||
+            state[p].status == ContactStatus::sticking)
           continue;
         const unsigned int minus =
           numbering.local_node(interface.pairs[p].minus);
@@ -169,6 +170,16 @@ namespace Keyblock
         if (group_of_slot[slot] != none)
           is_mobile_group[group_of_slot[slot]] = true;
       }
+    for (const HangingVertex &hanging : split.hanging)
+      if (search.slot_of_vertex[hanging.vertex] != none &&
+          is_mobile_slot[search.slot_of_vertex[hanging.vertex]])
+        for (const auto &[master, weight] : hanging.masters)
+          {
+            const unsigned int slot = search.slot_of_vertex[master];
+            is_mobile_slot[slot]    = true;
+            if (group_of_slot[slot] != none)
+              is_mobile_group[group_of_slot[slot]] = true;
+          }
     for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
       if (group_of_slot[slot] != none && is_mobile_group[group_of_slot[slot]])
         is_mobile_slot[slot] = true;
@@ -186,6 +197,39 @@ namespace Keyblock
         mobile_corners.push_back(c);
     n_mobile = mobile_slots.size();
     rebuild_active_slots();
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::put_masters_into(ContactPoint<dim> &point) const
+  {
+    const auto hangs = [&](const unsigned int slot) {
+      return split.is_hanging(search.vertex_of_slot[slot]);
+    };
+    if (std::none_of(point.node.begin(),
+                     point.node.begin() + point.n_nodes,
+                     hangs))
+      return;
+    std::map<unsigned int, double> shares;
+    for (int k = 0; k < point.n_nodes; ++k)
+      split.for_each_carrier(search.vertex_of_slot[point.node[k]],
+                             [&](const unsigned int vertex,
+                                 const double share) {
+                               shares[search.slot_of_vertex[vertex]] +=
+                                 share * point.weight[k];
+                             });
+    AssertThrow(shares.size() <= point.node.size(),
+                ComputationError(
+                  "A contact point has more nodes than there is room for; "
+                  "refine the faces on both sides of the joint alike."));
+    point.n_nodes = 0;
+    for (const auto &[slot, weight] : shares)
+      {
+        point.node[point.n_nodes]     = slot;
+        point.weight[point.n_nodes++] = weight;
+      }
   }
 
 
@@ -218,11 +262,24 @@ namespace Keyblock
     // surface contacts, starting from the impulse of the step before
     const std::vector<SurfaceContact<dim>> previous = contacts;
     search.evaluate(slot_position, reach, contacts);
+    if (std::find(is_removed_block.begin(), is_removed_block.end(), true) !=
+        is_removed_block.end())
+      contacts.erase(
+        std::remove_if(
+          contacts.begin(),
+          contacts.end(),
+          [&](const SurfaceContact<dim> &contact) {
+            return is_removed_block[contact.master_block] ||
+                   is_removed_block[search.block_of_slot[contact.slave]];
+          }),
+        contacts.end());
     std::multimap<unsigned int, const SurfaceContact<dim> *> before;
     for (const SurfaceContact<dim> &contact : previous)
       before.emplace(contact.slave, &contact);
     for (SurfaceContact<dim> &contact : contacts)
       {
+        if (!split.hanging.empty())
+          put_masters_into(contact.point);
         double tangent = default_tangent, kinetic = default_tangent;
         if (contact.joint != none)
           {
@@ -231,13 +288,17 @@ namespace Keyblock
           }
         if (override_tangent >= 0.)
           tangent = kinetic = override_tangent;
+        const double share =
+          reduction.share_between(search.block_of_slot[contact.slave],
+                                  contact.master_block,
+                                  contact.joint);
         const auto area = slave_area.find({{contact.slave, contact.joint}});
         if (area != slave_area.end())
           contact.point.strength.cohesion =
             scene.joints[contact.joint]->residual_cohesion * area->second *
-            step.kick;
-        contact.point.strength.static_friction  = tangent;
-        contact.point.strength.kinetic_friction = kinetic;
+            step.kick * share;
+        contact.point.strength.static_friction  = tangent * share;
+        contact.point.strength.kinetic_friction = kinetic * share;
         const auto range = before.equal_range(contact.slave);
         for (auto it = range.first; it != range.second; ++it)
           if (it->second->is_ridge == contact.is_ridge &&
@@ -267,13 +328,13 @@ namespace Keyblock
         for (unsigned int p = interface.group_pairs_begin[corners[c].group];
              p < interface.group_pairs_begin[corners[c].group + 1];
              ++p)
-          if (!state[p].is_converted)
+          if (!state[p].is_converted && !state[p].is_removed)
             pairs.push_back(p);
     for (unsigned int g = 0; g < interface.n_groups(); ++g)
       {
         const unsigned int p = interface.group_pairs_begin[g];
         if (is_mobile_group[g] && interface.group_pairs_begin[g + 1] == p + 1 &&
-            !state[p].is_converted &&
+            !state[p].is_converted && !state[p].is_removed &&
             slot_projection[search.slot_of_vertex[interface.pairs[p].minus]] ==
               nullptr &&
             slot_projection[search.slot_of_vertex[interface.pairs[p].plus]] ==

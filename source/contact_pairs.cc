@@ -24,7 +24,8 @@ namespace Keyblock
         const unsigned int pm = dim * single.minus, pp = dim * single.plus;
         const double wm = fields.inverse_mass[single.minus];
         const double wp = fields.inverse_mass[single.plus];
-        if (wm + wp == 0. || is_mobile_group[group_of_pair[single.pair]])
+        if (s.is_removed || wm + wp == 0. ||
+            is_mobile_group[group_of_pair[single.pair]])
           continue;
         const PointStrength strength =
           pair_strength(single.pair, s.is_intact, step.kick);

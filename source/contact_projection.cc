@@ -181,6 +181,7 @@ namespace Keyblock
       contact.slave           = candidate.slave;
       contact.face            = projection.face;
       contact.joint           = interface.surface[projection.face].joint;
+      contact.master_block    = interface.surface[projection.face].block;
       contact.point.n_nodes   = 1 + Mesh<dim>::n_face_vertices;
       contact.point.node[0]   = candidate.slave;
       contact.point.weight[0] = 1.;

@@ -206,10 +206,11 @@ namespace Keyblock
                                difference<3>(Vector<3>{}, normal)))
           continue;
         SurfaceContact<3> contact;
-        contact.slave    = slave.slots[0];
-        contact.face     = master.faces[0];
-        contact.is_ridge = true;
-        contact.joint    = interface.surface[master.faces[0]].joint;
+        contact.slave        = slave.slots[0];
+        contact.face         = master.faces[0];
+        contact.is_ridge     = true;
+        contact.joint        = interface.surface[master.faces[0]].joint;
+        contact.master_block = interface.surface[master.faces[0]].block;
         if (contact.joint == none)
           contact.joint = interface.surface[master.faces[1]].joint;
         contact.point.n_nodes = 4;

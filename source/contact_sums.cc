@@ -33,6 +33,7 @@ namespace Keyblock
         result[p].is_intact    = packed[n * p + dim + 1] > 0.5;
         result[p].is_converted = packed[n * p + dim + 2] > 0.5;
         result[p].is_welded    = state[p].is_welded;
+        result[p].is_removed   = state[p].is_removed;
       }
     return result;
   }
@@ -102,7 +103,8 @@ namespace Keyblock
     const double kick = last_kick > 0. ? last_kick : 1.;
     for (unsigned int p = 0; p < state.size(); ++p)
       if ((joint == none || interface.pairs[p].joint == joint) &&
-          !state[p].is_converted && is_primary(group_of_pair[p]))
+          !state[p].is_converted && !state[p].is_removed &&
+          is_primary(group_of_pair[p]))
         {
           const unsigned int node =
             numbering.local_node(interface.pairs[p].plus);
@@ -125,6 +127,16 @@ namespace Keyblock
           {
             // the slave's side has the positive weights
             const ContactPoint<dim> &point = contact.point;
+            // forces are those on the joint's plus side
+            double side = 1.;
+            if (contact.joint != none)
+              {
+                const Tensor<1, dim> n = scene.joints[contact.joint]->normal();
+                double cosine          = 0.;
+                for (int d = 0; d < dim; ++d)
+                  cosine += n[d] * point.normal[d];
+                side = cosine < 0. ? -1. : 1.;
+              }
             Vector<dim> place{};
             for (int k = 0; k < point.n_nodes; ++k)
               for (int d = 0; d < dim; ++d)
@@ -132,9 +144,9 @@ namespace Keyblock
                             slot_position[dim * point.node[k] + d];
             add_point<dim>(sums,
                            moment,
-                           contact.point.impulse,
-                           contact.point.normal,
-                           contact.point.status,
+                           add<dim>(Vector<dim>{}, side, point.impulse),
+                           add<dim>(Vector<dim>{}, side, point.normal),
+                           point.status,
                            place,
                            kick);
           }
@@ -156,6 +168,96 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<JointSums<dim>>
+  Contact<dim>::sum_over_block(const unsigned int block) const
+  {
+    // pressure and force on the block, by joint; the last is for no joint
+    const double kick = present_kick();
+    std::vector<JointSums<dim>> sums(scene.joints.size() + 1);
+    std::vector<Vector<dim>> moment(sums.size());
+    const auto add = [&](const unsigned int joint,
+                         const Vector<dim> &impulse,
+                         const Vector<dim> &outward,
+                         const ContactStatus status) {
+      const unsigned int j = joint == none ? scene.joints.size() : joint;
+      add_point<dim>(
+        sums[j], moment[j], impulse, outward, status, Vector<dim>{}, kick);
+    };
+    const auto reversed = [](const Vector<dim> &v) {
+      return Keyblock::add<dim>(Vector<dim>{}, -1., v);
+    };
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const auto sides = blocks_of_pair(p);
+        if (sides[0] == sides[1] || state[p].is_converted ||
+            state[p].is_removed || !is_primary(group_of_pair[p]))
+          continue;
+        if (sides[1] == block)
+          add(interface.pairs[p].joint,
+              state[p].impulse,
+              normal[p],
+              state[p].status);
+        else if (sides[0] == block)
+          add(interface.pairs[p].joint,
+              reversed(state[p].impulse),
+              reversed(normal[p]),
+              state[p].status);
+      }
+    if (is_root())
+      for (const SurfaceContact<dim> &contact : contacts)
+        {
+          const unsigned int slave       = search.block_of_slot[contact.slave];
+          const ContactPoint<dim> &point = contact.point;
+          if (slave == contact.master_block)
+            continue;
+          if (slave == block)
+            add(contact.joint, point.impulse, point.normal, point.status);
+          else if (contact.master_block == block)
+            add(contact.joint,
+                reversed(point.impulse),
+                reversed(point.normal),
+                point.status);
+        }
+    for (unsigned int j = 0; j < sums.size(); ++j)
+      sums[j] = finish_sums<dim>(sums[j], moment[j]);
+    return sums;
+  }
+
+
+
+  template <int dim>
+  Vector<dim>
+  Contact<dim>::mean_slip(const unsigned int block) const
+  {
+    std::vector<double> sums(dim + 1, 0.);
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const auto sides = blocks_of_pair(p);
+        if (sides[0] == sides[1] || state[p].is_removed ||
+            !is_primary(group_of_pair[p]) ||
+            (sides[0] != block && sides[1] != block))
+          continue;
+        const unsigned int plus = numbering.local_node(interface.pairs[p].plus);
+        const unsigned int minus =
+          numbering.local_node(interface.pairs[p].minus);
+        const double area =
+          (sides[1] == block ? 1. : -1.) * interface.pairs[p].area;
+        for (int d = 0; d < dim; ++d)
+          sums[d] += area * (fields.displacement[dim * plus + d] -
+                             fields.displacement[dim * minus + d]);
+        sums[dim] += interface.pairs[p].area;
+      }
+    dealii::Utilities::MPI::sum(sums, world(), sums);
+    Vector<dim> slip{};
+    if (sums[dim] > 0.)
+      for (int d = 0; d < dim; ++d)
+        slip[d] = sums[d] / sums[dim];
+    return slip;
+  }
+
+
+
+  template <int dim>
   JointSums<dim>
   Contact<dim>::count_points() const
   {
@@ -166,6 +268,12 @@ namespace Keyblock
   template std::vector<PairState<3>> Contact<3>::gather_pair_states() const;
   template JointSums<2> Contact<2>::sum_over_joint(const unsigned int) const;
   template JointSums<3> Contact<3>::sum_over_joint(const unsigned int) const;
+  template std::vector<JointSums<2>>
+  Contact<2>::sum_over_block(const unsigned int) const;
+  template std::vector<JointSums<3>>
+  Contact<3>::sum_over_block(const unsigned int) const;
+  template Vector<2> Contact<2>::mean_slip(const unsigned int) const;
+  template Vector<3> Contact<3>::mean_slip(const unsigned int) const;
   template JointSums<2> Contact<2>::count_points() const;
   template JointSums<3> Contact<3>::count_points() const;
 } // namespace Keyblock

@@ -48,6 +48,7 @@ namespace Keyblock
   Conditions<dim>::set_up_tractions()
   {
     const Mesh<dim> &mesh = split.mesh;
+    set_up_water();
     nodal_tractions.clear();
     is_load_set = false;
     for (unsigned int t = 0; t < scene.tractions.size(); ++t)
@@ -97,6 +98,48 @@ namespace Keyblock
 
   template <int dim>
   void
+  Conditions<dim>::set_up_water()
+  {
+    water_forces.clear();
+    const Interface<dim> &interface = split.interface;
+    std::vector<std::unique_ptr<Expression<dim>>> pressure(scene.joints.size());
+    for (unsigned int j = 0; j < scene.joints.size(); ++j)
+      if (!scene.joints[j]->water_pressure.empty())
+        pressure[j] =
+          std::make_unique<Expression<dim>>(scene.joints[j]->water_pressure,
+                                            1,
+                                            "Joints/*/Water pressure");
+    for (const JointFace &face : interface.joint_faces)
+      {
+        if (!pressure[face.joint] || is_dug(face.minus_cell) ||
+            is_dug(face.plus_cell))
+          continue;
+        const Tensor<1, dim> area =
+          split.mesh.face_area_vector(face.minus_cell, face.minus_face);
+        for (const bool is_plus : {false, true})
+          for (const unsigned int v :
+               is_plus
+                 ? split.mesh.face_vertices(face.plus_cell, face.plus_face)
+                 : split.mesh.face_vertices(face.minus_cell, face.minus_face))
+            split.for_each_carrier(
+              v, [&](const unsigned int carrier, const double weight) {
+                if (!numbering.is_owned(carrier))
+                  return;
+                const double p =
+                  pressure[face.joint]->value(split.mesh.vertices[v], 0., 0);
+                for (unsigned int d = 0; d < dim; ++d)
+                  water_forces.emplace_back(
+                    dim * numbering.local_node(carrier) + d,
+                    (is_plus ? weight : -weight) * p * area[d] /
+                      Mesh<dim>::n_face_vertices);
+              });
+      }
+  }
+
+
+
+  template <int dim>
+  void
   Conditions<dim>::set_load(const double time)
   {
     const double left = share_left_at(ramp_progress);
@@ -110,6 +153,8 @@ namespace Keyblock
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       for (int d = 0; d < dim; ++d)
         fields.load[dim * node + d] = fields.weighing_mass[node] * g[d];
+    for (const auto &[dof, force] : water_forces)
+      fields.load[dof] += force;
     for (const NodalTraction<dim> &entry : nodal_tractions)
       {
         const Tensor<1, dim> t =

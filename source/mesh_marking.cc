@@ -303,6 +303,34 @@ namespace Keyblock
 
 
 
+    /** Outer faces on edge number i of a polygon, from 1, get `id i`. */
+    void
+    mark_polygon_edges(Mesh<2> &mesh, const std::vector<Point<2>> &corners)
+    {
+      for (unsigned int i = 0; i < corners.size(); ++i)
+        {
+          const Point<2> &a       = corners[i];
+          const Tensor<1, 2> edge = corners[(i + 1) % corners.size()] - a;
+          for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+            for (unsigned int f = 0; f < Mesh<2>::n_cell_faces; ++f)
+              {
+                bool is_on_edge = mesh.neighbor[c][f] == none;
+                for (const unsigned int v : mesh.face_vertices(c, f))
+                  {
+                    const Tensor<1, 2> way = mesh.vertices[v] - a;
+                    const double along     = way * edge / edge.norm_square();
+                    is_on_edge =
+                      is_on_edge && along > -1e-7 && along < 1. + 1e-7 &&
+                      (way - along * edge).norm() < 1e-7 * edge.norm();
+                  }
+                if (is_on_edge)
+                  mesh.boundary_id[c][f] = i + 1;
+              }
+        }
+    }
+
+
+
     /** Mark the faces on the sides of the domain: of its frame if it is a box
      * or parallelepiped, else of its bounding box. */
     template <int dim>
@@ -355,6 +383,9 @@ namespace Keyblock
                   mesh.boundary[c][f] = side;
               }
 
+      if constexpr (dim == 2)
+        if (scene.domain.shape == "polygon")
+          mark_polygon_edges(mesh, scene.domain.polygon);
       std::map<typename Mesh<dim>::FaceVertices, unsigned int> ids;
       for (auto face : mesh.boundary_faces)
         {

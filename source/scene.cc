@@ -300,6 +300,29 @@ namespace Keyblock
 
 
 
+  bool
+  SafetySettings::wants_block(const unsigned int id) const
+  {
+    if (blocks == "none" || blocks == "all")
+      return blocks == "all";
+    for (const std::string &word : dealii::Utilities::split_string_list(blocks))
+      if (word == std::to_string(id))
+        return true;
+    return false;
+  }
+
+
+
+  bool
+  SafetySettings::wants_stage(const std::string &name) const
+  {
+    return is_wanted() &&
+           (stages.empty() ||
+            std::find(stages.begin(), stages.end(), name) != stages.end());
+  }
+
+
+
   template <int dim>
   double
   Material<dim>::apex() const
@@ -371,6 +394,8 @@ namespace Keyblock
     declare_section(prm, "Initial state", initial_state);
     declare_section(prm, "Contact", contact);
     declare_section(prm, "Time stepping", time_stepping);
+    declare_section(prm, "Safety factor", safety);
+    declare_section(prm, "Block theory", block_theory);
     declare_section(prm, "Check", checks);
     declare_section(prm, "Output", output);
     declare_names(prm);

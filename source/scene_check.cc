@@ -448,6 +448,45 @@ namespace Keyblock
           return true;
       return false;
     }
+
+    template <int dim>
+    void
+    check_safety(const Scene<dim> &scene)
+    {
+      const SafetySettings &safety = scene.safety;
+      if (safety.blocks != "none" && safety.blocks != "all")
+        for (const std::string &word :
+             dealii::Utilities::split_string_list(safety.blocks))
+          require(!word.empty() &&
+                    word.find_first_not_of("0123456789") == std::string::npos &&
+                    word.find_first_not_of('0') != std::string::npos,
+                  "The entry 'Safety factor/Blocks' contains '" + word +
+                    "'; give none, all, or numbers of the block table.");
+      for (const std::string &name : safety.stages)
+        require(scene.stage_number(name) < scene.stages.size() + 2,
+                "The entry 'Safety factor/Stages' names '" + name +
+                  "', which is not in 'Stages/Names'.");
+      for (const std::string &name : safety.joints)
+        require(has_joint(scene, name),
+                "The entry 'Safety factor/Joints' names '" + name +
+                  "', which is not in 'Joints/Names'.");
+      require(!safety.is_wanted() || scene.contact.method != "none",
+              "The entry 'Safety factor/Blocks' needs contact; set "
+              "'Contact/Method' to exact.");
+      require(safety.lowest < 1. && safety.highest > 1.,
+              "The entries 'Safety factor/Lowest' and 'Highest' must have 1 "
+              "between them.");
+      require(safety.seismic_coefficient.empty() ||
+                safety.seismic_coefficient.size() == dim,
+              "The entry 'Safety factor/Seismic coefficient' has " +
+                std::to_string(safety.seismic_coefficient.size()) +
+                " values where " + std::to_string(dim) + " are needed.");
+      for (const auto &joint : scene.joints)
+        if (!joint->water_pressure.empty())
+          check_expression<dim>(joint->water_pressure,
+                                1,
+                                "Joints/" + joint->name + "/Water pressure");
+    }
   } // namespace
 
 
@@ -456,6 +495,7 @@ namespace Keyblock
   void
   Scene<dim>::cross_check() const
   {
+    check_safety(*this);
     check_domain(*this);
     check_meshing(*this);
     for (const auto &excavation : excavations)

@@ -195,6 +195,10 @@ namespace Keyblock
                       residual_cohesion,
                       "Cohesion left after the bond broke [Pa].",
                       not_negative);
+    prm.add_parameter("Water pressure",
+                      water_pressure,
+                      "A formula in x, y (z): pressure of water in the joint, "
+                      "which pushes both sides apart [Pa]; empty: none.");
   }
 
   template <int dim>
@@ -262,7 +266,7 @@ namespace Keyblock
                       "full: all Gauss points; mean dilatation: the volume "
                       "change is averaged over each cell, which keeps plastic "
                       "flow from locking; automatic: mean dilatation for "
-                      "mohr_coulomb and for Poisson ratios above 0.4.",
+                      "Poisson ratios above 0.4. mohr_coulomb always has it.",
                       Selection("automatic|full|mean dilatation"));
     prm.add_parameter("Rigid velocity",
                       rigid_velocity,
@@ -540,6 +544,109 @@ namespace Keyblock
                       "Name of the joint, or all for every contact point.");
     prm.add_parameter("Support", support, "Name of the support.");
   }
+
+  void
+  SafetySettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Blocks",
+                      blocks,
+                      "Blocks whose safety factor is looked for at the end of "
+                      "stages: none, all (finite ones that are not attached), "
+                      "or their numbers in the block table.");
+    prm.add_parameter("Stages",
+                      stages,
+                      "Names of the stages; empty: all of them.");
+    prm.add_parameter("Reduced joints",
+                      reduced_joints,
+                      "of the block: only where it touches others; all: of the "
+                      "whole model.",
+                      Selection("of the block|all"));
+    prm.add_parameter("Joints",
+                      joints,
+                      "Reduce only these joints; empty: no restriction.");
+    prm.add_parameter("Reduce rock",
+                      reduces_rock,
+                      "Divide the strength of mohr_coulomb rock as well.");
+    prm.add_parameter("Method",
+                      method,
+                      "bisection of a bracket, or sweep: from Lowest by Sweep "
+                      "step until it fails (the published way).",
+                      Selection("bisection|sweep"));
+    prm.add_parameter("Sweep step",
+                      sweep_step,
+                      "Step of a sweep [-].",
+                      positive);
+    prm.add_parameter("Bracket",
+                      bracket,
+                      "Width of the final bracket over its upper end [-].",
+                      Double(1e-6, 1.));
+    prm.add_parameter("Lowest",
+                      lowest,
+                      "A block that fails at this factor falls freely [-].",
+                      positive);
+    prm.add_parameter("Highest",
+                      highest,
+                      "A block that holds at this factor is immovable [-].",
+                      positive);
+    prm.add_parameter(
+      "Mass damping",
+      mass_damping,
+      "Of the first phase, which looks for an equilibrium, over "
+      "the critical one of the block's lowest mode [-].",
+      Double(0., 10.));
+    prm.add_parameter("Local damping",
+                      local_damping,
+                      "Of the first phase besides [-].",
+                      Double(0., 1.));
+    prm.add_parameter("Damping ratio",
+                      damping_ratio,
+                      "Of the highest mode of each cell, in both phases [-].",
+                      Double(0., 2.));
+    prm.add_parameter("Window",
+                      window,
+                      "Time between two looks at the block, in periods of its "
+                      "lowest mode [-].",
+                      Double(0.1, 100.));
+    prm.add_parameter("Maximum periods",
+                      maximum_periods,
+                      "Length of each phase, at most [-].",
+                      positive);
+    prm.add_parameter("Seismic coefficient",
+                      seismic_coefficient,
+                      "Acceleration per axis over 9.81 m/s2 that limit "
+                      "equilibrium adds to gravity; empty: none [-].");
+    prm.add_parameter("Removal slip",
+                      removal_slip,
+                      "In quasi-static stages a block that has slid this share "
+                      "of its size, and goes on, is taken away; 0: never [-].",
+                      not_negative);
+  }
+
+
+
+  void
+  BlockTheorySettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Report",
+                      report,
+                      "Whether to print and store which joint pyramids of the "
+                      "infinite joints are removable.");
+    prm.add_parameter("Walls",
+                      walls,
+                      "Azimuths that walls face, seen from the rock [deg]; in "
+                      "2D 90 and 270 only.");
+    prm.add_parameter(
+      "Roof span",
+      roof_span,
+      "Width of a flat roof for the largest wedges [m] (3D); 0: "
+      "none.",
+      not_negative);
+    prm.add_parameter("Roof axis",
+                      roof_axis,
+                      "Azimuth of the axis across which it is measured [deg].");
+  }
+
+
 
   void
   CheckSettings::declare(ParameterHandler &prm)

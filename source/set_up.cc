@@ -31,28 +31,37 @@ namespace Keyblock
       return degrees * dealii::numbers::PI / 180.;
     }
 
+    /** Strength with tan(phi), c and tension multiplied by @p share. */
     template <int dim>
     MohrCoulomb
-    strength_of(const Material<dim> &material)
+    strength_of(const Material<dim> &material, const double share)
     {
       const auto or_peak = [](const double residual, const double peak) {
         return residual < 0. ? peak : residual;
+      };
+      const auto reduced = [share](const double angle) {
+        return std::atan(share * std::tan(radians(angle)));
       };
       const double friction = material.friction_angle;
       const double dilation =
         material.dilation_angle < 0. ? friction : material.dilation_angle;
       const double residual_friction =
         or_peak(material.residual_friction_angle, friction);
+      const auto tension = [&](const double value) {
+        return value < 0. ? value : share * value;
+      };
       MohrCoulomb strength;
-      strength.peak     = YieldStrength::from(material.cohesion,
-                                          radians(friction),
-                                          radians(dilation),
-                                          material.tensile_strength);
-      strength.residual = YieldStrength::from(
-        or_peak(material.residual_cohesion, material.cohesion),
-        radians(residual_friction),
-        radians(std::min(dilation, residual_friction)),
-        or_peak(material.residual_tensile_strength, material.tensile_strength));
+      strength.peak = YieldStrength::from(share * material.cohesion,
+                                          reduced(friction),
+                                          reduced(dilation),
+                                          tension(material.tensile_strength));
+      strength.residual =
+        YieldStrength::from(share * or_peak(material.residual_cohesion,
+                                            material.cohesion),
+                            reduced(residual_friction),
+                            reduced(std::min(dilation, residual_friction)),
+                            tension(or_peak(material.residual_tensile_strength,
+                                            material.tensile_strength)));
       strength.softening_strain = material.softening_strain;
       strength.has_residual     = material.residual_cohesion >= 0. ||
                               material.residual_friction_angle >= 0. ||
@@ -111,8 +120,7 @@ namespace Keyblock
           split.mesh.vertices[numbering.vertex_of_node[node]][d];
     fields.is_in_cluster.assign(numbering.n_local(), 0);
     cell_of_local.assign(numbering.cell_nodes.size(), none);
-    for (const auto &material : scene.materials)
-      cells.strengths.push_back(strength_of(*material));
+    reduce_strength(1.);
     read_formulas();
     dig(1);
     set_up_initial_state();
@@ -143,6 +151,9 @@ namespace Keyblock
   bool
   Conditions<dim>::is_dug(const unsigned int mesh_cell) const
   {
+    const unsigned int block = split.block_of_cell[mesh_cell];
+    if (block != none && is_removed_block(block))
+      return true;
     const unsigned int dug = split.mesh.excavation_stage[mesh_cell];
     return dug > 0 && dug <= stage_number && !is_filled(mesh_cell);
   }
@@ -189,6 +200,44 @@ namespace Keyblock
     set_up_mass();
     set_up_supports();
     set_up_tractions();
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::remove_block(const unsigned int block)
+  {
+    if (is_removed.empty())
+      for (const unsigned int b : split.block_of_cell)
+        if (b != none && b >= is_removed.size())
+          is_removed.resize(b + 1, false);
+    is_removed[block] = true;
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::recall(const StageState &state)
+  {
+    const bool has_other_cells =
+      stage_number != state.stage_number || is_removed != state.is_removed;
+    StageState::operator=(state);
+    if (has_other_cells)
+      dig(stage_number);
+    is_load_set = false;
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::reduce_strength(const double share)
+  {
+    cells.strengths.clear();
+    for (const auto &material : scene.materials)
+      cells.strengths.push_back(strength_of(*material, share));
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/simulation.h>
 
+#include <keyblock/block_theory.h>
 #include <keyblock/mpi.h>
 
 #include <unistd.h>
@@ -90,6 +91,8 @@ namespace Keyblock
           << conditions->stable_step.limit(Stage())
           << " s, set by the cell at (" << report.stable_step_place << ")\n";
     print_block_table(out, blocks, scene);
+    if (scene.block_theory.report)
+      print_block_theory(out, find_block_theory(scene, scene.block_theory));
     out << std::flush;
   }
 
@@ -245,6 +248,8 @@ namespace Keyblock
                           stage_reports,
                           monitors->history,
                           checks,
+                          safety_factors,
+                          removal_stage,
                           geostress.get());
     if (!is_root())
       return;

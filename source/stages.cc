@@ -23,6 +23,9 @@ namespace Keyblock
     /** Steps between adjustments of the pace of a ramp. */
     constexpr unsigned int pace_interval = 10;
 
+    /** Steps between looks for blocks that have failed. */
+    constexpr unsigned int removal_interval = 100;
+
     /** Unbalanced ratio of a static stage that is in balance; rock that yields
      * is not, after elastic solves. */
     constexpr double static_tolerance = 1e-8;
@@ -79,6 +82,12 @@ namespace Keyblock
       monitors->reset_baseline();
     stage_start_displacement = fields.displacement;
     is_converged             = true;
+    removal_stage.resize(blocks.blocks.size(), 0);
+    const bool wants_factors =
+      contact != nullptr && scene.safety.wants_stage(stage.name);
+    Snapshot<dim> before;
+    if (wants_factors)
+      before = take_snapshot(parts());
     dig_stage(stage, number);
     const unsigned int start_step = step->n_steps;
     unsigned int n_steps          = 0;
@@ -95,6 +104,8 @@ namespace Keyblock
       n_steps = step_through(stage, index);
     report.element_steps += double(step->n_steps - start_step) * n_cells_global;
     report_stage(stage, n_steps);
+    if (wants_factors)
+      find_safety_factors(index, before);
   }
 
 
@@ -186,6 +197,7 @@ namespace Keyblock
         ? std::max(scene.output.history_interval, quasi_static_interval)
         : scene.output.history_interval;
     unsigned int vtu_count = 0, i = 1;
+    bool has_removed     = false;
     double vtu_time      = 0.;
     const auto write_vtu = [&]() {
       const double before = MPI_Wtime();
@@ -193,15 +205,20 @@ namespace Keyblock
       vtu_time += MPI_Wtime() - before;
       ++vtu_count;
     };
-    const bool writes = scene.output.write_vtu && scene.output.vtu_count > 0;
-    is_converged      = stage.unbalanced_ratio == 0. || stage.duration > 0.;
+    const bool writes =
+      scene.output.write_vtu && scene.output.vtu_count > 0 && !is_trial;
+    is_converged = stage.unbalanced_ratio == 0. || stage.duration > 0.;
     for (; i <= n_steps; ++i)
       {
-        const bool is_last   = i == n_steps;
-        const bool is_sample = i % interval == 0 || is_last || i == 1;
+        const bool is_last = i == n_steps;
+        const bool is_sample =
+          i % interval == 0 || is_last || i == 1 || has_removed;
         step->advance(is_sample);
-        if (is_sample)
+        if (is_sample && !is_trial)
           monitors->sample(*step, index);
+        // the ledger starts anew when a block is taken away
+        has_removed = stage.is_quasi_static() && i % removal_interval == 0 &&
+                      remove_failed_blocks(stage, index);
         if (stage.is_quasi_static() && i % pace_interval == 0 &&
             conditions->is_ramping())
           pace_ramp(stage);
@@ -210,7 +227,8 @@ namespace Keyblock
         if (writes && !stage.is_quasi_static() &&
             i >= double(vtu_count + 1) * n_steps / scene.output.vtu_count)
           write_vtu();
-        report_progress(index, double(i) / n_steps);
+        if (!is_trial)
+          report_progress(index, double(i) / n_steps);
         if (is_sample && i > 10 && stage.unbalanced_ratio > 0. &&
             !conditions->is_ramping() &&
             step->unbalanced_ratio < stage.unbalanced_ratio)
@@ -319,6 +337,11 @@ namespace Keyblock
                                        points.n_intact};
       }
     result.remark = name_what_moves();
+    for (unsigned int b = 0; b < removal_stage.size(); ++b)
+      if (removal_stage[b] == scene.stage_number(stage.name))
+        result.remark +=
+          (result.remark.empty() ? "" : "; ") + std::string("block ") +
+          std::to_string(blocks.blocks[b].id) + " failed and was taken away";
     if (result.remark.empty() && !is_converged)
       result.remark = "no block is moving off; more steps may do";
     double largest = 0.;
@@ -327,7 +350,8 @@ namespace Keyblock
         double square = 0.;
         for (unsigned int d = 0; d < dim; ++d)
           square += std::pow(fields.displacement[dim * node + d], 2);
-        largest = std::max(largest, square);
+        if (fields.mass[node] > 0.) // else its cells are gone
+          largest = std::max(largest, square);
       }
     result.max_displacement =
       std::sqrt(dealii::Utilities::MPI::max(largest, world()));
@@ -351,6 +375,14 @@ namespace Keyblock
 
   template void Simulation<2>::establish_initial_state();
   template void Simulation<3>::establish_initial_state();
+  template void Simulation<2>::dig_stage(const Stage &, const unsigned int);
+  template double Simulation<2>::ramp_duration_of(const Stage &) const;
+  template unsigned int Simulation<2>::step_through(const Stage &,
+                                                    const unsigned int);
+  template void Simulation<3>::dig_stage(const Stage &, const unsigned int);
+  template double Simulation<3>::ramp_duration_of(const Stage &) const;
+  template unsigned int Simulation<3>::step_through(const Stage &,
+                                                    const unsigned int);
   template void Simulation<2>::run_stage(const unsigned int);
   template void Simulation<3>::run_stage(const unsigned int);
 } // namespace Keyblock

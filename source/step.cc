@@ -45,15 +45,22 @@ namespace Keyblock
     fields.local_damping.assign(
       stage.local_damping > 0. ? fields.velocity.size() : 0, 0.);
     if (stage.reset_motion || stage.is_quasi_static())
-      {
-        if (!is_stress_current)
-          compute_internal_force();
-        std::fill(fields.velocity.begin(), fields.velocity.end(), 0.);
-        std::fill(fields.rate.begin(), fields.rate.end(), 0.);
-        starts_at_rest = true;
-      }
+      stop_motion();
     conditions.scale_density(stage.is_quasi_static() && stage.scales_density);
     return choose_step(number);
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::stop_motion()
+  {
+    if (!is_stress_current)
+      compute_internal_force();
+    std::fill(fields.velocity.begin(), fields.velocity.end(), 0.);
+    std::fill(fields.rate.begin(), fields.rate.end(), 0.);
+    starts_at_rest = true;
   }
 
 
@@ -121,10 +128,12 @@ namespace Keyblock
           carried[i] =
             fields.internal_force[i] - fields.load[i] - fields.contact_force[i];
     conditions.remove_held_components(carried);
-    carried_sum = 0.;
+    double sum = 0.;
     for (const double force : carried)
-      carried_sum += std::abs(force);
-    carried_sum = dealii::Utilities::MPI::sum(carried_sum, world());
+      sum += std::abs(force);
+    // a block that is taken away later in the stage carries less
+    carried_sum =
+      std::max(carried_sum, dealii::Utilities::MPI::sum(sum, world()));
     return carried;
   }
 
@@ -318,6 +327,8 @@ namespace Keyblock
         fields.rate[dof] += shift / dt;
       }
     fields.shifts.clear();
+    numbering.interpolate_hanging(fields.rate);
+    numbering.interpolate_hanging(fields.displacement);
     for (std::size_t i = 0; i < n; ++i)
       fields.position[i] = fields.reference[i] + fields.displacement[i];
   }

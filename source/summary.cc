@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/revision.h>
 
+#include <keyblock/block_theory.h>
 #include <keyblock/mpi.h>
 #include <keyblock/output.h>
 
@@ -84,9 +85,71 @@ namespace Keyblock
       return 1024. * usage.ru_maxrss;
     }
 
+    Tree
+    trials_as_tree(const std::vector<Trial> &trials)
+    {
+      Tree list;
+      for (const Trial &trial : trials)
+        {
+          Tree tree;
+          put(tree, "factor", trial.factor);
+          put(tree, "stable", trial.is_stable);
+          put(tree, "phase", trial.phase);
+          put(tree, "slip", trial.slip);
+          put(tree, "velocity", trial.velocity);
+          put(tree, "acceleration", trial.acceleration);
+          put(tree, "unbalanced", trial.unbalanced);
+          put(tree, "steps", trial.n_steps);
+          put(tree, "seconds", trial.seconds);
+          put(tree, "phase_1_seconds", trial.phase_1_seconds);
+          list.push_back({"", tree});
+        }
+      return list;
+    }
+
+    /** Factors of one block, in the order of the stages. */
+    void
+    put_factors(const std::vector<SafetyFactor> &factors,
+                const unsigned int block,
+                Tree &tree)
+    {
+      Tree strength, limit, ratio;
+      for (const SafetyFactor &factor : factors)
+        {
+          if (factor.block != block)
+            continue;
+          Tree one, cheap, stress;
+          put(one, "stage", factor.stage);
+          put(one, "lower", factor.lower);
+          put(one, "upper", factor.upper);
+          put(one, "value", factor.value());
+          put(one, "outcome", to_string(factor.outcome));
+          put(one, "failure_mode", factor.failure_mode);
+          one.add_child("trials", trials_as_tree(factor.trials));
+          strength.push_back({"", one});
+          put(cheap, "stage", factor.stage);
+          put(cheap, "mode", factor.limit_mode);
+          if (std::isfinite(factor.limit_factor))
+            put(cheap, "value", factor.limit_factor);
+          limit.push_back({"", cheap});
+          put(stress, "stage", factor.stage);
+          put(stress, "value", factor.stress_ratio);
+          ratio.push_back({"", stress});
+          tree.put("failure_mode", factor.failure_mode);
+        }
+      if (strength.empty())
+        return;
+      tree.add_child("safety_factor", strength);
+      tree.add_child("limit_equilibrium", limit);
+      tree.add_child("stress_ratio", ratio);
+    }
+
     template <int dim>
     Tree
-    blocks_as_tree(const Blocks<dim> &blocks, const Scene<dim> &scene)
+    blocks_as_tree(const Blocks<dim> &blocks,
+                   const Scene<dim> &scene,
+                   const std::vector<SafetyFactor> &factors,
+                   const std::vector<unsigned int> &removal_stage)
     {
       Tree list;
       for (const Block<dim> &block : blocks.blocks)
@@ -108,6 +171,12 @@ namespace Keyblock
             put(areas, scene.joints[joint]->name, area);
           if (!areas.empty())
             tree.add_child("joint_areas", areas);
+          const unsigned int b = &block - blocks.blocks.data();
+          if (b < removal_stage.size() && removal_stage[b] > 1)
+            put(tree,
+                "removed_in_stage",
+                scene.stages[removal_stage[b] - 2]->name);
+          put_factors(factors, b, tree);
           list.push_back({"", tree});
         }
       return list;
@@ -123,6 +192,8 @@ namespace Keyblock
                              const std::vector<StageReport> &stages,
                              const History &history,
                              const CheckValues &checks,
+                             const std::vector<SafetyFactor> &factors,
+                             const std::vector<unsigned int> &removal_stage,
                              const Geostress *geostress) const
   {
     const double memory = dealii::Utilities::MPI::sum(peak_memory(), world());
@@ -208,7 +279,12 @@ namespace Keyblock
     root.add_child("energy",
                    energies_as_tree(stages.empty() ? Energies()
                                                    : stages.back().energies));
-    root.add_child("blocks", blocks_as_tree<dim>(blocks, scene));
+    root.add_child("blocks",
+                   blocks_as_tree<dim>(blocks, scene, factors, removal_stage));
+    if (scene.block_theory.report)
+      root.add_child("block_theory",
+                     block_theory_as_tree(
+                       find_block_theory(scene, scene.block_theory)));
     root.add_child("stages", stage_list);
     root.add_child("monitors", monitors);
     root.add_child("checks", check_tree);
@@ -222,7 +298,7 @@ namespace Keyblock
                               std::regex("\"(checks|monitors)\": \"\""),
                               "\"$1\": {}");
     text = std::regex_replace(text,
-                              std::regex("\"(stages|blocks)\": \"\""),
+                              std::regex("\"(stages|blocks|trials)\": \"\""),
                               "\"$1\": []");
     std::ofstream out(folder + "summary.json");
     out << text;
@@ -237,11 +313,15 @@ namespace Keyblock
                                          const std::vector<StageReport> &,
                                          const History &,
                                          const CheckValues &,
+                                         const std::vector<SafetyFactor> &,
+                                         const std::vector<unsigned int> &,
                                          const Geostress *) const;
   template void Output<3>::write_summary(const MeshQuality &,
                                          const RunReport &,
                                          const std::vector<StageReport> &,
                                          const History &,
                                          const CheckValues &,
+                                         const std::vector<SafetyFactor> &,
+                                         const std::vector<unsigned int> &,
                                          const Geostress *) const;
 } // namespace Keyblock

@@ -20,6 +20,40 @@ namespace Keyblock
     bool is_intact       = false;
     bool is_converted    = false; ///< point-to-surface from now on
     bool is_welded       = false; ///< by rock that is dug later
+    bool is_removed      = false; ///< with one of its blocks
+  };
+
+  /** Which strengths are divided by a trial's reduction factor. */
+  struct StrengthReduction
+  {
+    unsigned int block = none; ///< only its joints; `none`: everywhere
+    std::vector<bool> joints;  ///< by joint; empty: all of them
+    double share = 1.;         ///< of the strength that is left, 1 / F [-]
+
+    /** Share of strength between two blocks (`none`: no block) on a joint. */
+    double
+    share_between(const unsigned int a,
+                  const unsigned int b,
+                  const unsigned int joint) const
+    {
+      const bool is_meant =
+        (block == none || a == block || b == block) &&
+        (joints.empty() || (joint != none && joints[joint]));
+      return is_meant ? share : 1.;
+    }
+  };
+
+  /** All that contact remembers from one step to the next. */
+  template <int dim>
+  struct ContactMemory
+  {
+    std::vector<PairState<dim>> state;
+    std::vector<Vector<dim>> normal;
+    std::vector<bool> is_removed_block, is_mobile_group, is_mobile_slot;
+    std::vector<unsigned int> mobile_slots, mobile_corners;
+    std::vector<SurfaceContact<dim>> contacts;
+    unsigned int n_steps = 0;
+    double last_kick     = 0.;
   };
 
   /** Sums over the contact points of one joint. */
@@ -76,6 +110,30 @@ namespace Keyblock
 
     /** Replace all friction angles [deg]; negative: back to the scene's. */
     void override_friction(const double angle);
+
+    /** Divide strengths until further notice. */
+    void
+    reduce_strength(const StrengthReduction &new_reduction)
+    {
+      reduction = new_reduction;
+    }
+
+    /** Let go of a block that is taken away, with the forces on it. */
+    void remove_block(const unsigned int block);
+
+    ContactMemory<dim> remember() const;
+    void recall(const ContactMemory<dim> &memory);
+
+    /** Mean of u(block) - u(other side) over the area of a block's pairs that
+     * are there [m]; null without any (collective). */
+    Vector<dim> mean_slip(const unsigned int block) const;
+
+    /** Sums over the points of one block on each joint, forces on the block
+     * (collective). */
+    std::vector<JointSums<dim>> sum_over_block(const unsigned int block) const;
+
+    /** Sides of a pair: blocks of its minus and plus vertices. */
+    std::array<unsigned int, 2> blocks_of_pair(const unsigned int pair) const;
 
     /**
      * Prepare for stage @p number of the excavation: masses, supports and cells
@@ -138,6 +196,7 @@ namespace Keyblock
 
     void measure_slots();
     void set_up_groups();
+    void list_corner_slots();
     void set_up_corners();
     void set_up_corner(CornerGroup &corner);
     void set_up_traction_weights();
@@ -166,6 +225,9 @@ namespace Keyblock
     }
 
     void convert_slid_pairs();
+
+    /** Put the masters of hanging nodes in their place. */
+    void put_masters_into(ContactPoint<dim> &point) const;
     ContactPoint<dim> pair_as_point(const unsigned int pair,
                                     const double kick) const;
     void book_work(const ContactPoint<dim> &point,
@@ -190,6 +252,8 @@ namespace Keyblock
     std::vector<double> static_tangent, kinetic_tangent; ///< by joint
     double default_tangent;
     double override_tangent = -1.;
+    StrengthReduction reduction;
+    std::vector<bool> is_removed_block;
 
     std::vector<SinglePair> single_pairs;
     std::vector<CornerGroup> corners;

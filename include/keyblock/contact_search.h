@@ -17,6 +17,7 @@ namespace Keyblock
     unsigned int slave; ///< slot; of ridges the first of the slave ridge
     unsigned int face;  ///< index into Interface::surface; one of the ridge's
     unsigned int joint; ///< of the face, or `none`
+    unsigned int master_block;
     bool is_ridge = false;
     ContactPoint<dim> point;
   };

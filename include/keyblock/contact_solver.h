@@ -15,7 +15,8 @@ namespace Keyblock
   template <int dim>
   struct ContactPoint
   {
-    static constexpr int max_nodes = dim == 2 ? 3 : 5;
+    /** A node and a face, in 3D a hanging node's masters for each at most. */
+    static constexpr int max_nodes = dim == 2 ? 3 : 10;
 
     int n_nodes = 0;
     std::array<unsigned int, max_nodes> node{}; ///< index into the arrays

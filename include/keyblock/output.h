@@ -4,6 +4,7 @@
 
 #include <keyblock/geostress.h>
 #include <keyblock/monitors.h>
+#include <keyblock/safety_factor.h>
 
 #include <map>
 
@@ -76,6 +77,8 @@ namespace Keyblock
                        const std::vector<StageReport> &stages,
                        const History &history,
                        const CheckValues &checks,
+                       const std::vector<SafetyFactor> &factors,
+                       const std::vector<unsigned int> &removal_stage,
                        const Geostress *geostress) const;
 
   private:

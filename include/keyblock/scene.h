@@ -97,6 +97,7 @@ namespace Keyblock
     double cohesion               = 0.;
     double tensile_strength       = 0.;
     double residual_cohesion      = 0.;
+    std::string water_pressure;
 
     /** Unit normal, pointing up (to +x for a vertical joint): minus to plus. */
     Tensor<1, dim> normal() const;
@@ -307,6 +308,58 @@ namespace Keyblock
     void declare(ParameterHandler &prm);
   };
 
+  /** Safety factors by strength reduction, and what goes with them. */
+  struct SafetySettings
+  {
+    std::string blocks = "none";
+    std::vector<std::string> stages;
+    std::vector<std::string> joints;
+    std::string reduced_joints = "of the block";
+    bool reduces_rock          = false;
+    std::string method         = "bisection";
+    double sweep_step          = 0.01;
+    double bracket             = 0.005;
+    double lowest              = 0.1;
+    double highest             = 100.;
+    double mass_damping        = 0.3;
+    double local_damping       = 0.;
+    double damping_ratio       = 0.3;
+    double window              = 1.;
+    double maximum_periods     = 20.;
+    std::vector<double> seismic_coefficient;
+    double removal_slip = 0.05;
+
+    bool
+    is_wanted() const
+    {
+      return blocks != "none";
+    }
+
+    /** Whether the factor of the block called @p id (from 1) is asked for. */
+    bool wants_block(const unsigned int id) const;
+
+    bool wants_stage(const std::string &name) const;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** Which faces the block theory report looks at. */
+  struct BlockTheorySettings
+  {
+    bool report = false;
+
+    /** Azimuths that walls face, seen from the rock [deg]; in 2D 90 (+x) and
+     * 270 (-x) only. */
+    std::vector<double> walls = {0., 90., 180., 270.};
+
+    /** Free width of a flat roof [m], 0: no largest wedges. */
+    double roof_span = 0.;
+    /** Azimuth of the axis across which it is measured [deg]. */
+    double roof_axis = 0.;
+
+    void declare(ParameterHandler &prm);
+  };
+
   /** A quantity written to history.csv. */
   template <int dim>
   struct Monitor
@@ -370,6 +423,8 @@ namespace Keyblock
     InitialState<dim> initial_state;
     ContactSettings contact;
     TimeStepping time_stepping;
+    SafetySettings safety;
+    BlockTheorySettings block_theory;
     CheckSettings checks;
     OutputSettings output;
 

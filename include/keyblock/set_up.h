@@ -39,12 +39,23 @@ namespace Keyblock
     double limit(const Stage &stage) const;
   };
 
+  /** What has been dug, taken away and ramped so far. */
+  struct StageState
+  {
+    unsigned int stage_number = 0;
+    std::vector<bool> is_removed;                       ///< by block
+    std::vector<double> carried_force, far_field_force; ///< [N]
+    double ramp_duration = 0., ramp_progress = 1., ramp_pace = 1.;
+    double share_carried   = 0.;
+    bool is_far_field_free = false;
+  };
+
   /**
    * From the scene to the arrays of the hot loops: masses, supports, loads,
    * initial stress and velocity, and the frequency of every cell.
    */
   template <int dim>
-  class Conditions
+  class Conditions : private StageState
   {
   public:
     Conditions(const Scene<dim> &scene,
@@ -63,6 +74,28 @@ namespace Keyblock
      * cells that stay are kept. What the dug cells carried is left unbalanced.
      */
     void dig(const unsigned int number);
+
+    /** Take a block away, as if it were dug in the present stage. */
+    void remove_block(const unsigned int block);
+
+    bool
+    is_removed_block(const unsigned int block) const
+    {
+      return !is_removed.empty() && is_removed[block];
+    }
+
+    StageState
+    remember() const
+    {
+      return *this;
+    }
+
+    /** Go back to a state; cells and fields are those of its stage, but with
+     * the stresses and motions of now. */
+    void recall(const StageState &state);
+
+    /** Divide the strength of all rock by 1 / @p share. */
+    void reduce_strength(const double share);
 
     /** Whether stage @p number digs, fills or loads anything. */
     bool changes(const unsigned int number) const;
@@ -139,6 +172,7 @@ namespace Keyblock
     void set_up_mass();
     void set_up_supports();
     void set_up_tractions();
+    void set_up_water();
     void set_up_initial_state();
 
     const Scene<dim> &scene;
@@ -151,18 +185,14 @@ namespace Keyblock
     std::vector<std::unique_ptr<Expression<dim>>> motions, tractions;
     std::vector<NodalTraction<dim>> nodal_tractions;
     std::vector<bool> is_displacement; ///< one per motion
+    /** Of water in joints, by degree of freedom [N]. */
+    std::vector<std::pair<unsigned int, double>> water_forces;
     bool is_load_constant = true;
     bool is_load_set      = false;
 
-    unsigned int stage_number = 0;
     std::vector<unsigned int> cell_of_local; ///< into cells, or `none`
     StableStep<dim> true_step;               ///< of the true masses
     double lowest_frequency = 0.;            ///< of all cells [rad/s]
-
-    std::vector<double> carried_force, far_field_force; ///< [N]
-    double ramp_duration = 0., ramp_progress = 1., ramp_pace = 1.;
-    double share_carried   = 0.;
-    bool is_far_field_free = false;
   };
 } // namespace Keyblock
 

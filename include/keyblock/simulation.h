@@ -4,6 +4,7 @@
 
 #include <keyblock/checks.h>
 #include <keyblock/geostress.h>
+#include <keyblock/safety_factor.h>
 
 namespace Keyblock
 {
@@ -85,6 +86,21 @@ namespace Keyblock
     void dig_stage(const Stage &stage, const unsigned int number);
     unsigned int step_through(const Stage &stage, const unsigned int index);
     void solve_stage();
+    /** Whether any was there to be removed. */
+    bool remove_failed_blocks(const Stage &stage, const unsigned int index);
+    void find_safety_factors(const unsigned int index,
+                             const Snapshot<dim> &before);
+    bool holds_when_strong(const unsigned int block,
+                           const unsigned int index,
+                           const Snapshot<dim> &before);
+    bool is_class_wanted(const unsigned int block,
+                         const unsigned int number) const;
+    void print_factor(const SafetyFactor &factor) const;
+    RunParts<dim>
+    parts()
+    {
+      return {*conditions, cells, fields, contact.get(), *step};
+    }
     void pace_ramp(const Stage &stage);
     double ramp_duration_of(const Stage &stage) const;
     void report_stage(const Stage &stage, const unsigned int n_steps);
@@ -111,6 +127,9 @@ namespace Keyblock
     std::unique_ptr<Geostress> geostress;
     RunReport report;
     std::vector<StageReport> stage_reports;
+    std::vector<SafetyFactor> safety_factors;
+    std::vector<unsigned int> removal_stage; ///< number, by block; 0: there
+    bool is_trial        = false;            ///< nothing is recorded or printed
     double wall_start    = 0.;
     double last_progress = 0.;
     bool is_converged    = true;

@@ -47,13 +47,43 @@ namespace Keyblock
     }
   };
 
+  /** All that the step remembers besides the arrays. */
+  struct StepState
+  {
+    double time          = 0.; ///< of displacements [s]
+    unsigned int n_steps = 0;
+    double dt            = 0.;
+    Energies energies; ///< as of the last sampled step
+
+    /** Sum of |unbalanced force| on free nodes over the sum of |driving force|,
+     * as last sampled [-]. What drives is what dug cells carried, in a stage
+     * that digs; else loads, else reactions. */
+    double unbalanced_ratio = 0.;
+
+    /** Largest unbalanced force of a node over the mean force, the same [-]. */
+    double largest_nodal_ratio = 0.;
+
+  protected:
+    Stage stage;
+    double kick            = 0.;   ///< h of the present step [s]
+    double previous_dt     = 0.;   ///< length of the last move [s]
+    bool starts_at_rest    = true; ///< the next kick is a half one
+    bool is_first          = true; ///< of the stage
+    bool is_stress_current = true; ///< contains the last move
+    Energies sums;                 ///< work terms of this rank
+    ContactWork contact_work_at_start;
+    double plastic_work_at_start = 0.;
+    double excavated_energy      = 0.;
+    double carried_sum           = 0.; ///< of |force| of the cells dug [N]
+  };
+
   /**
    * One explicit step, the verbs in order: force, predict, contact, move.
    * Velocities live at half steps; the first kick of a stage that starts from
    * rest is a half one (doc/theory.md, equations 1 to 6).
    */
   template <int dim>
-  class ExplicitStep
+  class ExplicitStep : public StepState
   {
   public:
     ExplicitStep(const Scene<dim> &scene,
@@ -96,9 +126,23 @@ namespace Keyblock
     /** Take displacements from here on from the present state. */
     void zero_displacements();
 
+    /** Set all velocities to zero; the next kick is a half one. */
+    void stop_motion();
+
     /** Call the masses' users after they changed, and take the step they
      * allow. Returns its length [s]. */
     double choose_step(const unsigned int number);
+
+    StepState
+    remember() const
+    {
+      return *this;
+    }
+    void
+    recall(const StepState &state)
+    {
+      StepState::operator=(state);
+    }
 
     /** Advance by one step; returns its length [s]. With @p sample the
      * energies and the unbalanced force are measured. */
@@ -106,19 +150,6 @@ namespace Keyblock
 
     /** Measure unbalanced_ratio and largest_nodal_ratio (collective). */
     void sample_unbalanced_force();
-
-    double time          = 0.; ///< of displacements [s]
-    unsigned int n_steps = 0;
-    double dt            = 0.;
-    Energies energies; ///< as of the last sampled step
-
-    /** Sum of |unbalanced force| on free nodes over the sum of |driving force|,
-     * as last sampled [-]. What drives is what dug cells carried, in a stage
-     * that digs; else loads, else reactions. */
-    double unbalanced_ratio = 0.;
-
-    /** Largest unbalanced force of a node over the mean force, the same [-]. */
-    double largest_nodal_ratio = 0.;
 
     double contact_seconds = 0.; ///< wall time spent in contact
     double force_seconds   = 0.; ///< wall time spent in cell forces
@@ -139,18 +170,6 @@ namespace Keyblock
     CellArrays<dim> &cells;
     Fields<dim> &fields;
     Contact<dim> *contact;
-
-    Stage stage;
-    double kick            = 0.;   ///< h of the present step [s]
-    double previous_dt     = 0.;   ///< length of the last move [s]
-    bool starts_at_rest    = true; ///< the next kick is a half one
-    bool is_first          = true; ///< of the stage
-    bool is_stress_current = true; ///< contains the last move
-    Energies sums;                 ///< work terms of this rank
-    ContactWork contact_work_at_start;
-    double plastic_work_at_start = 0.;
-    double excavated_energy      = 0.;
-    double carried_sum           = 0.; ///< of |force| of the cells dug [N]
   };
 } // namespace Keyblock
 

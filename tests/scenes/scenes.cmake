@@ -43,3 +43,24 @@ keyblock_scene(verification/bar_impact REFERENCES bar_impact_refined
 # half of the base's faces halved: nodes hang on the joint itself
 keyblock_scene(verification/incline_3d REFERENCES incline_3d_refined
   SET "Mesh/Refinement levels=(0.389948096*x + 0.713134173*y - 0.582563416*z < 0.125)")
+keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
+  SET "Safety factor/Removal slip=0.05")
+# safety factors of blocks on inclines: friction angle, dip
+keyblock_scene(verification/factor_incline)
+foreach(case 10_40 68_40 25_50 60_40 50_25)
+  string(REPLACE "_" ";" angles ${case})
+  list(GET angles 0 friction)
+  list(GET angles 1 dip)
+  keyblock_scene(verification/factor_incline REFERENCES factor_incline_${case}
+    RANKS 1
+    SET "Joints/base/Friction angle=${friction}"
+    "Initial state/Gravity=9.81*sin(${dip}*pi/180)@ -9.81*cos(${dip}*pi/180)")
+endforeach()
+keyblock_scene(verification/friction_rod_400 RANKS 2)
+keyblock_scene(verification/footing_10 RANKS 2 SLOW)
+keyblock_scene(verification/footing_30 RANKS 2 SLOW)
+keyblock_scene(verification/wedge_3d RANKS 2)
+keyblock_scene(verification/wedge_slides RANKS 2)
+keyblock_scene(verification/roof_wedge RANKS 2)
+keyblock_scene(verification/roof_wedge REFERENCES roof_wedge_ratio_10 RANKS 1
+  SET "Materials/layer/Poisson ratio=0.444444444444")

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Blocks that fail in a stage, and the safety factors at its end.
+#include <keyblock/mpi.h>
+#include <keyblock/simulation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+
+namespace Keyblock
+{
+  template <int dim>
+  bool
+  Simulation<dim>::remove_failed_blocks(const Stage &stage,
+                                        const unsigned int index)
+  {
+    if (contact == nullptr || scene.safety.removal_slip == 0.)
+      return false;
+    std::vector<unsigned int> failed;
+    for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+      if (!blocks.blocks[b].is_infinite && !conditions->is_removed_block(b) &&
+          norm<dim>(contact->mean_slip(b)) >
+            scene.safety.removal_slip * blocks.blocks[b].size)
+        failed.push_back(b);
+    if (failed.empty())
+      return false;
+    const unsigned int number = index + 2;
+    for (const unsigned int b : failed)
+      {
+        conditions->remove_block(b);
+        contact->remove_block(b);
+        removal_stage[b] = number;
+      }
+    const std::vector<double> carried = step->dig(number);
+    step->begin_stage(stage, number);
+    conditions->start_ramp(carried, ramp_duration_of(stage));
+    n_cells_global =
+      dealii::Utilities::MPI::sum<unsigned long long>(cells.nodes.size(),
+                                                      world());
+    return true;
+  }
+
+
+
+  template <int dim>
+  bool
+  Simulation<dim>::is_class_wanted(const unsigned int block,
+                                   const unsigned int number) const
+  {
+    const Block<dim> &b = blocks.blocks[block];
+    if (!scene.safety.wants_block(b.id) || b.is_infinite || b.is_rigid)
+      return false;
+    const BlockClass now =
+      b.class_of_stage[std::min<std::size_t>(number,
+                                             b.class_of_stage.size() - 1)];
+    return now == BlockClass::exposed || now == BlockClass::hidden;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::find_safety_factors(const unsigned int index,
+                                       const Snapshot<dim> &before)
+  {
+    const unsigned int number = index + 2;
+    const Stage &stage        = *scene.stages[index];
+    const Snapshot<dim> after = take_snapshot(parts());
+    StrengthReductionSearch<dim> search(
+      scene, split, blocks, *numbering, parts());
+    const std::vector<unsigned int> removed = removal_stage;
+    const bool was_converged                = is_converged;
+    for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+      {
+        if (!is_class_wanted(b, number) ||
+            (removed[b] > 0 && removed[b] < number))
+          continue;
+        typename StrengthReductionSearch<dim>::Known known;
+        for (const SafetyFactor &earlier : safety_factors)
+          if (earlier.block == b && earlier.value() > 0.)
+            known.hint = earlier.value();
+        SafetyFactor result;
+        if (removed[b] == number)
+          {
+            const double lowest = scene.safety.lowest;
+            known               = {lowest, 1., 0., lowest};
+            if (holds_when_strong(b, index, before))
+              result = search.find(b, number, known);
+            else
+              {
+                result.block        = b;
+                result.outcome      = SafetyFactor::Outcome::falls_freely;
+                result.upper        = lowest;
+                result.failure_mode = "falling";
+                recall(before, parts());
+                step->dig(number);
+                search.add_cheap_answers(b, result);
+              }
+            contact->reduce_strength(StrengthReduction());
+          }
+        else
+          {
+            if (was_converged && stage.friction_angle_override < 0. &&
+                stage.unbalanced_ratio > 0.)
+              known.stable = 1.;
+            SafetyFactor cheap;
+            search.add_cheap_answers(b, cheap);
+            if (known.hint == 0. && std::isfinite(cheap.limit_factor))
+              known.hint = cheap.limit_factor;
+            result = search.find(b, number, known);
+          }
+        recall(after, parts());
+        removal_stage = removed;
+        is_converged  = was_converged;
+        result.stage  = stage.name;
+        safety_factors.push_back(result);
+        print_factor(result);
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  Simulation<dim>::holds_when_strong(const unsigned int block,
+                                     const unsigned int index,
+                                     const Snapshot<dim> &before)
+  {
+    const Stage &stage        = *scene.stages[index];
+    const unsigned int number = index + 2;
+    recall(before, parts());
+    std::fill(removal_stage.begin(), removal_stage.end(), 0);
+    StrengthReduction strong;
+    strong.block = block;
+    strong.share = 1. / scene.safety.lowest;
+    contact->reduce_strength(strong);
+    is_trial = true;
+    dig_stage(stage, number);
+    step_through(stage, index);
+    is_trial = false;
+    return removal_stage[block] == 0;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::print_factor(const SafetyFactor &factor) const
+  {
+    if (!is_root())
+      return;
+    double seconds = 0.;
+    for (const Trial &trial : factor.trials)
+      seconds += trial.seconds;
+    std::cout << "Factor  block " << blocks.blocks[factor.block].id << " after "
+              << factor.stage << ": " << std::setprecision(5);
+    if (factor.outcome == SafetyFactor::Outcome::bracketed)
+      std::cout << factor.value() << " [" << factor.lower << ", "
+                << factor.upper << "]";
+    else
+      std::cout << to_string(factor.outcome);
+    if (!factor.failure_mode.empty())
+      std::cout << ", " << factor.failure_mode;
+    std::cout << "; limit equilibrium " << factor.limit_factor << " ("
+              << factor.limit_mode << ")";
+    if (factor.stress_ratio > 0.)
+      std::cout << ", stress ratio " << factor.stress_ratio;
+    std::cout << "; " << factor.trials.size() << " trials, "
+              << std::setprecision(3) << seconds << " s" << std::endl;
+  }
+
+  template bool Simulation<2>::remove_failed_blocks(const Stage &,
+                                                    const unsigned int);
+  template bool Simulation<3>::remove_failed_blocks(const Stage &,
+                                                    const unsigned int);
+  template void Simulation<2>::find_safety_factors(const unsigned int,
+                                                   const Snapshot<2> &);
+  template void Simulation<3>::find_safety_factors(const unsigned int,
+                                                   const Snapshot<3> &);
+} // namespace Keyblock
