@@ -399,7 +399,18 @@ namespace Keyblock
     double spread = 0.4 * settings.bracket;
     double middle = known.hint > 0. ? known.hint : std::max(1., stable);
     if (known.hint == 0.)
-      spread = 0.5;
+      {
+        // nothing to go by: most such blocks cannot move at all
+        spread = 0.5;
+        if (stable > 0. && unstable == 0.)
+          holds_at(settings.highest);
+        if (stable >= settings.highest)
+          {
+            result.outcome = SafetyFactor::Outcome::immovable;
+            result.lower   = stable;
+            return;
+          }
+      }
     while (stable == 0. || unstable == 0.)
       {
         const double below = std::max(settings.lowest, middle / (1. + spread));
