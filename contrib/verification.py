@@ -49,6 +49,14 @@ def split_words(text):
             if quoted or plain]
 
 
+def put_in_lists(text):
+    """The text without set(NAME word...), the words in place of ${NAME}."""
+    definition = re.compile(r'set\((\w+) ((?:"[^"]*"|[^")])*)\)\n')
+    for name, words in definition.findall(text):
+        text = text.replace(f"${{{name}}}", words)
+    return definition.sub("", text)
+
+
 def expand_loops(text):
     """The text with each foreach written out."""
     loop = re.compile(r"foreach\((\w+) ([^)]*)\)\n(.*?)endforeach\(\)", re.S)
@@ -78,7 +86,7 @@ def expand_loops(text):
 def read_tests():
     """All scene tests, one for each variant."""
     with open(f"{ROOT}/tests/scenes/scenes.cmake", encoding="utf-8") as file:
-        text = expand_loops(file.read())
+        text = put_in_lists(expand_loops(file.read()))
     # to the bracket that closes the call: quoted ones do not count
     calls = re.findall(r'keyblock_scene\(((?:"[^"]*"|[^")])*)\)',
                        re.sub(r"(?m)^\s*#.*", "", text))

@@ -99,3 +99,19 @@ keyblock_scene(verification/roof_pinned REFERENCES roof_plumb RANKS 1
   "Joints/right/Vertices=0.6, 1@ 0.6, 3" "Joints/right/Friction angle=5"
   "Joints/back/Vertices=-0.6, 3@ 0.6, 3"
   "Materials/abutment/Region=if(y > 3 || (y > 1 && abs(x) > 0.6), 1, -1)")
+# a toe that passes the crossing of two joints: acute or not, bed of one body or two
+set(overhang "Domain/Corner=-0.536397023427, -0.1"
+  "Domain/Edges=1.25, 0@ 0.0727940468532, 0.2"
+  "Excavations/uphill/Formula=if(y > 0 && x - 0.363970234266*y < -0.25, 1, -1)"
+  "Excavations/downhill/Formula=if(y > 0 && x - 0.363970234266*y > 0, 1, -1)"
+  "Joints/front/Vertices=0, 0@ 0.0363970234266, 0.1")
+set(crossing "Excavations/downhill/Stage=start" "Materials/bed/Model=rigid"
+  "Contact/Weld infinite blocks=false" "Joints/front/Extent=infinite"
+  "Joints/front/Vertices=")
+keyblock_scene(verification/corner RANKS 1 2)
+keyblock_scene(verification/corner REFERENCES corner_overhang RANKS 1
+  SET ${overhang})
+keyblock_scene(verification/corner REFERENCES corner_crossing RANKS 1
+  SET ${crossing} "Joints/front/Normal=1, 0.363970234266")
+keyblock_scene(verification/corner REFERENCES corner_crossing_overhang RANKS 1
+  SET ${overhang} ${crossing} "Joints/front/Normal=1, -0.363970234266")
