@@ -39,6 +39,8 @@ SCENES = {
     "incline_3d": {"exaggeration": 1., "eye": (0.5, -1., 0.35)},
     "newmark": {"field": "displacement_x"},
     "crossing": {"exaggeration": 1., "tilt": 40.},
+    "corner": {"exaggeration": 1., "tilt": 40.},
+    "cohesive_incline": {"exaggeration": 0., "tilt": 30.},
     "resting": {"exaggeration": 0., "tilt": 20.},
     "toppling_": {"exaggeration": 1., "tilt": 24.3},
     "toppling_stays_friction": {"exaggeration": 1., "tilt": 29.5},

@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import typing
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 KEYBLOCK = sys.argv[1] if len(sys.argv) > 1 else f"{ROOT}/build/keyblock"
@@ -32,15 +33,78 @@ def run(scene, *overrides, ranks=1):
         return json.load(file)
 
 
-def read_scenes():
-    """The scenes that are tested, as in verification/incline_30."""
+class Test(typing.NamedTuple):
+    """A call of keyblock_scene in tests/scenes/scenes.cmake."""
+    scene: str  # as in verification/incline_30
+    name: str  # of the references
+    ranks: list
+    overrides: list
+    is_slow: bool
+
+
+def split_words(text):
+    """Words of CMake: quoted ones may hold blanks, comments are left out."""
+    return [quoted or plain for quoted, plain in
+            re.findall(r'#[^\n]*|"([^"]*)"|([^\s"#]+)', text)
+            if quoted or plain]
+
+
+def put_in_lists(text):
+    """The text without set(NAME word...), the words in place of ${NAME}."""
+    definition = re.compile(r'set\((\w+) ((?:"[^"]*"|[^")])*)\)\n')
+    for name, words in definition.findall(text):
+        text = text.replace(f"${{{name}}}", words)
+    return definition.sub("", text)
+
+
+def expand_loops(text):
+    """The text with each foreach written out."""
+    loop = re.compile(r"foreach\((\w+) ([^)]*)\)\n(.*?)endforeach\(\)", re.S)
+
+    def write_out(found):
+        variable, items, body = found.groups()
+        copies = []
+        for item in split_words(items):
+            values = {variable: item}
+            copy = body
+            # string(REPLACE from to list name), list(GET list index name)
+            for old, new, target, source in re.findall(
+                    r'string\(REPLACE "([^"]*)" "([^"]*)" (\w+) '
+                    r'\$\{(\w+)\}\)', body):
+                values[target] = values[source].replace(old, new)
+            for source, index, target in re.findall(
+                    r"list\(GET (\w+) (\d+) (\w+)\)", body):
+                values[target] = values[source].split(";")[int(index)]
+            for name, value in values.items():
+                copy = copy.replace(f"${{{name}}}", value)
+            copies.append(copy)
+        return "\n".join(copies)
+
+    return loop.sub(write_out, text)
+
+
+def read_tests():
+    """All scene tests, one for each variant."""
     with open(f"{ROOT}/tests/scenes/scenes.cmake", encoding="utf-8") as file:
-        text = file.read()
-    text = re.sub(r"foreach\(case ([^)]*)\)\s*keyblock_scene\(([^$]*)"
-                  r"\$\{case\}\)\s*endforeach\(\)",
-                  lambda m: "\n".join(f"keyblock_scene({m[2]}{case})"
-                                      for case in m[1].split()), text)
-    return re.findall(r"keyblock_scene\(([\w/]+)", text)
+        text = put_in_lists(expand_loops(file.read()))
+    # to the bracket that closes the call: quoted ones do not count
+    calls = re.findall(r'keyblock_scene\(((?:"[^"]*"|[^")])*)\)',
+                       re.sub(r"(?m)^\s*#.*", "", text))
+    tests = []
+    for call in calls:
+        scene, *words = split_words(call)
+        options, option = {}, None
+        for word in words:
+            if word in ("RANKS", "REFERENCES", "SET", "SLOW"):
+                option = word
+                options[option] = []
+            else:
+                options[option].append(word)
+        name, = options.get("REFERENCES", [os.path.basename(scene)])
+        tests.append(Test(scene, name,
+                          [int(n) for n in options.get("RANKS", [])],
+                          options.get("SET", []), "SLOW" in options))
+    return tests
 
 
 def gallery(out):
@@ -48,7 +112,7 @@ def gallery(out):
 
     They are drawn by contrib/pictures.py."""
     cells = []
-    for scene in dict.fromkeys(read_scenes()):
+    for scene in dict.fromkeys(test.scene for test in read_tests()):
         name = os.path.basename(scene)
         if not os.path.exists(f"{ROOT}/doc/pictures/{name}.png"):
             continue
@@ -80,17 +144,22 @@ def scene_table(out):
     """Each line of each reference file with what was measured."""
     out.write("| scene | quantity | measured | reference | tolerance |\n"
               "|---|---|---|---|---|\n")
-    for scene in read_scenes():
-        name = os.path.basename(scene)
-        summary = subprocess.run(
+    for test in read_tests():
+        if test.is_slow:
+            continue
+        done = subprocess.run(
             [sys.executable, f"{ROOT}/tests/compare.py", KEYBLOCK,
-             f"{ROOT}/prm/{scene}.prm", f"{ROOT}/tests/scenes/{name}.ref",
-             "1", FOLDER], capture_output=True, text=True).stdout
-        for line in summary.splitlines():
-            found = re.match(r"(\S+)\s+(\S+) (\S+)(?: \(reference (\S+) \+- "
-                             r"(\S+), \w+\))?", line)
-            state, quantity, value, reference, tolerance = found.groups()
-            out.write(f"| {name} | {quantity} | {value} "
+             f"{ROOT}/prm/{test.scene}.prm",
+             f"{ROOT}/tests/scenes/{test.name}.ref", "1", FOLDER] +
+            [f"--set={assignment}" for assignment in test.overrides],
+            capture_output=True, text=True)
+        lines = re.findall(r"(?m)^(ok|FAIL) +(.+?) (\S+)"
+                           r"(?: \(reference (\S+) \+- (\S+), \w+\))?$",
+                           done.stdout)
+        if not lines:
+            out.write(f"| {test.name} | did not run | | | | FAILED\n")
+        for state, quantity, value, reference, tolerance in lines:
+            out.write(f"| {test.name} | {quantity} | {value} "
                       f"| {reference or value} "
                       f"| {tolerance or 'exact'} |"
                       f"{'' if state == 'ok' else ' FAILED'}\n")

@@ -4,24 +4,51 @@
 usage: compare.py KEYBLOCK SCENE REFERENCES RANKS FOLDER [--set ...]
 
 A line of the references reads `name value abs_tolerance rel_tolerance origin`.
-The name is a key of `checks` in summary.json, or a path such as
-energy/relative_residual or blocks/0/volume. The test passes if
-|found - value| <= abs_tolerance + rel_tolerance * |value| on every line.
+The name is a key of `checks` in summary.json, a path such as
+energy/relative_residual or blocks/0/volume, or slope/STAGE/COLUMN/FROM/TO: the
+slope against time of the straight line that fits a column of history.csv best,
+least squares, between two times after the begin of a stage. The test passes if
+|found - value| <= abs_tolerance + rel_tolerance * |value| on every line. In
+words an underscore stands for a blank.
 """
+import csv
 import json
 import subprocess
 import sys
 
 
-def look_up(summary, name):
-    """The number called `name` in a summary."""
+def fit_slope(summary, folder, stage, column, begin, end):
+    """Slope of a column of history.csv over a time window of a stage."""
+    number = [entry["name"] for entry in summary["stages"]].index(stage)
+    with open(f"{folder}/history.csv", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    names = [title.split(" [")[0] for title in rows[0]]
+    place = names.index(column)
+    table = [(int(row[0]), float(row[2]), float(row[place]))
+             for row in rows[1:]]
+    start = max((time for n, time, _ in table if n < number), default=0.)
+    points = [(time - start, value) for n, time, value in table
+              if n == number and begin <= time - start <= end]
+    assert len(points) >= 10, f"{len(points)} points to fit {column} to"
+    mean_time = sum(time for time, _ in points) / len(points)
+    mean = sum(value for _, value in points) / len(points)
+    return (sum((time - mean_time) * (value - mean) for time, value in points)
+            / sum((time - mean_time) ** 2 for time, _ in points))
+
+
+def look_up(summary, folder, name):
+    """The number or word called `name` in a summary or a history."""
+    if name.startswith("slope/"):
+        stage, column, begin, end = name.split("/")[1:]
+        return fit_slope(summary, folder, stage, column, float(begin),
+                         float(end))
     if name in summary["checks"]:
         return float(summary["checks"][name])
     place = summary
     for key in name.split("/"):
         place = place[int(key)] if isinstance(place, list) else place[key]
     if isinstance(place, str):
-        return place
+        return place.replace(" ", "_")
     return float(len(place) if isinstance(place, list) else place)
 
 
@@ -46,7 +73,7 @@ def main():
             name, value, absolute, relative, origin = line.rsplit(None, 4)
             assert origin in ("analytic", "published", "regression"), line
             n_lines += 1
-            found = look_up(summary, name)
+            found = look_up(summary, folder, name)
             if isinstance(found, str):
                 failures += found != value
                 print(f"{'ok  ' if found == value else 'FAIL'} {name} {found}")

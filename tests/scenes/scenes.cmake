@@ -64,3 +64,54 @@ keyblock_scene(verification/wedge_slides RANKS 2)
 keyblock_scene(verification/roof_wedge RANKS 2)
 keyblock_scene(verification/roof_wedge REFERENCES roof_wedge_ratio_10 RANKS 1
   SET "Materials/layer/Poisson ratio=0.444444444444")
+# cohesion [Pa], friction angle; the last with a tensile strength besides
+keyblock_scene(verification/cohesive_incline RANKS 1 2)
+foreach(case 200_40 4000_20 500_10)
+  string(REPLACE "_" ";" strength ${case})
+  list(GET strength 0 cohesion)
+  list(GET strength 1 friction)
+  keyblock_scene(verification/cohesive_incline
+    REFERENCES cohesive_incline_${case} RANKS 1
+    SET "Joints/base/Cohesion=${cohesion}"
+    "Joints/base/Friction angle=${friction}")
+endforeach()
+keyblock_scene(verification/cohesive_incline
+  REFERENCES cohesive_incline_tension RANKS 1
+  SET "Joints/base/Tensile strength=1000")
+# clamped: pressure, friction angle
+keyblock_scene(verification/roof_clamped RANKS 1 2)
+keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_20 RANKS 1
+  SET "Tractions/push/Traction=-20e3@ 0"
+  "Initial state/Stress=-20e3@ 0@ -4e3@ 0")
+keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_45 RANKS 1
+  SET "Joints/left/Friction angle=45" "Joints/right/Friction angle=45")
+# blocks that cannot move, and that nothing holds
+keyblock_scene(verification/factor_incline REFERENCES factor_level RANKS 1
+  SET "Initial state/Gravity=0@ -9.81")
+keyblock_scene(verification/roof_pinned RANKS 1 2)
+keyblock_scene(verification/roof_pinned REFERENCES roof_flat_wedge RANKS 1
+  SET "Mesh/Size=0.1"
+  "Joints/left/Vertices=-0.6, 1@ 0, 1.2"
+  "Joints/right/Vertices=0.6, 1@ 0, 1.2"
+  "Materials/abutment/Region=if(y > 1 && 3*(y - 1) > 0.6 - abs(x), 1, -1)")
+keyblock_scene(verification/roof_pinned REFERENCES roof_plumb RANKS 1
+  SET "Joints/left/Vertices=-0.6, 1@ -0.6, 3" "Joints/left/Friction angle=5"
+  "Joints/right/Vertices=0.6, 1@ 0.6, 3" "Joints/right/Friction angle=5"
+  "Joints/back/Vertices=-0.6, 3@ 0.6, 3"
+  "Materials/abutment/Region=if(y > 3 || (y > 1 && abs(x) > 0.6), 1, -1)")
+# a toe that passes the crossing of two joints: acute or not, bed of one body or two
+set(overhang "Domain/Corner=-0.536397023427, -0.1"
+  "Domain/Edges=1.25, 0@ 0.0727940468532, 0.2"
+  "Excavations/uphill/Formula=if(y > 0 && x - 0.363970234266*y < -0.25, 1, -1)"
+  "Excavations/downhill/Formula=if(y > 0 && x - 0.363970234266*y > 0, 1, -1)"
+  "Joints/front/Vertices=0, 0@ 0.0363970234266, 0.1")
+set(crossing "Excavations/downhill/Stage=start" "Materials/bed/Model=rigid"
+  "Contact/Weld infinite blocks=false" "Joints/front/Extent=infinite"
+  "Joints/front/Vertices=")
+keyblock_scene(verification/corner RANKS 1 2)
+keyblock_scene(verification/corner REFERENCES corner_overhang RANKS 1
+  SET ${overhang})
+keyblock_scene(verification/corner REFERENCES corner_crossing RANKS 1
+  SET ${crossing} "Joints/front/Normal=1, 0.363970234266")
+keyblock_scene(verification/corner REFERENCES corner_crossing_overhang RANKS 1
+  SET ${overhang} ${crossing} "Joints/front/Normal=1, -0.363970234266")
