@@ -25,6 +25,8 @@ xvfb-run -a contrib/figures.py ...).
 import argparse
 import pathlib
 
+from vtkmodules.vtkCommonCore import vtkLogger
+
 import figures_curves as curves
 import figures_factors as factors
 from figures_maps import draw_block_map, draw_deformed
@@ -130,6 +132,7 @@ def wanted_figures(runs, arguments):
 
 def main():
     """Read the runs, draw what they have, say what they have not."""
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)  # render.py says it
     arguments = read_arguments()
     runs = read_runs(arguments)
     folder = pathlib.Path(arguments.to)

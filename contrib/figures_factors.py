@@ -48,7 +48,7 @@ def draw_trials(runs, stage=None):
         return "no safety factors"
     stage = stage or max(stages, key=run.stages.index)
     found = {n: result_of(run.blocks[n], stage) for n in factors_of(run)}
-    found = {n: r for n, r in found.items() if r and r["trials"]}
+    found = {n: r for n, r in found.items() if r and r.get("trials")}
     if not found:
         return f"no trials of safety factors after {stage}"
     columns = min(2, len(found))
@@ -136,7 +136,10 @@ def draw_factors(runs):
     if 1. > ends[0]:
         axes.axhline(1., color="0.6", linewidth=0.8, zorder=0)
     if is_wide:
+        axes.set_yticks([t for t in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
+                         if ends[0] <= t <= ends[1]])
         axes.yaxis.set_major_formatter("{x:g}")
+        axes.yaxis.set_minor_formatter("")
     key_of_factors(axes, first, runs, curves)
     return figure
 
@@ -149,7 +152,7 @@ def plot_factors(axes, run, number, method, points, ends, dashes):
     shift = 0.09 * (blocks.index(number) - 0.5 * (len(blocks) - 1))
     is_found = method == "safety_factor"
     fill = {"markerfacecolor": colour if is_found else "white",
-            "color": colour, "clip_on": False, "zorder": 3}
+            "color": colour, "clip_on": False, "zorder": 4 if is_found else 3}
     known = [(x, y) for x, y, outcome in points if outcome == "value"]
     if known:
         axes.plot(*zip(*known), marker=marker, linestyle=dashes or own_dashes,
@@ -157,7 +160,7 @@ def plot_factors(axes, run, number, method, points, ends, dashes):
     for outcome, symbol, place in (("immovable", "^", ends[1]),
                                    ("falls freely", "v", ends[0])):
         x = [x + shift for x, _, found in points if found == outcome]
-        axes.plot(x, [place] * len(x), symbol, markersize=8 if is_found else 6,
+        axes.plot(x, [place] * len(x), symbol, markersize=6 if is_found else 9,
                   **fill)
 
 

@@ -133,12 +133,12 @@ def set_up(axes, box):
     axes.grid(False)
 
 
-def sheet_size(box, n=1):
-    """Width and height of a figure for n boxes with a legend."""
+def sheet_size(box, n=1, beside=2.6):
+    """Width and height of a figure for n boxes and what stands beside them."""
     wide, high = box[1] - box[0]
     height = 6.4 if n == 1 else 5.2
     width = min(max(wide / high * (height - 0.7), 3.), 9.)
-    return n * (width + 0.5) + 2.6, min(height, width * high / wide + 1.)
+    return n * (width + 0.5) + beside, min(height, width * high / wide + 1.)
 
 
 def fill_cells(run, grid):
@@ -254,7 +254,7 @@ def draw_deformed(runs, name=None, exaggeration=0., box=()):
     largest = max(displacements(grid).max() for grid in grids) / size
     if largest * size < NOTHING:
         return "nothing moves"
-    figure, axes = new_figure(1, len(runs), sheet_size(box, len(runs)),
+    figure, axes = new_figure(1, len(runs), sheet_size(box, len(runs), 1.4),
                               sharey=True)
     shades = LinearSegmentedColormap.from_list("displacement", COLOURS)
     norm = pyplot.Normalize(0., largest or 1.)
@@ -262,13 +262,14 @@ def draw_deformed(runs, name=None, exaggeration=0., box=()):
         set_up(one, box)
         plot_rock(one, run, grid, factor, (shades, norm, size))
         plot_first_places(one, run, stage)
-        one.set_title((f"{run.label}: " if len(runs) > 1 else "")
+        most = numpy.linalg.norm(values_of(grid, "displacement"), axis=1).max()
+        one.set_title((f"{run.label}\n" if len(runs) > 1 else "")
                       + f"after {run.stages[stage]}, at most "
-                      f"{displacements(grid).max() / size:.3g} {unit}",
-                      loc="left")
+                      f"{most / size:.3g} {unit}", loc="left")
     bar = figure.colorbar(pyplot.cm.ScalarMappable(norm, shades), ax=axes,
                           shrink=0.8, pad=0.02)
-    bar.set_label(f"displacement [{unit}], drawn times {factor:g}")
+    bar.set_label(f"displacement [{unit}], drawn times {factor:g}; "
+                  "red: rim at first")
     return figure
 
 
@@ -294,13 +295,13 @@ def plot_rock(axes, run, grid, factor, colours):
 
 
 def plot_first_places(axes, run, stage):
-    """Where the rim of what is dug and the blocks were at first, dashed."""
+    """Where the rim of what is dug was at first, and blocks taken away."""
     grid = run.rock(0)
     is_dug = stage_of_cells(run)
     is_dug = numpy.where((is_dug > 0) & (is_dug <= stage + 1), 1, 0)
     axes.add_collection(LineCollection(
-        outlines(grid, is_dug).get(1, []), colors=[RED], linewidths=1.,
-        linestyles=[(0, (4, 3))], zorder=4))
+        outlines(grid, is_dug).get(1, []), colors=[RED], linewidths=0.9,
+        zorder=3.5))
     taken = [n for n in run.finite_blocks()
              if (run.removal_stage(n) or 0) <= stage
              and run.removal_stage(n) is not None]

@@ -64,8 +64,11 @@ def read_history(folder):
                      file.readline().strip().split(",")]
             lines = file.readlines()
         values = numpy.loadtxt(lines, delimiter=",", ndmin=2) if lines else []
-    except (OSError, ValueError) as error:
-        fail(f"'{path}' cannot be read: {error}.")
+    except OSError as error:
+        fail(f"'{path}' cannot be read: {error.strerror}.")
+    except ValueError:
+        fail(f"'{path}' is damaged: its lines are not all of numbers, as many "
+             "in each; run the scene again.")
     if not lines:
         return {}
     if len(names) != values.shape[1] or not {"stage", "step",
