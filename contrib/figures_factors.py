@@ -160,8 +160,9 @@ def plot_factors(axes, run, number, method, points, ends, dashes):
     for outcome, symbol, place in (("immovable", "^", ends[1]),
                                    ("falls freely", "v", ends[0])):
         x = [x + shift for x, _, found in points if found == outcome]
-        axes.plot(x, [place] * len(x), symbol, markersize=6 if is_found else 9,
-                  **fill)
+        if x:
+            axes.plot(x, [place] * len(x), symbol, **fill,
+                      markersize=6 if is_found else 9)
 
 
 def key_of_factors(axes, run, runs, curves):

@@ -138,7 +138,8 @@ def sheet_size(box, n=1, beside=2.6):
     wide, high = box[1] - box[0]
     height = 6.4 if n == 1 else 5.2
     width = min(max(wide / high * (height - 0.7), 3.), 9.)
-    return n * (width + 0.5) + beside, min(height, width * high / wide + 1.)
+    return n * (width + 0.5) + beside, max(
+        min(height, width * high / wide + 1.), 3.4)
 
 
 def fill_cells(run, grid):
@@ -268,8 +269,7 @@ def draw_deformed(runs, name=None, exaggeration=0., box=()):
                       f"{most / size:.3g} {unit}", loc="left")
     bar = figure.colorbar(pyplot.cm.ScalarMappable(norm, shades), ax=axes,
                           shrink=0.8, pad=0.02)
-    bar.set_label(f"displacement [{unit}], drawn times {factor:g}; "
-                  "red: rim at first")
+    bar.set_label(f"displacement [{unit}], drawn times {factor:g}")
     return figure
 
 
