@@ -3,7 +3,7 @@
 """Figures of a run from its output folder: maps, histories, factors, ledger.
 
 usage: contrib/figures.py RUN --to FOLDER [--compare OTHER --label A B]
-         [--stage NAME] [--exaggeration auto|N] [--box X0,Y0,X1,Y1]
+         [--stage NAME] [--exaggeration auto|N] [--box=X0,Y0,X1,Y1]
 
 RUN and OTHER are output folders. Writes, as far as the run has what they show,
 
@@ -63,7 +63,8 @@ def read_arguments():
                         "(default auto: the largest is 3 %% of the picture)")
     parser.add_argument("--box", type=numbers, default=(),
                         metavar="X0,Y0,X1,Y1", help="part of a plane scene to "
-                        "show (default: about what is dug and could move)")
+                        "show, as in --box=-9,0,9,9 (default: about what is "
+                        "dug and could move)")
     arguments = parser.parse_args()
     box = arguments.box
     if box and (len(box) != 4 or box[0] >= box[2] or box[1] >= box[3]):
