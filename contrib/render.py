@@ -67,6 +67,7 @@ class View:
     explode: float = 0.
     mesh: str = "auto"
     eye: tuple = (-1., -1.6, 1.)  # direction in which the viewer is (3D)
+    block_colours: tuple = tuple(BLOCK_COLOURS)  # of block 1, 2, ...
 
 
 def numbers(text):
@@ -207,12 +208,12 @@ def move_points(grid, factor, view):
     return result
 
 
-def make_colours(values, is_magnitude, is_block):
+def make_colours(values, is_magnitude, view):
     """Colours from the least to the greatest value; of magnitudes from 0."""
     colours = vtkColorTransferFunction()
-    if is_block:
+    if view.field == "block":
         for number in range(1, int(values.max()) + 1):
-            colour = BLOCK_COLOURS[(number - 1) % len(BLOCK_COLOURS)]
+            colour = view.block_colours[(number - 1) % len(view.block_colours)]
             colours.AddRGBPoint(number - 0.4, *colour)
             colours.AddRGBPoint(number + 0.4, *colour)
         return colours
@@ -525,7 +526,7 @@ def draw(collection, picture, view):
     moved = move_points(grid, factor, view)
     first = moved if is_block else move_points(grid, 0., view)
     is_magnitude = values_of(grid, view.field).ndim > 1
-    colours = make_colours(values, is_magnitude, is_block)
+    colours = make_colours(values, is_magnitude, view)
     actors = [make_rock(moved, values, colours, view),
               *make_outlines(first, DARK if is_block else RED)]
     if not is_block and not is_flat:
