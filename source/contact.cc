@@ -79,14 +79,42 @@ namespace Keyblock
     measure_slots();
     set_up_corners();
     set_up_traction_weights();
+    unweld(number);
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::unweld(const unsigned int number)
+  {
+    std::vector<unsigned int> pairs;
     for (unsigned int p = 0; p < state.size(); ++p)
       if (state[p].is_welded && interface.pairs[p].unwelding_stage <= number)
-        {
-          const Joint<dim> &joint = *scene.joints[interface.pairs[p].joint];
-          state[p].is_welded      = false;
-          state[p].is_intact = scene.contact.tie_all || joint.cohesion > 0. ||
-                               joint.tensile_strength > 0.;
-        }
+        pairs.push_back(p);
+    if (pairs.empty())
+      return;
+    const std::vector<PairState<dim>> all = gather_pair_states();
+    const double kick                     = present_kick();
+    for (const unsigned int p : pairs)
+      {
+        const Joint<dim> &joint = *scene.joints[interface.pairs[p].joint];
+        state[p].is_welded      = false;
+        state[p].is_intact = scene.contact.tie_all || joint.cohesion > 0. ||
+                             joint.tensile_strength > 0.;
+        const PointStrength strength =
+          pair_strength(p, state[p].is_intact, kick);
+        const double pressure = dot<dim>(all[p].impulse, normal[p]);
+        const double shear =
+          norm<dim>(add<dim>(all[p].impulse, -pressure, normal[p]));
+        state[p].weld_tension =
+          std::max(0., -pressure - strength.tension) / kick;
+        state[p].weld_shear =
+          std::max(0.,
+                   shear - strength.cohesion -
+                     strength.static_friction * std::max(0., pressure)) /
+          kick;
+      }
   }
 
 
@@ -132,6 +160,8 @@ namespace Keyblock
                         p.area * kick;
     strength.tension =
       is_intact ? share * joint.tensile_strength * p.area * kick : 0.;
+    strength.cohesion += weld_share * state[pair].weld_shear * kick;
+    strength.tension += weld_share * state[pair].weld_tension * kick;
     if (scene.contact.tie_all || state[pair].is_welded)
       strength.cohesion = strength.tension = 1e100;
     return strength;
@@ -550,6 +580,7 @@ namespace Keyblock
   Contact<dim>::solve(const ContactStep &step)
   {
     const double previous_kick = last_kick;
+    weld_share                 = step.weld_share;
     n_iterations               = 0;
     if (!corner_pairs.empty())
       estimate_tractions();

@@ -34,6 +34,8 @@ namespace Keyblock
         result[p].is_converted = packed[n * p + dim + 2] > 0.5;
         result[p].is_welded    = state[p].is_welded;
         result[p].is_removed   = state[p].is_removed;
+        result[p].weld_shear   = state[p].weld_shear;
+        result[p].weld_tension = state[p].weld_tension;
       }
     return result;
   }

@@ -611,6 +611,20 @@ namespace Keyblock
                       maximum_periods,
                       "Length of each phase, at most [-].",
                       positive);
+    prm.add_parameter("Warm start",
+                      warm_start,
+                      "Start a trial from the highest factor at which the "
+                      "block came to rest; else from the end of the stage.");
+    prm.add_parameter("Reach",
+                      reach,
+                      "Trials move the rock within this many sizes of the "
+                      "block and hold the rest; 0: move all. Without effect "
+                      "where all joints or the rock are reduced [-].",
+                      not_negative);
+    prm.add_parameter("True masses",
+                      true_masses,
+                      "In the second phase; else those of the first, which "
+                      "give all cells one time step.");
     prm.add_parameter("Seismic coefficient",
                       seismic_coefficient,
                       "Acceleration per axis over 9.81 m/s2 that limit "

@@ -219,10 +219,39 @@ namespace Keyblock
 
   template <int dim>
   void
+  Conditions<dim>::freeze(const std::vector<bool> &is_frozen_cell)
+  {
+    is_frozen = is_frozen_cell;
+    dig(stage_number);
+    is_load_set = false;
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::hold_frozen_nodes()
+  {
+    if (is_frozen.empty())
+      return;
+    // of all ranks' cells: those at the rim belong to several
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      if (is_frozen[c] && !is_dug(c))
+        for (const unsigned int vertex : split.mesh.cells[c])
+          if (const unsigned int node = numbering.local_node(vertex);
+              node != none)
+            fields.inverse_mass[node] = 0.;
+  }
+
+
+
+  template <int dim>
+  void
   Conditions<dim>::recall(const StageState &state)
   {
-    const bool has_other_cells =
-      stage_number != state.stage_number || is_removed != state.is_removed;
+    const bool has_other_cells = stage_number != state.stage_number ||
+                                 is_removed != state.is_removed ||
+                                 is_frozen != state.is_frozen;
     StageState::operator=(state);
     if (has_other_cells)
       dig(stage_number);
@@ -261,7 +290,9 @@ namespace Keyblock
             const unsigned int mesh_cell  = numbering.mesh_cell[i];
             const unsigned int m          = material_of(mesh_cell);
             const Material<dim> &material = *scene.materials[m];
-            if (is_dug(mesh_cell) || unsigned(kind_of(material)) != kind)
+            if (is_dug(mesh_cell) ||
+                (!is_frozen.empty() && is_frozen[mesh_cell]) ||
+                unsigned(kind_of(material)) != kind)
               continue;
             new_place[i] = cells.nodes.size();
             cells.nodes.push_back(numbering.cell_nodes[i]);
@@ -396,6 +427,7 @@ namespace Keyblock
         fields.inverse_mass[node] =
           is_free && fields.mass[node] > 0. ? 1. / fields.mass[node] : 0.;
       }
+    hold_frozen_nodes();
     stable_step = true_step;
     if (is_scaled)
       stable_step.frequency = lowest_frequency;

@@ -78,8 +78,10 @@ namespace Keyblock
           continue;
         typename StrengthReductionSearch<dim>::Known known;
         for (const SafetyFactor &earlier : safety_factors)
-          if (earlier.block == b && earlier.value() > 0.)
-            known.hint = earlier.value();
+          if (earlier.block == b)
+            known.hint = earlier.outcome == SafetyFactor::Outcome::bracketed
+                           ? earlier.value()
+                           : 0.;
         SafetyFactor result;
         if (removed[b] == number)
           {
@@ -101,12 +103,18 @@ namespace Keyblock
           }
         else
           {
+            // only rest at the joints' own strength is a start at factor 1
             if (was_converged && stage.friction_angle_override < 0. &&
                 stage.unbalanced_ratio > 0.)
               known.stable = 1.;
+            else
+              known.start = scene.safety.lowest;
             SafetyFactor cheap;
             search.add_cheap_answers(b, cheap);
-            if (known.hint == 0. && std::isfinite(cheap.limit_factor))
+            if (known.hint == 0. && known.stable > 0. &&
+                std::isfinite(cheap.limit_factor) && cheap.stress_ratio > 1.)
+              known.hint = cheap.stress_ratio;
+            else if (known.hint == 0. && std::isfinite(cheap.limit_factor))
               known.hint = cheap.limit_factor;
             result = search.find(b, number, known);
           }

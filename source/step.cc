@@ -104,7 +104,7 @@ namespace Keyblock
     kick                               = 0.5 * dt;
     compute_internal_force();
     predict();
-    contact->solve({kick, dt, 0., scene.time_stepping.is_large(), false});
+    contact->solve({kick, dt, 0., scene.time_stepping.is_large(), false, 0.});
     fields.shifts.clear();
     fields.velocity = velocity;
     stage           = kept;
@@ -304,7 +304,8 @@ namespace Keyblock
                     dt,
                     stage.damps_contact_force ? stage.local_damping : 0.,
                     scene.time_stepping.is_large(),
-                    scene.time_stepping.ledger});
+                    scene.time_stepping.ledger,
+                    conditions.ramp_share_left()});
     contact_seconds += MPI_Wtime() - start;
   }
 

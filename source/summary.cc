@@ -93,6 +93,7 @@ namespace Keyblock
         {
           Tree tree;
           put(tree, "factor", trial.factor);
+          put(tree, "start", trial.start);
           put(tree, "stable", trial.is_stable);
           put(tree, "phase", trial.phase);
           put(tree, "slip", trial.slip);

@@ -21,6 +21,10 @@ namespace Keyblock
     bool is_converted    = false; ///< point-to-surface from now on
     bool is_welded       = false; ///< by rock that is dug later
     bool is_removed      = false; ///< with one of its blocks
+
+    // what a weld bore beyond the joint's strength when it was let go [N]
+    double weld_shear   = 0.;
+    double weld_tension = 0.;
   };
 
   /** Which strengths are divided by a trial's reduction factor. */
@@ -83,6 +87,7 @@ namespace Keyblock
     double local_damping = 0.;
     bool is_large        = false;
     bool keeps_ledger    = true;
+    double weld_share    = 0.; ///< of the stage's former welds that is left [-]
   };
 
   /**
@@ -198,6 +203,10 @@ namespace Keyblock
     void set_up_groups();
     void list_corner_slots();
     void set_up_corners();
+
+    /** Let go of the pairs that rock dug in stage @p number held together. What
+     * they bore beyond the joint's strength is taken away with the rock. */
+    void unweld(const unsigned int number);
     void set_up_corner(CornerGroup &corner);
     void set_up_traction_weights();
     void rebuild_active_slots();
@@ -252,6 +261,7 @@ namespace Keyblock
     std::vector<double> static_tangent, kinetic_tangent; ///< by joint
     double default_tangent;
     double override_tangent = -1.;
+    double weld_share       = 0.; ///< as in ContactStep
     StrengthReduction reduction;
     std::vector<bool> is_removed_block;
 

@@ -326,6 +326,9 @@ namespace Keyblock
     double damping_ratio       = 0.3;
     double window              = 1.;
     double maximum_periods     = 20.;
+    bool warm_start            = true;
+    bool true_masses           = false;
+    double reach               = 3.;
     std::vector<double> seismic_coefficient;
     double removal_slip = 0.05;
 

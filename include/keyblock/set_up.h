@@ -44,6 +44,7 @@ namespace Keyblock
   {
     unsigned int stage_number = 0;
     std::vector<bool> is_removed;                       ///< by block
+    std::vector<bool> is_frozen;                        ///< by mesh cell
     std::vector<double> carried_force, far_field_force; ///< [N]
     double ramp_duration = 0., ramp_progress = 1., ramp_pace = 1.;
     double share_carried   = 0.;
@@ -77,6 +78,10 @@ namespace Keyblock
 
     /** Take a block away, as if it were dug in the present stage. */
     void remove_block(const unsigned int block);
+
+    /** Leave out cells that stay as they are, and hold all their nodes; by mesh
+     * cell. Empty: none (see recall). */
+    void freeze(const std::vector<bool> &is_frozen_cell);
 
     bool
     is_removed_block(const unsigned int block) const
@@ -127,6 +132,13 @@ namespace Keyblock
       return ramp_progress < 1.;
     }
 
+    /** Share of what the stage ramps out that is left now [-]. */
+    double
+    ramp_share_left() const
+    {
+      return is_ramping() ? share_left_at(ramp_progress) : 0.;
+    }
+
     bool has_far_field() const;
 
     /** Replace the far-field supports by springs, and what they carry now by a
@@ -161,6 +173,7 @@ namespace Keyblock
     double next_progress(const double step) const;
     void read_formulas();
     void list_cells();
+    void hold_frozen_nodes();
     void set_up_frequencies();
     std::vector<double> sum_masses(const bool is_scaled) const;
     void add_far_field_face(

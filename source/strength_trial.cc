@@ -1,0 +1,453 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// One trial of strength reduction, and how it is decided.
+#include <keyblock/mpi.h>
+#include <keyblock/strength_trial.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace Keyblock
+{
+  namespace
+  {
+    // what counts as rest (method: see doc/theory.md, section 12)
+    constexpr double rest_unbalanced = 1e-5; ///< over the weight [-]
+    constexpr double rest_slip       = 1e-6; ///< per period, over the size [-]
+
+    /** Share of the bracket that a resultant over the weight may have that is
+     * not told from rest [-]. */
+    constexpr double resolution = 0.02;
+
+    /** Slip over the size at which a growing motion is a failure [-]. */
+    constexpr double failure_slip = 1e-3;
+
+    /** Length of the change of strength, in periods of the block's lowest mode:
+     * shorter ones start slip waves that shake the block loose [-]. */
+    constexpr unsigned int ramp_periods = 4;
+
+    /** A resultant that has not fallen by a fifth in so many windows has
+     * stopped falling: the rock around relaxes in several periods of the block.
+     */
+    constexpr unsigned int patience = 8;
+
+    /** Windows over which a resultant that moves the block must stay. */
+    constexpr unsigned int n_steady = 6;
+
+    /** Times that a block which neither rests nor speeds up is looked at. */
+    constexpr unsigned int n_rounds = 3;
+
+    /** Whether two numbers above zero are one within @p tolerance [-]. */
+    bool
+    agree(const double x, const double y, const double tolerance)
+    {
+      return std::abs(x - y) < tolerance * std::max(x, y);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  StrengthTrials<dim>::StrengthTrials(const Scene<dim> &scene,
+                                      const SplitMesh<dim> &split,
+                                      const Blocks<dim> &blocks,
+                                      const Numbering<dim> &numbering,
+                                      const RunParts<dim> &run)
+    : scene(scene)
+    , split(split)
+    , blocks(blocks)
+    , run(run)
+    , nodes_of_block(blocks.blocks.size())
+  {
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      if (split.block_of_cell[c] != none)
+        for (const unsigned int v : split.mesh.cells[c])
+          if (numbering.is_owned(v))
+            nodes_of_block[split.block_of_cell[c]].push_back(
+              numbering.local_node(v));
+    for (auto &nodes : nodes_of_block)
+      {
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthTrials<dim>::reduce(const unsigned int block, const double factor)
+  {
+    StrengthReduction reduction;
+    reduction.block = scene.safety.reduced_joints == "all" ? none : block;
+    if (!scene.safety.joints.empty())
+      for (const auto &joint : scene.joints)
+        reduction.joints.push_back(std::find(scene.safety.joints.begin(),
+                                             scene.safety.joints.end(),
+                                             joint->name) !=
+                                   scene.safety.joints.end());
+    reduction.share = 1. / factor;
+    run.contact->reduce_strength(reduction);
+    if (scene.safety.reduces_rock)
+      run.conditions.reduce_strength(1. / factor);
+  }
+
+
+
+  template <int dim>
+  typename StrengthTrials<dim>::Motion
+  StrengthTrials<dim>::measure(const unsigned int block) const
+  {
+    // resultant of everything but damping, loads, and size of contact forces
+    std::vector<double> sums(2 * dim + 1, 0.);
+    const Fields<dim> &fields = run.fields;
+    for (const unsigned int node : nodes_of_block[block])
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const unsigned int i = dim * node + d;
+          sums[d] +=
+            fields.load[i] - fields.internal_force[i] + fields.contact_force[i];
+          sums[dim + d] += fields.load[i];
+          sums[2 * dim] += std::abs(fields.contact_force[i]);
+        }
+    dealii::Utilities::MPI::sum(sums, world(), sums);
+    double resultant = 0., weight = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        resultant += sums[d] * sums[d];
+        weight += sums[dim + d] * sums[dim + d];
+      }
+    Motion motion;
+    motion.slip        = run.contact->mean_slip(block);
+    const double scale = std::max(std::sqrt(weight), 1e-3 * sums[2 * dim]);
+    motion.resultant   = std::sqrt(resultant);
+    motion.unbalanced  = scale > 0. ? motion.resultant / scale : 0.;
+    return motion;
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::n_across(const unsigned int block) const
+  {
+    const Block<dim> &b = blocks.blocks[block];
+    return std::max(4., b.size / std::pow(b.volume / b.n_cells, 1. / dim));
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  StrengthTrials<dim>::period_of(const unsigned int block) const
+  {
+    return std::ceil(4. * n_across(block) / scene.time_stepping.safety);
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::wave_speed(const unsigned int block) const
+  {
+    double speed = 0.;
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      if (split.block_of_cell[c] == block)
+        {
+          const Material<dim> &m = *scene.materials[split.mesh.material[c]];
+          speed =
+            std::max(speed,
+                     std::sqrt((m.lame_lambda() + 2. * m.shear_modulus()) /
+                               m.density));
+        }
+    return speed;
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::kinetic_energy(const unsigned int block) const
+  {
+    double energy = 0.;
+    for (const unsigned int node : nodes_of_block[block])
+      for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+        energy += 0.5 * run.fields.mass[node] * run.fields.velocity[i] *
+                  run.fields.velocity[i];
+    return dealii::Utilities::MPI::sum(energy, world());
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::mass_in_use(const unsigned int block) const
+  {
+    double mass = 0.;
+    for (const unsigned int node : nodes_of_block[block])
+      mass += run.fields.mass[node];
+    return dealii::Utilities::MPI::sum(mass, world());
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthTrials<dim>::step_damped_until(const unsigned int last,
+                                         const unsigned int block,
+                                         Trial &trial)
+  {
+    // kinetic damping: at a peak of its energy the block is near a balance,
+    // and all motion is stopped; a block that speeds up has no peaks
+    double before = 0.;
+    for (; trial.n_steps < last; ++trial.n_steps)
+      {
+        run.step.advance(false);
+        const double now = kinetic_energy(block);
+        if (now < before)
+          run.step.stop_motion();
+        before = now < before ? 0. : now;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthTrials<dim>::change_strength(const unsigned int block, Trial &trial)
+  {
+    // along half a cosine
+    const unsigned int ramp = ramp_periods * period_of(block);
+    for (; trial.n_steps < ramp; ++trial.n_steps)
+      {
+        const double s =
+          0.5 *
+          (1. - std::cos(dealii::numbers::PI * (trial.n_steps + 1.) / ramp));
+        reduce(block, 1. / ((1. - s) / trial.start + s / trial.factor));
+        run.step.advance(false);
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  StrengthTrials<dim>::settle(const unsigned int block,
+                              const Vector<dim> &first,
+                              Trial &trial)
+  {
+    const double size         = blocks.blocks[block].size;
+    const unsigned int period = period_of(block);
+    const unsigned int window =
+      std::max(1., std::round(scene.safety.window * period));
+    Vector<dim> before   = run.contact->mean_slip(block);
+    double least         = std::numeric_limits<double>::max();
+    unsigned int n_stuck = 0;
+    for (unsigned int step = 0; step < scene.safety.maximum_periods * period;
+         step += window)
+      {
+        step_damped_until(trial.n_steps + window, block, trial);
+        const Motion now = measure(block);
+        const double moved =
+          norm<dim>(add<dim>(now.slip, -1., before)) * period / window;
+        trial.unbalanced = now.unbalanced;
+        trial.slip       = norm<dim>(add<dim>(now.slip, -1., first));
+        trial.velocity   = moved / (period * run.step.dt);
+        if (now.unbalanced < rest_unbalanced && moved < rest_slip * size)
+          return true;
+        n_stuck = now.unbalanced < 0.8 * least ? 0 : n_stuck + 1;
+        if (n_stuck == 0)
+          least = now.unbalanced;
+        if (n_stuck >= patience)
+          break;
+        before = now.slip;
+      }
+    return is_as_good_as_at_rest(trial);
+  }
+
+
+
+  template <int dim>
+  bool
+  StrengthTrials<dim>::is_as_good_as_at_rest(const Trial &trial) const
+  {
+    return trial.unbalanced < resolution * scene.safety.bracket;
+  }
+
+
+
+  template <int dim>
+  typename StrengthTrials<dim>::Verdict
+  StrengthTrials<dim>::watch(const unsigned int block,
+                             const Vector<dim> &first,
+                             Trial &trial)
+  {
+    const double size = blocks.blocks[block].size;
+    const unsigned int window =
+      std::max(1.,
+               std::ceil(scene.safety.window *
+                         (scene.safety.true_masses
+                            ? 4. * size / (wave_speed(block) * run.step.dt)
+                            : period_of(block))));
+    const double seconds = window * run.step.dt;
+    const unsigned int n_windows =
+      std::max(n_steady + 1.,
+               scene.safety.maximum_periods / scene.safety.window);
+    const Vector<dim> at_rest = run.contact->mean_slip(block);
+    const double mass         = mass_in_use(block);
+    displacement_before       = run.fields.displacement;
+    joint_force.assign(scene.joints.size() + 1, 0.);
+    Vector<dim> before = at_rest;
+    std::vector<double> velocity(1, 0.), resultant;
+    for (unsigned int w = 1; w <= n_windows; ++w)
+      {
+        for (unsigned int step = 0; step < window; ++step)
+          run.step.advance(false);
+        trial.n_steps += window;
+        const Motion now = measure(block);
+        const auto sums  = run.contact->sum_over_block(block);
+        for (unsigned int j = 0; j < sums.size(); ++j)
+          joint_force[j] += sums[j].normal;
+        const Vector<dim> way   = add<dim>(now.slip, -1., at_rest);
+        const Vector<dim> moved = add<dim>(now.slip, -1., before);
+        const double slip       = norm<dim>(way);
+        trial.slip              = norm<dim>(add<dim>(now.slip, -1., first));
+        trial.unbalanced        = now.unbalanced;
+        // of the slip along the way so far
+        velocity.push_back(slip > 0. ? dot<dim>(moved, way) / (slip * seconds)
+                                     : 0.);
+        resultant.push_back(now.resultant);
+        trial.velocity     = velocity[w];
+        trial.acceleration = (velocity[w] - velocity[w - 1]) / seconds;
+        before             = now.slip;
+        if (now.unbalanced < rest_unbalanced &&
+            norm<dim>(moved) < rest_slip * size)
+          return Verdict::holds;
+        const bool grows = w >= 3 && velocity[w] > velocity[w - 1] &&
+                           velocity[w - 1] > velocity[w - 2] &&
+                           velocity[w - 2] > 0.;
+        if (grows && slip > failure_slip * size)
+          return Verdict::fails;
+        // a resultant that stays and moves the block as it would a free body
+        bool is_free = grows && w >= n_steady &&
+                       !is_as_good_as_at_rest(trial) &&
+                       agree(now.resultant, mass * trial.acceleration, 0.2);
+        for (unsigned int k = 2; is_free && k <= n_steady; ++k)
+          is_free = agree(now.resultant, resultant[w - k], 0.1);
+        if (is_free)
+          return Verdict::fails;
+      }
+    return Verdict::open;
+  }
+
+
+
+  template <int dim>
+  Trial
+  StrengthTrials<dim>::try_factor(const unsigned int block,
+                                  const unsigned int number,
+                                  const double start,
+                                  const double factor,
+                                  const Vector<dim> &first)
+  {
+    const double begin = MPI_Wtime();
+    Trial trial;
+    trial.factor = factor;
+    trial.start  = start;
+    reduce(block, start);
+    run.conditions.scale_density(false);
+    const double true_mass = mass_in_use(block);
+    Stage quiet;
+    quiet.kind          = "quasi-static";
+    quiet.local_damping = scene.safety.local_damping;
+    quiet.damping_ratio = scene.safety.damping_ratio;
+    // critical for the block's lowest mode: 2 omega
+    run.conditions.scale_density(true);
+    quiet.mass_damping = scene.safety.mass_damping * dealii::numbers::PI /
+                         (2. * n_across(block)) *
+                         run.conditions.stable_step.frequency;
+    Stage moving;
+    moving.damping_ratio = scene.safety.damping_ratio;
+    moving.reset_motion  = true;
+    if (!scene.safety.true_masses)
+      moving.kind = "quasi-static";
+
+    run.step.begin_stage(quiet, number);
+    change_strength(block, trial);
+    Verdict verdict = Verdict::open;
+    for (unsigned int round = 0; verdict == Verdict::open && round < n_rounds;
+         ++round)
+      {
+        const double round_begin = MPI_Wtime();
+        trial.phase              = 1;
+        if (round > 0)
+          run.step.begin_stage(quiet, number);
+        if (settle(block, first, trial))
+          verdict = Verdict::holds;
+        trial.phase_1_seconds += MPI_Wtime() - round_begin;
+        if (verdict == Verdict::holds)
+          break;
+        trial.phase = 2;
+        run.step.begin_stage(moving, number);
+        verdict = watch(block, first, trial);
+      }
+    trial.is_stable =
+      verdict == Verdict::holds ||
+      (verdict == Verdict::open &&
+       (trial.acceleration <= 0. || is_as_good_as_at_rest(trial)));
+    if (!trial.is_stable)
+      last_failure = name_failure(block);
+    // of the true masses
+    const double ratio = mass_in_use(block) / true_mass;
+    trial.velocity *= std::sqrt(ratio);
+    trial.acceleration *= ratio;
+    trial.seconds = MPI_Wtime() - begin;
+    return trial;
+  }
+
+
+
+  template <int dim>
+  std::string
+  StrengthTrials<dim>::name_failure(const unsigned int block) const
+  {
+    // a motion that varies over the block more than its mean is a rotation
+    std::vector<double> sums(dim + 2, 0.);
+    for (const unsigned int node : nodes_of_block[block])
+      {
+        const double m = run.fields.mass[node];
+        sums[0] += m;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double way = run.fields.displacement[dim * node + d] -
+                               displacement_before[dim * node + d];
+            sums[1] += m * way * way;
+            sums[2 + d] += m * way;
+          }
+      }
+    dealii::Utilities::MPI::sum(sums, world(), sums);
+    double mean = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      mean += sums[2 + d] * sums[2 + d];
+    mean /= sums[0];
+    const bool rotates = mean < 0.75 * sums[1];
+
+    const double total =
+      std::accumulate(joint_force.begin(), joint_force.end(), 0.);
+    std::string names;
+    for (unsigned int j = 0; j < joint_force.size(); ++j)
+      if (joint_force[j] > 0.01 * total && joint_force[j] > 0.)
+        names += (names.empty() ? "" : " and ") +
+                 (j < scene.joints.size() ? scene.joints[j]->name
+                                          : std::string("a free face"));
+    if (names.empty())
+      return "falling";
+    return (rotates ? "rotating on " : "sliding on ") + names;
+  }
+
+
+
+  template class StrengthTrials<2>;
+  template class StrengthTrials<3>;
+} // namespace Keyblock
