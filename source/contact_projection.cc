@@ -156,6 +156,36 @@ namespace Keyblock
 
 
   template <int dim>
+  bool
+  ContactSearch<dim>::is_coplanar(const Projection &a, const Projection &b)
+  {
+    const double cosine_of_kink = 0.996; // 5 degrees
+    return dot<dim>(a.normal, b.normal) > cosine_of_kink;
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactSearch<dim>::is_convex(const std::vector<double> &position,
+                                const Projection &a,
+                                const Projection &b) const
+  {
+    if (interface.surface[a.face].block != interface.surface[b.face].block)
+      return false;
+    Vector<dim> from_a_to_b{};
+    for (unsigned int v = 0; v < Mesh<dim>::n_face_vertices; ++v)
+      from_a_to_b =
+        add<dim>(from_a_to_b,
+                 1. / Mesh<dim>::n_face_vertices,
+                 difference<dim>(at<dim>(position, face_slots[b.face][v]),
+                                 at<dim>(position, face_slots[a.face][v])));
+    return dot<dim>(from_a_to_b, a.normal) < -1e-6 * a.size;
+  }
+
+
+
+  template <int dim>
   void
   ContactSearch<dim>::add_contacts(
     const std::vector<double> &position,
@@ -163,20 +193,32 @@ namespace Keyblock
     const Candidate &candidate,
     std::vector<SurfaceContact<dim>> &contacts) const
   {
-    const double cosine_of_kink = 0.996; // 5 degrees
-    std::vector<Projection> inside, outside;
+    std::vector<Projection> paired, inside, outside;
+    for (const unsigned int f : candidate.paired_faces)
+      {
+        const Projection projection = project(position, candidate.slave, f);
+        if (norm<dim>(projection.offset) < reach + 1e-5 * projection.size)
+          paired.push_back(projection);
+      }
+    const auto is_covered_by_pair = [&](const Projection &projection) {
+      return std::any_of(paired.begin(),
+                         paired.end(),
+                         [&](const Projection &other) {
+                           return is_coplanar(other, projection) ||
+                                  is_convex(position, other, projection);
+                         });
+    };
     for (const unsigned int f : candidate.faces)
       {
         const Projection projection = project(position, candidate.slave, f);
-        if (projection.gap > reach || projection.gap < -0.5 * projection.size)
+        if (projection.gap > reach || projection.gap < -0.5 * projection.size ||
+            is_covered_by_pair(projection))
           continue;
         (projection.is_inside ? inside : outside).push_back(projection);
       }
     const auto add_contact = [&](const Projection &projection,
                                  const Vector<dim> &normal,
                                  const double gap) {
-      if (!opposes(position, candidate.slave, normal))
-        return;
       SurfaceContact<dim> contact;
       contact.slave           = candidate.slave;
       contact.face            = projection.face;
@@ -195,32 +237,32 @@ namespace Keyblock
       contacts.push_back(contact);
     };
 
-    // over faces: the nearest of those with nearly one normal, and of the two
-    // faces of a convex ridge that the slave is below; else one per face
+    // over faces: the nearest of those with nearly one normal, and of those of
+    // a convex edge the one that the slave is least deep below; else one per
+    // face
     std::sort(inside.begin(), inside.end(), [](const auto &a, const auto &b) {
       return std::abs(a.gap) < std::abs(b.gap) ||
              (std::abs(a.gap) == std::abs(b.gap) && a.face < b.face);
     });
-    std::vector<Projection> kept;
+    std::vector<bool> is_opposed;
     for (const Projection &projection : inside)
+      is_opposed.push_back(
+        opposes(position, candidate.slave, projection.normal));
+    std::vector<Projection> kept;
+    for (unsigned int i = 0; i < inside.size(); ++i)
       {
-        bool is_covered =
-          !opposes(position, candidate.slave, projection.normal);
+        bool is_covered = !is_opposed[i];
         for (const Projection &other : kept)
-          is_covered =
-            is_covered ||
-            dot<dim>(projection.normal, other.normal) > cosine_of_kink ||
-            (projection.gap < 0. && other.gap < 0. &&
-             interface.surface[projection.face].block ==
-               interface.surface[other.face].block &&
-             dot<dim>(difference<dim>(
-                        at<dim>(position, face_slots[projection.face][0]),
-                        at<dim>(position, face_slots[other.face][0])),
-                      other.normal) < 0.);
+          is_covered = is_covered || is_coplanar(other, inside[i]);
+        for (unsigned int j = 0; j < inside.size() && !is_covered; ++j)
+          is_covered = (is_opposed[j] || inside[j].gap > 0.) &&
+                       (inside[j].gap > inside[i].gap ||
+                        (inside[j].gap == inside[i].gap && j < i)) &&
+                       is_convex(position, inside[j], inside[i]);
         if (!is_covered)
           {
-            kept.push_back(projection);
-            add_contact(projection, projection.normal, projection.gap);
+            kept.push_back(inside[i]);
+            add_contact(inside[i], inside[i].normal, inside[i].gap);
           }
       }
     if (!kept.empty() || outside.empty())
@@ -241,12 +283,13 @@ namespace Keyblock
       if (norm<dim>(difference<dim>(projection.offset, nearest->offset)) <
           1e-9 * nearest->size)
         mean = add<dim>(mean, 1., projection.normal);
-    mean             = unit<dim>(mean);
-    const double gap = dot<dim>(nearest->offset, mean);
-    if (distance > 1e-6 * nearest->size && gap > 0.)
-      add_contact(*nearest, unit<dim>(nearest->offset), distance);
-    else if (distance < 0.1 * nearest->size)
-      add_contact(*nearest, mean, gap);
+    mean                     = unit<dim>(mean);
+    const double gap         = dot<dim>(nearest->offset, mean);
+    const bool is_off        = distance > 1e-6 * nearest->size && gap > 0.;
+    const Vector<dim> normal = is_off ? unit<dim>(nearest->offset) : mean;
+    if ((is_off || distance < 0.1 * nearest->size) &&
+        opposes(position, candidate.slave, normal))
+      add_contact(*nearest, normal, is_off ? distance : gap);
   }
 
 

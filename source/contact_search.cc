@@ -142,7 +142,7 @@ namespace Keyblock
         dealii::Point<dim> p;
         for (unsigned int d = 0; d < dim; ++d)
           p[d] = position[dim * slot + d];
-        Candidate candidate{slot, {}};
+        Candidate candidate{slot, {}, {}};
         const unsigned int block = block_of_slot[slot];
         for (const auto &hit :
              tree | bgi::adaptors::queried(bgi::intersects(p)))
@@ -155,10 +155,10 @@ namespace Keyblock
               continue;
             if (block == other && interface.surface[f].joint == none)
               continue;
-            if (!(is_slave_block(block, other) || is_sharp[slot]) ||
-                is_paired(slot, f))
-              continue;
-            candidate.faces.push_back(f);
+            if (is_paired(slot, f))
+              candidate.paired_faces.push_back(f);
+            else if (is_slave_block(block, other) || is_sharp[slot])
+              candidate.faces.push_back(f);
           }
         std::sort(candidate.faces.begin(), candidate.faces.end());
         if (!candidate.faces.empty())

@@ -96,6 +96,8 @@ namespace Keyblock
     {
       unsigned int slave;
       std::vector<unsigned int> faces;
+      std::vector<unsigned int>
+        paired_faces; ///< a pair contact stands for them
     };
 
     /** A convex edge of the surface (3D). */
@@ -141,6 +143,15 @@ namespace Keyblock
     Projection project(const std::vector<double> &position,
                        const unsigned int slave,
                        const unsigned int face) const;
+
+    /** Whether two faces are in one plane, within 5 degrees. */
+    static bool is_coplanar(const Projection &a, const Projection &b);
+
+    /** Whether face @p b of the block of @p a lies behind the plane of @p a, so
+     * that a node kept off @p a need not be kept off @p b. */
+    bool is_convex(const std::vector<double> &position,
+                   const Projection &a,
+                   const Projection &b) const;
 
     void add_contacts(const std::vector<double> &position,
                       const double reach,
