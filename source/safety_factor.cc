@@ -3,6 +3,7 @@
 #include <keyblock/expression.h>
 #include <keyblock/mpi.h>
 #include <keyblock/safety_factor.h>
+#include <keyblock/stop_request.h>
 
 #include <algorithm>
 #include <cmath>
@@ -143,6 +144,7 @@ namespace Keyblock
   StrengthReductionSearch<dim>::step_until(const unsigned int last,
                                            Trial &trial)
   {
+    stop_if_asked();
     for (; trial.n_steps < last; ++trial.n_steps)
       run.step.advance(false);
   }
@@ -182,6 +184,7 @@ namespace Keyblock
     // kinetic damping: at a peak of its energy the block is near a balance,
     // and all motion is stopped; a block that speeds up has no peaks
     double before = 0.;
+    stop_if_asked();
     for (; trial.n_steps < last; ++trial.n_steps)
       {
         run.step.advance(false);
