@@ -18,6 +18,9 @@ namespace Keyblock
       "set",
       options::value<std::vector<std::string>>(),
       "\"Section/Entry=value\": overrides an entry; may be repeated")(
+      "restart",
+      options::value<std::string>(),
+      "checkpoint file to continue from, with the same scene")(
       "output", options::value<std::string>(), "output folder")(
       "print-parameters",
       "all entries of a scene, as Markdown")("help", "this text")("version",
@@ -56,6 +59,8 @@ namespace Keyblock
       overrides = values["set"].as<std::vector<std::string>>();
     if (values.count("output"))
       output = values["output"].as<std::string>();
+    if (values.count("restart"))
+      restart = values["restart"].as<std::string>();
     is_validation     = values.count("validate") > 0;
     const auto scenes = values.count("scene")
                           ? values["scene"].as<std::vector<std::string>>()

@@ -236,6 +236,7 @@ namespace Keyblock
                   &slot_projection};
 
     group_of_pair.resize(interface.pairs.size());
+    group_of_slot.assign(search.n_slots(), none);
     is_mobile_group.assign(interface.n_groups(), false);
     is_mobile_slot.assign(search.n_slots(), false);
     for (unsigned int g = 0; g < interface.n_groups(); ++g)
@@ -247,9 +248,12 @@ namespace Keyblock
         for (unsigned int i = interface.group_begin[g];
              i < interface.group_begin[g + 1];
              ++i)
-          corner.has_supports =
-            corner.has_supports ||
-            slot_projection[search.slot_of_vertex[interface.group_vertices[i]]];
+          {
+            const unsigned int slot =
+              search.slot_of_vertex[interface.group_vertices[i]];
+            group_of_slot[slot] = g;
+            corner.has_supports = corner.has_supports || slot_projection[slot];
+          }
         for (unsigned int p = begin; p < end; ++p)
           group_of_pair[p] = g;
         if (end - begin == 1 && !corner.has_supports)
@@ -475,6 +479,10 @@ namespace Keyblock
     memory.contacts         = contacts;
     memory.n_steps          = n_steps;
     memory.last_kick        = last_kick;
+
+    memory.searched_position = searched_position;
+    memory.is_search_due     = is_search_due;
+    memory.next_look         = next_look;
     return memory;
   }
 
@@ -499,6 +507,20 @@ namespace Keyblock
     next_look        = n_steps;
     list_corner_slots();
     rebuild_active_slots();
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::resume(const ContactMemory<dim> &memory)
+  {
+    recall(memory);
+    searched_position = memory.searched_position;
+    is_search_due     = memory.is_search_due;
+    next_look         = memory.next_look;
+    if (!searched_position.empty())
+      list_candidates();
   }
 
 

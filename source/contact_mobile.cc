@@ -118,22 +118,36 @@ namespace Keyblock
       converted[p] = state[p].is_converted;
     std::vector<PairState<dim>> all = gather_pair_states();
     dealii::Utilities::MPI::max(converted, world(), converted);
-    std::vector<bool> has_converted(interface.n_groups(), false);
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         if (!is_mobile_group[group_of_pair[p]])
           state[p] = all[p];
         state[p].is_converted = converted[p];
-        if (converted[p])
-          has_converted[group_of_pair[p]] = true;
       }
+    list_candidates();
+    mark_mobile_slots();
+  }
 
-    std::vector<unsigned int> group_of_slot(search.n_slots(), none);
-    for (unsigned int g = 0; g < interface.n_groups(); ++g)
-      for (unsigned int i = interface.group_begin[g];
-           i < interface.group_begin[g + 1];
-           ++i)
-        group_of_slot[search.slot_of_vertex[interface.group_vertices[i]]] = g;
+
+
+  template <int dim>
+  std::vector<bool>
+  Contact<dim>::list_converted_groups() const
+  {
+    std::vector<bool> has_converted(interface.n_groups(), false);
+    for (unsigned int p = 0; p < state.size(); ++p)
+      if (state[p].is_converted)
+        has_converted[group_of_pair[p]] = true;
+    return has_converted;
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::list_candidates()
+  {
+    const std::vector<bool> has_converted = list_converted_groups();
     search.search(
       searched_position, [&](const unsigned int slot, const unsigned int face) {
         const unsigned int g = group_of_slot[slot];
@@ -161,9 +175,16 @@ namespace Keyblock
           }
         return false;
       });
+  }
 
+
+
+  template <int dim>
+  void
+  Contact<dim>::mark_mobile_slots()
+  {
     std::fill(is_mobile_slot.begin(), is_mobile_slot.end(), false);
-    is_mobile_group = has_converted;
+    is_mobile_group = list_converted_groups();
     for (const unsigned int slot : search.candidate_slots())
       {
         is_mobile_slot[slot] = true;
@@ -490,6 +511,8 @@ namespace Keyblock
   template void Contact<3>::refresh_normals();
   template void Contact<2>::update_mobility(const ContactStep &);
   template void Contact<3>::update_mobility(const ContactStep &);
+  template void Contact<2>::list_candidates();
+  template void Contact<3>::list_candidates();
   template void Contact<2>::solve_mobile(const ContactStep &);
   template void Contact<3>::solve_mobile(const ContactStep &);
   template void Contact<2>::convert_slid_pairs();

@@ -13,7 +13,8 @@ namespace
   {
     Keyblock::Simulation<dim> simulation(arguments.scene,
                                          arguments.overrides,
-                                         arguments.output);
+                                         arguments.output,
+                                         arguments.restart);
     if (arguments.is_validation)
       simulation.validate();
     else
@@ -52,6 +53,10 @@ main(int argc, char *argv[])
       if (Keyblock::is_root())
         std::cerr << "Failed: " << error.message << std::endl;
       exit_code = 2;
+    }
+  catch (const Keyblock::StopRequest &request)
+    {
+      exit_code = 128 + request.signal;
     }
   catch (const std::exception &error)
     {

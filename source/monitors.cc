@@ -62,14 +62,14 @@ namespace Keyblock
                           const CellArrays<dim> &cells,
                           const Fields<dim> &fields,
                           const Contact<dim> *contact)
-    : scene(scene)
+    : baseline(fields.displacement)
+    , scene(scene)
     , split(split)
     , blocks(blocks)
     , numbering(numbering)
     , cells(cells)
     , fields(fields)
     , contact(contact)
-    , baseline(fields.displacement)
   {
     cell_volume.assign(split.mesh.n_cells(), 0.);
     for (const unsigned int c : numbering.mesh_cell)
@@ -404,7 +404,7 @@ namespace Keyblock
   Monitors<dim>::write_csv(const std::string &file_name) const
   {
     if (!is_root())
-      return;
+      return assert_written(true, file_name);
     std::ofstream out(file_name);
     for (unsigned int c = 0; c < history.columns.size(); ++c)
       out << (c ? "," : "") << history.columns[c];
@@ -415,9 +415,7 @@ namespace Keyblock
           out << (c ? "," : "") << row[c];
         out << '\n';
       }
-    AssertThrow(out,
-                ComputationError("The file '" + file_name +
-                                 "' cannot be written; check free space."));
+    assert_written(bool(out.flush()), file_name);
   }
 
   template class Monitors<2>;

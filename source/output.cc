@@ -26,6 +26,23 @@ namespace Keyblock
       return flags;
     }
 
+    /** Write a VTU file; returns whether that worked. */
+    template <typename Data>
+    bool
+    write_file(const Data &data, const std::string &name)
+    {
+      std::ofstream out(name);
+      try
+        {
+          data.write_vtu(out);
+        }
+      catch (const dealii::ExcIO &)
+        {
+          return false;
+        }
+      return bool(out.flush());
+    }
+
     /** The faces of the interface as patches, values at their corners. */
     template <int dim>
     class FacePatches : public dealii::DataOutInterface<dim - 1, dim>
@@ -99,18 +116,13 @@ namespace Keyblock
       if (n_ranks() == 1)
         {
           name += ".vtu";
-          std::ofstream out(folder + name);
-          data.write_vtu(out);
-          AssertThrow(out,
-                      ComputationError("The file '" + folder + name +
-                                       "' cannot be written; check free "
-                                       "space."));
+          assert_written(write_file(data, folder + name), folder + name);
         }
       else
         {
-          std::ofstream out(folder + name + "." + std::to_string(this_rank()) +
-                            ".vtu");
-          data.write_vtu(out);
+          bool is_written = write_file(data,
+                                       folder + name + "." +
+                                         std::to_string(this_rank()) + ".vtu");
           if (is_root())
             {
               std::vector<std::string> pieces;
@@ -118,8 +130,10 @@ namespace Keyblock
                 pieces.push_back(name + "." + std::to_string(r) + ".vtu");
               std::ofstream record(folder + name + ".pvtu");
               data.write_pvtu_record(record, pieces);
+              is_written = record.flush() && is_written;
             }
           name += ".pvtu";
+          assert_written(is_written, folder + name);
         }
       records.emplace_back(time, name);
     };
@@ -280,6 +294,7 @@ namespace Keyblock
           }
       }
     write(faces, "interface");
+    bool is_written = true;
     if (is_root())
       {
         std::ofstream pvd(folder + "solution.pvd");
@@ -290,7 +305,9 @@ namespace Keyblock
               << i % 2 << "\" name=\"" << (i % 2 ? "interface" : "rock")
               << "\" file=\"" << records[i].second << "\"/>\n";
         pvd << "  </Collection>\n</VTKFile>\n";
+        is_written = bool(pvd.flush());
       }
+    assert_written(is_written, folder + "solution.pvd");
   }
 
   template class Output<2>;

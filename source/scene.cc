@@ -442,10 +442,22 @@ namespace Keyblock
     std::ofstream out(file_name);
     const_cast<ParameterHandler &>(prm).print_parameters(
       out, ParameterHandler::Text | ParameterHandler::KeepDeclarationOrder);
-    AssertThrow(out,
-                ComputationError("The file '" + file_name +
-                                 "' cannot be written; check free space and "
-                                 "permissions."));
+    AssertThrow(out.flush(),
+                InputError("The file '" + file_name +
+                           "' cannot be written; check free space and "
+                           "permissions."));
+  }
+
+
+
+  template <int dim>
+  std::string
+  Scene<dim>::used_entries() const
+  {
+    std::ostringstream out;
+    const_cast<ParameterHandler &>(prm).print_parameters(
+      out, ParameterHandler::ShortPRM | ParameterHandler::KeepDeclarationOrder);
+    return out.str();
   }
 
 

@@ -715,6 +715,11 @@ namespace Keyblock
                       "Number of VTU outputs per stage, besides the first.",
                       Integer(0));
     prm.add_parameter("Write VTU", write_vtu, "Whether to write VTU at all.");
+    prm.add_parameter("Checkpoint interval",
+                      checkpoint_interval,
+                      "Wall time between checkpoints, from which --restart "
+                      "continues [s]; 0: only when a signal stops the run.",
+                      Double(0.));
   }
 
   template struct Domain<2>;

@@ -262,6 +262,16 @@ namespace Keyblock
 
   template <int dim>
   void
+  Conditions<dim>::resume(const StageState &state)
+  {
+    StageState::operator=(state);
+    dig(stage_number);
+  }
+
+
+
+  template <int dim>
+  void
   Conditions<dim>::reduce_strength(const double share)
   {
     cells.strengths.clear();

@@ -16,14 +16,20 @@ namespace Keyblock
   template <int dim>
   Simulation<dim>::Simulation(const std::string &scene_file,
                               const std::vector<std::string> &overrides,
-                              const std::string &output_folder)
-    : wall_start(MPI_Wtime())
+                              const std::string &output_folder,
+                              const std::string &checkpoint)
+    : checkpoint(checkpoint)
+    , wall_start(MPI_Wtime())
+    , last_saved(wall_start)
   {
     scene.read(scene_file, overrides);
-    folder = !output_folder.empty() ? output_folder
-             : !scene.output.folder.empty()
-               ? scene.output.folder
-               : "output-" + std::filesystem::path(scene_file).stem().string();
+    folder  = !output_folder.empty() ? output_folder
+              : !scene.output.folder.empty()
+                ? scene.output.folder
+                : "output-" + std::filesystem::path(scene_file).stem().string();
+    command = "keyblock " + scene_file + " --output " + folder;
+    for (const std::string &assignment : overrides)
+      command += " --set \"" + assignment + '"';
     folder += "/";
   }
 
@@ -67,13 +73,22 @@ namespace Keyblock
                            scene.checks.quantity +
                            "', which is no column of history.csv; name a "
                            "monitor and its quantity, for example tip.u_x."));
-    n_cells_global =
-      dealii::Utilities::MPI::sum<unsigned long long>(cells.nodes.size(),
-                                                      world());
+    count_cells();
     std::ostringstream place;
     for (unsigned int d = 0; d < dim; ++d)
       place << (d ? ", " : "") << conditions->stable_step.place[d];
     report.stable_step_place = place.str();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::count_cells()
+  {
+    n_cells_global =
+      dealii::Utilities::MPI::sum<unsigned long long>(cells.nodes.size(),
+                                                      world());
   }
 
 
@@ -119,8 +134,46 @@ namespace Keyblock
   void
   Simulation<dim>::run()
   {
+    watch_signals();
+    std::unique_ptr<StateFile> file;
+    if (!checkpoint.empty())
+      {
+        file = std::make_unique<StateFile>(checkpoint);
+        check_origin(*file);
+      }
     make_geometry();
+    if (file)
+      check_mesh(*file);
     set_up();
+    open_output();
+    try
+      {
+        if (file)
+          restore(*file);
+        file.reset();
+        run_stages();
+        finish();
+      }
+    catch (const StopRequest &request)
+      {
+        save_and_stop(request);
+        throw;
+      }
+    catch (const ComputationError &error)
+      {
+        AssertThrow(false,
+                    ComputationError(
+                      error.message +
+                      (last_checkpoint.empty() ? "" : name_last_checkpoint())));
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::open_output()
+  {
     on_root([&]() {
       std::error_code error;
       std::filesystem::create_directories(folder, error);
@@ -138,12 +191,31 @@ namespace Keyblock
           print_geostress(std::cout, *geostress);
         }
     });
-    if (scene.output.write_vtu)
-      output->write_vtu(step->time);
-    establish_initial_state();
-    for (unsigned int s = 0; s < scene.stages.size(); ++s)
-      run_stage(s);
-    finish();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::run_stages()
+  {
+    unsigned int next = 0;
+    if (checkpoint.empty())
+      {
+        if (scene.output.write_vtu)
+          output->write_vtu(step->time);
+        establish_initial_state();
+      }
+    else
+      {
+        complete_stage();
+        next = present.index + 1;
+      }
+    for (; next < scene.stages.size(); ++next)
+      {
+        begin_stage(next);
+        complete_stage();
+      }
   }
 
 

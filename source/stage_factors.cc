@@ -35,9 +35,7 @@ namespace Keyblock
     const std::vector<double> carried = step->dig(number);
     step->begin_stage(stage, number);
     conditions->start_ramp(carried, ramp_duration_of(stage));
-    n_cells_global =
-      dealii::Utilities::MPI::sum<unsigned long long>(cells.nodes.size(),
-                                                      world());
+    count_cells();
     return true;
   }
 
@@ -62,18 +60,24 @@ namespace Keyblock
   template <int dim>
   void
   Simulation<dim>::find_safety_factors(const unsigned int index,
-                                       const Snapshot<dim> &before)
+                                       const Snapshot<dim> &before,
+                                       const Snapshot<dim> &after)
   {
     const unsigned int number = index + 2;
     const Stage &stage        = *scene.stages[index];
-    const Snapshot<dim> after = take_snapshot(parts());
     StrengthReductionSearch<dim> search(
       scene, split, blocks, *numbering, parts());
     const std::vector<unsigned int> removed = removal_stage;
     const bool was_converged                = is_converged;
     for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
       {
-        if (!is_class_wanted(b, number) ||
+        const bool is_known =
+          std::any_of(safety_factors.begin(),
+                      safety_factors.end(),
+                      [&](const SafetyFactor &factor) {
+                        return factor.block == b && factor.stage == stage.name;
+                      });
+        if (!is_class_wanted(b, number) || is_known ||
             (removed[b] > 0 && removed[b] < number))
           continue;
         typename StrengthReductionSearch<dim>::Known known;
@@ -124,6 +128,8 @@ namespace Keyblock
         result.stage  = stage.name;
         safety_factors.push_back(result);
         print_factor(result);
+        count_cells();
+        save_if_due();
       }
   }
 
@@ -145,7 +151,9 @@ namespace Keyblock
     contact->reduce_strength(strong);
     is_trial = true;
     dig_stage(stage, number);
-    step_through(stage, index);
+    StageProgress<dim> progress;
+    progress.index = index;
+    step_through(stage, progress);
     is_trial = false;
     return removal_stage[block] == 0;
   }
@@ -183,7 +191,9 @@ namespace Keyblock
   template bool Simulation<3>::remove_failed_blocks(const Stage &,
                                                     const unsigned int);
   template void Simulation<2>::find_safety_factors(const unsigned int,
+                                                   const Snapshot<2> &,
                                                    const Snapshot<2> &);
   template void Simulation<3>::find_safety_factors(const unsigned int,
+                                                   const Snapshot<3> &,
                                                    const Snapshot<3> &);
 } // namespace Keyblock

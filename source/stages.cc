@@ -26,12 +26,26 @@ namespace Keyblock
     /** Steps between looks for blocks that have failed. */
     constexpr unsigned int removal_interval = 100;
 
+    /** Steps between looks whether the run is to be saved or stopped. */
+    constexpr unsigned int save_interval = 10;
+
     /** Unbalanced ratio of a static stage that is in balance; rock that yields
      * is not, after elastic solves. */
     constexpr double static_tolerance = 1e-8;
 
     /** Static solves that refine each other, at most. */
     constexpr unsigned int maximum_refinements = 4;
+
+    /** Number of steps of length @p dt [s] in a stage. */
+    unsigned int
+    plan_steps(const Stage &stage, const double dt)
+    {
+      const unsigned int n_steps = stage.duration > 0.
+                                     ? std::lround(stage.duration / dt)
+                                     : stage.maximum_steps;
+      return stage.maximum_steps > 0 ? std::min(n_steps, stage.maximum_steps)
+                                     : n_steps;
+    }
   } // namespace
 
 
@@ -74,7 +88,7 @@ namespace Keyblock
 
   template <int dim>
   void
-  Simulation<dim>::run_stage(const unsigned int index)
+  Simulation<dim>::begin_stage(const unsigned int index)
   {
     const Stage &stage        = *scene.stages[index];
     const unsigned int number = index + 2;
@@ -83,29 +97,44 @@ namespace Keyblock
     stage_start_displacement = fields.displacement;
     is_converged             = true;
     removal_stage.resize(blocks.blocks.size(), 0);
-    const bool wants_factors =
+    present       = StageProgress<dim>();
+    present.index = index;
+    present.wants_factors =
       contact != nullptr && scene.safety.wants_stage(stage.name);
-    Snapshot<dim> before;
-    if (wants_factors)
-      before = take_snapshot(parts());
+    if (present.wants_factors)
+      present.before = take_snapshot(parts());
     dig_stage(stage, number);
-    const unsigned int start_step = step->n_steps;
-    unsigned int n_steps          = 0;
-    if (stage.is_static())
+    present.first_step = step->n_steps;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::complete_stage()
+  {
+    const Stage &stage = *scene.stages[present.index];
+    if (!present.is_reported)
       {
-        solve_stage();
-        is_converged = step->unbalanced_ratio < static_tolerance;
-        step->settle_contact();
-        monitors->sample(*step, index);
-        if (scene.output.write_vtu && scene.output.vtu_count > 0)
-          output->write_vtu(step->time);
+        if (stage.is_static())
+          {
+            solve_stage();
+            is_converged = step->unbalanced_ratio < static_tolerance;
+            step->settle_contact();
+            monitors->sample(*step, present.index);
+            if (scene.output.write_vtu && scene.output.vtu_count > 0)
+              output->write_vtu(step->time);
+          }
+        else
+          step_through(stage, present);
+        report.element_steps +=
+          double(step->n_steps - present.first_step) * n_cells_global;
+        report_stage(stage, present.n_done);
+        present.is_reported = true;
+        save_if_due();
       }
-    else
-      n_steps = step_through(stage, index);
-    report.element_steps += double(step->n_steps - start_step) * n_cells_global;
-    report_stage(stage, n_steps);
-    if (wants_factors)
-      find_safety_factors(index, before);
+    if (present.wants_factors)
+      find_remaining_factors();
   }
 
 
@@ -120,9 +149,7 @@ namespace Keyblock
     if (changes)
       {
         carried = step->dig(number);
-        n_cells_global =
-          dealii::Utilities::MPI::sum<unsigned long long>(cells.nodes.size(),
-                                                          world());
+        count_cells();
       }
     step->begin_stage(stage, number);
     bool is_ramped = changes;
@@ -182,50 +209,53 @@ namespace Keyblock
 
 
   template <int dim>
-  unsigned int
-  Simulation<dim>::step_through(const Stage &stage, const unsigned int index)
+  void
+  Simulation<dim>::step_through(const Stage &stage,
+                                StageProgress<dim> &progress)
   {
-    const double dt         = step->dt;
-    const double loop_start = MPI_Wtime();
-    unsigned int n_steps    = stage.duration > 0.
-                                ? std::lround(stage.duration / dt)
-                                : stage.maximum_steps;
-    if (stage.maximum_steps > 0)
-      n_steps = std::min(n_steps, stage.maximum_steps);
+    const unsigned int index = progress.index;
+    double loop_start        = MPI_Wtime();
+    if (progress.n_done == 0)
+      progress.n_planned = plan_steps(stage, step->dt);
+    const unsigned int n_steps = progress.n_planned;
     const unsigned int interval =
       stage.is_quasi_static()
         ? std::max(scene.output.history_interval, quasi_static_interval)
         : scene.output.history_interval;
-    unsigned int vtu_count = 0, i = 1;
-    bool has_removed     = false;
-    double vtu_time      = 0.;
+    const auto book_time = [&]() {
+      const double now = MPI_Wtime();
+      report.loop_time += now - loop_start;
+      loop_start = now;
+    };
     const auto write_vtu = [&]() {
-      const double before = MPI_Wtime();
+      book_time();
       output->write_vtu(step->time);
-      vtu_time += MPI_Wtime() - before;
-      ++vtu_count;
+      ++progress.n_vtu;
+      loop_start = MPI_Wtime();
     };
     const bool writes =
       scene.output.write_vtu && scene.output.vtu_count > 0 && !is_trial;
     is_converged = stage.unbalanced_ratio == 0. || stage.duration > 0.;
-    for (; i <= n_steps; ++i)
+    while (progress.n_done < n_steps)
       {
-        const bool is_last = i == n_steps;
+        const unsigned int i = ++progress.n_done;
+        const bool is_last   = i == n_steps;
         const bool is_sample =
-          i % interval == 0 || is_last || i == 1 || has_removed;
+          i % interval == 0 || is_last || i == 1 || progress.has_removed;
         step->advance(is_sample);
         if (is_sample && !is_trial)
           monitors->sample(*step, index);
         // the ledger starts anew when a block is taken away
-        has_removed = stage.is_quasi_static() && i % removal_interval == 0 &&
-                      remove_failed_blocks(stage, index);
+        progress.has_removed = stage.is_quasi_static() &&
+                               i % removal_interval == 0 &&
+                               remove_failed_blocks(stage, index);
         if (stage.is_quasi_static() && i % pace_interval == 0 &&
             conditions->is_ramping())
           pace_ramp(stage);
         if (i % finite_check_interval == 0 || is_last)
           check_finite();
         if (writes && !stage.is_quasi_static() &&
-            i >= double(vtu_count + 1) * n_steps / scene.output.vtu_count)
+            i >= double(progress.n_vtu + 1) * n_steps / scene.output.vtu_count)
           write_vtu();
         if (!is_trial)
           report_progress(index, double(i) / n_steps);
@@ -236,11 +266,15 @@ namespace Keyblock
             is_converged = true;
             break;
           }
+        if (i % save_interval == 0)
+          {
+            book_time();
+            save_if_due();
+          }
       }
     if (writes && stage.is_quasi_static())
       write_vtu();
-    report.loop_time += MPI_Wtime() - loop_start - vtu_time;
-    return std::min(i, n_steps);
+    book_time();
   }
 
 
@@ -377,12 +411,12 @@ namespace Keyblock
   template void Simulation<3>::establish_initial_state();
   template void Simulation<2>::dig_stage(const Stage &, const unsigned int);
   template double Simulation<2>::ramp_duration_of(const Stage &) const;
-  template unsigned int Simulation<2>::step_through(const Stage &,
-                                                    const unsigned int);
+  template void Simulation<2>::step_through(const Stage &, StageProgress<2> &);
   template void Simulation<3>::dig_stage(const Stage &, const unsigned int);
   template double Simulation<3>::ramp_duration_of(const Stage &) const;
-  template unsigned int Simulation<3>::step_through(const Stage &,
-                                                    const unsigned int);
-  template void Simulation<2>::run_stage(const unsigned int);
-  template void Simulation<3>::run_stage(const unsigned int);
+  template void Simulation<3>::step_through(const Stage &, StageProgress<3> &);
+  template void Simulation<2>::begin_stage(const unsigned int);
+  template void Simulation<3>::begin_stage(const unsigned int);
+  template void Simulation<2>::complete_stage();
+  template void Simulation<3>::complete_stage();
 } // namespace Keyblock

@@ -33,21 +33,41 @@ namespace Keyblock
   ExplicitStep<dim>::begin_stage(const Stage &new_stage,
                                  const unsigned int number)
   {
-    stage    = new_stage;
     is_first = true;
     sums     = Energies();
     if (contact)
-      {
-        contact->override_friction(stage.friction_angle_override);
-        contact_work_at_start = contact->work;
-      }
-    conditions.set_damping(stage.damping_ratio);
-    fields.local_damping.assign(
-      stage.local_damping > 0. ? fields.velocity.size() : 0, 0.);
+      contact_work_at_start = contact->work;
+    apply_settings(new_stage);
     if (stage.reset_motion || stage.is_quasi_static())
       stop_motion();
     conditions.scale_density(stage.is_quasi_static() && stage.scales_density);
     return choose_step(number);
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::apply_settings(const Stage &new_stage)
+  {
+    stage = new_stage;
+    if (contact)
+      contact->override_friction(stage.friction_angle_override);
+    conditions.set_damping(stage.damping_ratio);
+    fields.local_damping.assign(
+      stage.local_damping > 0. ? fields.velocity.size() : 0, 0.);
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::resume(const Stage &stage, const unsigned int number)
+  {
+    apply_settings(stage);
+    conditions.scale_density(stage.is_quasi_static() && stage.scales_density);
+    if (contact)
+      contact->begin_stage(number);
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // One trial of strength reduction, and how it is decided.
 #include <keyblock/mpi.h>
+#include <keyblock/stop_request.h>
 #include <keyblock/strength_trial.h>
 
 #include <algorithm>
@@ -247,6 +248,7 @@ namespace Keyblock
     for (unsigned int step = 0; step < scene.safety.maximum_periods * period;
          step += window)
       {
+        stop_if_asked();
         step_damped_until(trial.n_steps + window, block, trial);
         const Motion now = measure(block);
         const double moved =
@@ -302,6 +304,7 @@ namespace Keyblock
     std::vector<double> velocity(1, 0.), resultant;
     for (unsigned int w = 1; w <= n_windows; ++w)
       {
+        stop_if_asked();
         for (unsigned int step = 0; step < window; ++step)
           run.step.advance(false);
         trial.n_steps += window;

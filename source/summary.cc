@@ -198,8 +198,9 @@ namespace Keyblock
                              const Geostress *geostress) const
   {
     const double memory = dealii::Utilities::MPI::sum(peak_memory(), world());
+    const std::string file_name = folder + "summary.json";
     if (!is_root())
-      return;
+      return assert_written(true, file_name);
     Tree root, program, scene_tree, run_tree, stage_list, monitors, check_tree;
     put(program, "version", std::string(KEYBLOCK_VERSION));
     put(program, "deal_ii_version", std::string(DEAL_II_PACKAGE_VERSION));
@@ -301,12 +302,9 @@ namespace Keyblock
     text = std::regex_replace(text,
                               std::regex("\"(stages|blocks|trials)\": \"\""),
                               "\"$1\": []");
-    std::ofstream out(folder + "summary.json");
+    std::ofstream out(file_name);
     out << text;
-    AssertThrow(out,
-                ComputationError("The file '" + folder +
-                                 "summary.json' cannot be written; check free "
-                                 "space."));
+    assert_written(bool(out.flush()), file_name);
   }
 
   template void Output<2>::write_summary(const MeshQuality &,

@@ -16,6 +16,7 @@ namespace Keyblock
     std::string scene;
     std::vector<std::string> overrides;
     std::string output;
+    std::string restart; ///< checkpoint to continue from
     bool is_validation = false;
 
     /** Text to print instead of running (--help, --version,

@@ -58,6 +58,11 @@ namespace Keyblock
     std::vector<SurfaceContact<dim>> contacts;
     unsigned int n_steps = 0;
     double last_kick     = 0.;
+
+    // when surface contacts were searched, and when they are to be again
+    std::vector<double> searched_position;
+    bool is_search_due     = true;
+    unsigned int next_look = 0;
   };
 
   /** Sums over the contact points of one joint. */
@@ -127,7 +132,12 @@ namespace Keyblock
     void remove_block(const unsigned int block);
 
     ContactMemory<dim> remember() const;
+
+    /** Go back to a state; surface contacts are searched anew. */
     void recall(const ContactMemory<dim> &memory);
+
+    /** Take up a state of another run, and what its last search found. */
+    void resume(const ContactMemory<dim> &memory);
 
     /** Mean of u(block) - u(other side) over the area of a block's pairs that
      * are there [m]; null without any (collective). */
@@ -219,6 +229,15 @@ namespace Keyblock
     void recover_impulses(const CornerGroup &corner, const double *needed);
     void solve_mobile(const ContactStep &step);
     void update_mobility(const ContactStep &step);
+
+    /** Search at searched_position. */
+    void list_candidates();
+
+    /** Which slots are solved on all ranks, after a search. */
+    void mark_mobile_slots();
+
+    /** Whether a group has a converted pair, by group. */
+    std::vector<bool> list_converted_groups() const;
     void refresh_normals();
     void correct_penetration();
 
@@ -257,7 +276,7 @@ namespace Keyblock
 
     std::vector<PairState<dim>> state;
     std::vector<Vector<dim>> normal; ///< of each pair, present
-    std::vector<unsigned int> group_of_pair;
+    std::vector<unsigned int> group_of_pair, group_of_slot;
     std::vector<double> static_tangent, kinetic_tangent; ///< by joint
     double default_tangent;
     double override_tangent = -1.;

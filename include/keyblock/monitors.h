@@ -49,10 +49,13 @@ namespace Keyblock
     /** Append a row (collective). */
     void sample(const ExplicitStep<dim> &step, const unsigned int stage);
 
-    /** Write all rows so far. */
+    /** Write all rows so far (collective). */
     void write_csv(const std::string &file_name) const;
 
     History history;
+
+    /** Displacement of local nodes at the last reset [m]. */
+    std::vector<double> baseline;
 
     /** Index into Blocks::blocks that each block monitor watches. */
     std::vector<unsigned int> block_of_monitor;
@@ -81,7 +84,6 @@ namespace Keyblock
     std::vector<unsigned int> node_of_monitor; ///< owned local node or none
     std::vector<std::vector<unsigned int>> nodes_of_monitor; ///< of regions
     std::vector<unsigned int> block_of_node;
-    std::vector<double> baseline;
     std::vector<double> cell_volume; ///< of mesh cells on this rank
   };
 } // namespace Keyblock

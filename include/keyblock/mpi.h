@@ -78,6 +78,18 @@ namespace Keyblock
     message = dealii::Utilities::MPI::broadcast(world(), message, 0);
     AssertThrow(message.empty(), InputError(message));
   }
+
+  /** Throw ComputationError on all ranks if one could not write its part of
+   * @p file_name. */
+  inline void
+  assert_written(const bool is_written, const std::string &file_name)
+  {
+    const bool is_complete =
+      dealii::Utilities::MPI::min(is_written ? 1 : 0, world()) > 0;
+    AssertThrow(is_complete,
+                ComputationError("The file '" + file_name +
+                                 "' cannot be written; check free space."));
+  }
 } // namespace Keyblock
 
 #endif

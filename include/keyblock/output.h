@@ -81,6 +81,10 @@ namespace Keyblock
                        const std::vector<unsigned int> &removal_stage,
                        const Geostress *geostress) const;
 
+    /** Time and name of the files in solution.pvd: rock, interface, rock, ...
+     */
+    std::vector<std::pair<double, std::string>> records;
+
   private:
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
@@ -90,7 +94,6 @@ namespace Keyblock
     const Fields<dim> &fields;
     const Contact<dim> *contact;
     std::string folder; ///< ends with "/"
-    std::vector<std::pair<double, std::string>> records;
   };
 } // namespace Keyblock
 

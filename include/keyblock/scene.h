@@ -407,6 +407,7 @@ namespace Keyblock
     unsigned int history_interval = 1;
     unsigned int vtu_count        = 5;
     bool write_vtu                = true;
+    double checkpoint_interval    = 600.;
 
     void declare(ParameterHandler &prm);
   };
@@ -464,6 +465,9 @@ namespace Keyblock
 
     /** Write all entries with the values used. */
     void write_used(const std::string &file_name) const;
+
+    /** The same as text, without descriptions. */
+    std::string used_entries() const;
 
   private:
     ParameterHandler prm;

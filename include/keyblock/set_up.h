@@ -99,6 +99,9 @@ namespace Keyblock
      * the stresses and motions of now. */
     void recall(const StageState &state);
 
+    /** Take up a state of another run; stresses are to be put in afterwards. */
+    void resume(const StageState &state);
+
     /** Divide the strength of all rock by 1 / @p share. */
     void reduce_strength(const double share);
 

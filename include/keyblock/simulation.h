@@ -2,12 +2,29 @@
 #ifndef keyblock_simulation_h
 #define keyblock_simulation_h
 
+#include <keyblock/checkpoint.h>
 #include <keyblock/checks.h>
 #include <keyblock/geostress.h>
 #include <keyblock/safety_factor.h>
+#include <keyblock/stop_request.h>
 
 namespace Keyblock
 {
+  /** How far a stage has come. */
+  template <int dim>
+  struct StageProgress
+  {
+    unsigned int index      = 0; ///< into Scene::stages
+    unsigned int first_step = 0; ///< of the run, when the stage began
+    unsigned int n_planned  = 0; ///< steps
+    unsigned int n_done     = 0;
+    unsigned int n_vtu      = 0;     ///< outputs written
+    bool has_removed        = false; ///< a block, in the last step
+    bool is_reported        = false; ///< only safety factors are left
+    bool wants_factors      = false;
+    Snapshot<dim> before; ///< the state it began with, if it wants factors
+  };
+
   /**
    * A run from scene to summary. Members stand in the order of the data; each
    * is built from references to earlier ones. run() tells the story.
@@ -16,14 +33,18 @@ namespace Keyblock
   class Simulation
   {
   public:
-    /** Read and check the scene; nothing is computed or written. */
+    /** Read and check the scene; nothing is computed or written.
+     * @param checkpoint file to continue from, or empty */
     Simulation(const std::string &scene_file,
                const std::vector<std::string> &overrides,
-               const std::string &output_folder);
+               const std::string &output_folder,
+               const std::string &checkpoint = "");
 
     /** Mesh, blocks and set-up, without time steps and without output. */
     void validate();
 
+    /** From the start, or from the checkpoint, to the summary. A signal lets it
+     * write a checkpoint and throw StopRequest. */
     void run();
 
     /** What the run works on, for tests and tools that look at the result. */
@@ -81,15 +102,22 @@ namespace Keyblock
     void make_geometry();
     void print_set_up(std::ostream &out) const;
     void set_up();
+    void open_output();
+    void run_stages();
     void establish_initial_state();
-    void run_stage(const unsigned int index);
+    void begin_stage(const unsigned int index);
+    void complete_stage();
     void dig_stage(const Stage &stage, const unsigned int number);
-    unsigned int step_through(const Stage &stage, const unsigned int index);
+    void step_through(const Stage &stage, StageProgress<dim> &progress);
     void solve_stage();
     /** Whether any was there to be removed. */
     bool remove_failed_blocks(const Stage &stage, const unsigned int index);
     void find_safety_factors(const unsigned int index,
-                             const Snapshot<dim> &before);
+                             const Snapshot<dim> &before,
+                             const Snapshot<dim> &after);
+
+    /** Those of the present stage that are not known yet. */
+    void find_remaining_factors();
     bool holds_when_strong(const unsigned int block,
                            const unsigned int index,
                            const Snapshot<dim> &before);
@@ -109,8 +137,29 @@ namespace Keyblock
     void report_progress(const unsigned int stage, const double fraction);
     void finish();
 
+    /** Save the run if that is due, or stop it if a signal asks for that
+     * (collective). */
+    void save_if_due();
+    void save();
+    void restore(StateFile &file);
+    void exchange_progress(StateFile &file);
+    void exchange_results(StateFile &file);
+    void check_origin(StateFile &file) const;
+    void check_mesh(StateFile &file) const;
+    void save_and_stop(const StopRequest &request);
+
+    /** Remember the checkpoint called @p name as the last complete one. */
+    void note_checkpoint(const std::string &name);
+
+    /** A sentence about where the last complete checkpoint is. */
+    std::string name_last_checkpoint() const;
+    void count_cells();
+
     Scene<dim> scene;
     std::string folder;
+    std::string checkpoint; ///< to continue from, or empty
+    std::string command;    ///< that starts this run anew
+    std::string last_checkpoint, restart_command; ///< of the run, if any
     Mesh<dim> mesh;
     MeshQuality quality;
     Blocks<dim> blocks;
@@ -132,7 +181,9 @@ namespace Keyblock
     bool is_trial        = false;            ///< nothing is recorded or printed
     double wall_start    = 0.;
     double last_progress = 0.;
-    bool is_converged    = true;
+    double last_saved    = 0.; ///< wall time of the last checkpoint [s]
+    StageProgress<dim> present;
+    bool is_converged = true;
     std::vector<double> stage_start_displacement;
     unsigned long long n_cells_global = 0;
   };

@@ -5,7 +5,9 @@
 #include <keyblock/contact.h>
 #include <keyblock/set_up.h>
 
+#include <algorithm>
 #include <memory>
+#include <string>
 
 namespace Keyblock
 {
@@ -63,6 +65,11 @@ namespace Keyblock
     /** Largest unbalanced force of a node over the mean force, the same [-]. */
     double largest_nodal_ratio = 0.;
 
+    /** Save all but the settings of the stage under @p group, or read it
+     * (StateFile::exchange). */
+    template <typename File>
+    void exchange(File &file, const std::string &group);
+
   protected:
     Stage stage;
     double kick            = 0.;   ///< h of the present step [s]
@@ -97,6 +104,9 @@ namespace Keyblock
     /** Prepare (after `dig`, if it digs) stage @p number (Scene::stage_number);
      * returns the length of its steps [s]. */
     double begin_stage(const Stage &stage, const unsigned int number);
+
+    /** Go on within stage @p number, in a state read from a file. */
+    void resume(const Stage &stage, const unsigned int number);
 
     /** Bring stresses and forces up to the present displacements. */
     void update_forces();
@@ -155,6 +165,8 @@ namespace Keyblock
     double force_seconds   = 0.; ///< wall time spent in cell forces
 
   private:
+    /** Take friction and damping from @p stage. */
+    void apply_settings(const Stage &stage);
     const double *positions() const;
     void compute_internal_force();
     void predict();
@@ -171,6 +183,45 @@ namespace Keyblock
     Fields<dim> &fields;
     Contact<dim> *contact;
   };
+
+
+
+  template <typename File>
+  void
+  StepState::exchange(File &file, const std::string &group)
+  {
+    file.exchange(group + "time", time);
+    file.exchange(group + "n_steps", n_steps);
+    file.exchange(group + "dt", dt);
+    file.exchange(group + "unbalanced_ratio", unbalanced_ratio);
+    file.exchange(group + "largest_nodal_ratio", largest_nodal_ratio);
+    file.exchange(group + "kick", kick);
+    file.exchange(group + "previous_dt", previous_dt);
+    file.exchange(group + "starts_at_rest", starts_at_rest);
+    file.exchange(group + "is_first", is_first);
+    file.exchange(group + "is_stress_current", is_stress_current);
+    file.exchange(group + "carried_sum", carried_sum);
+
+    const auto sampled = energies.as_array();
+    std::vector<double> list(sampled.begin(), sampled.end());
+    file.exchange(group + "energies", list);
+    std::array<double, n_energy_terms> terms;
+    std::copy(list.begin(), list.end(), terms.begin());
+    energies = Energies::from_array(terms);
+
+    terms = sums.as_array();
+    std::vector<double *> shares;
+    for (double &term : terms)
+      shares.push_back(&term);
+    for (double *const share : {&contact_work_at_start.friction,
+                                &contact_work_at_start.closure,
+                                &contact_work_at_start.penetration,
+                                &plastic_work_at_start,
+                                &excavated_energy})
+      shares.push_back(share);
+    file.exchange_shares(group + "work", shares);
+    sums = Energies::from_array(terms);
+  }
 } // namespace Keyblock
 
 #endif

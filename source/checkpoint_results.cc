@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What came out of a run so far, as it stands in a checkpoint.
+#include <keyblock/checkpoint.h>
+#include <keyblock/state_rows.h>
+
+namespace Keyblock
+{
+  template <typename Action>
+  void
+  for_each_number(Trial &trial, const Action &action)
+  {
+    action(trial.factor);
+    action(trial.start);
+    action(trial.is_stable);
+    action(trial.phase);
+    action(trial.slip);
+    action(trial.velocity);
+    action(trial.acceleration);
+    action(trial.unbalanced);
+    action(trial.n_steps);
+    action(trial.seconds);
+    action(trial.phase_1_seconds);
+  }
+
+  template <typename Action>
+  void
+  for_each_number(SafetyFactor &factor, const Action &action)
+  {
+    action(factor.block);
+    action(factor.outcome);
+    action(factor.lower);
+    action(factor.upper);
+    action(factor.limit_factor);
+    action(factor.stress_ratio);
+  }
+
+  template <typename Action>
+  void
+  for_each_number(StageReport &report, const Action &action)
+  {
+    action(report.steps);
+    action(report.time_step);
+    action(report.unbalanced_ratio);
+    action(report.max_displacement);
+    action(report.largest_nodal_ratio);
+    action(report.is_converged);
+    action(report.cells);
+    action(report.plastic_cells);
+    action(report.yielding_points);
+    action(report.points.open);
+    action(report.points.sliding);
+    action(report.points.sticking);
+    action(report.points.intact);
+    std::array<double, n_energy_terms> energies = report.energies.as_array();
+    for (double &energy : energies)
+      action(energy);
+    report.energies = Energies::from_array(energies);
+  }
+
+
+
+  void
+  exchange(StateFile &file,
+           const std::string &group,
+           std::vector<StageReport> &reports)
+  {
+    exchange_rows(file, group + "numbers", reports);
+    exchange_texts(file, group + "name", reports, &StageReport::name);
+    exchange_texts(file, group + "remark", reports, &StageReport::remark);
+  }
+
+
+
+  void
+  exchange(StateFile &file,
+           const std::string &group,
+           std::vector<SafetyFactor> &factors)
+  {
+    exchange_rows(file, group + "numbers", factors);
+    exchange_texts(file, group + "stage", factors, &SafetyFactor::stage);
+    exchange_texts(file,
+                   group + "failure_mode",
+                   factors,
+                   &SafetyFactor::failure_mode);
+    exchange_texts(file,
+                   group + "limit_mode",
+                   factors,
+                   &SafetyFactor::limit_mode);
+    std::vector<unsigned int> n_trials;
+    std::vector<Trial> trials;
+    for (const SafetyFactor &factor : factors)
+      {
+        n_trials.push_back(factor.trials.size());
+        trials.insert(trials.end(), factor.trials.begin(), factor.trials.end());
+      }
+    file.exchange(group + "n_trials", n_trials);
+    exchange_rows(file, group + "trials", trials);
+    auto next = trials.begin();
+    for (unsigned int f = 0; f < factors.size(); ++f)
+      {
+        factors[f].trials.assign(next, next + n_trials[f]);
+        next += n_trials[f];
+      }
+  }
+
+
+
+  void
+  exchange(StateFile &file, const std::string &group, History &history)
+  {
+    const std::size_t n = history.columns.size();
+    std::vector<double> rows;
+    for (const std::vector<double> &row : history.rows)
+      rows.insert(rows.end(), row.begin(), row.end());
+    file.exchange(group + "rows", rows);
+    file.exchange(group + "stage_begin", history.stage_begin);
+    if (!file.is_read() || !is_root())
+      return;
+    history.rows.clear();
+    for (std::size_t i = 0; i + n <= rows.size(); i += n)
+      history.rows.emplace_back(rows.begin() + i, rows.begin() + i + n);
+  }
+} // namespace Keyblock

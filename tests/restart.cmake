@@ -1,0 +1,33 @@
+# friction, and surface contact once the block slides
+keyblock_restart(sliding_block tutorial/sliding_block)
+keyblock_restart(sliding_block_2 tutorial/sliding_block RANKS 2
+  ARGUMENTS --ranks 2)
+keyblock_restart(sliding_block_stopped tutorial/sliding_block
+  ARGUMENTS --by stop --breaks 2)
+keyblock_restart(sliding_block_full_disk tutorial/sliding_block
+  ARGUMENTS --by full --breaks 2)
+keyblock_restart(sliding_block_20 tutorial/sliding_block SLOW
+  ARGUMENTS --breaks 20)
+keyblock_restart(incline_3d_20 verification/incline_3d SLOW
+  ARGUMENTS --breaks 20)
+# on other numbers of ranks, scenes without corners, whose history does not
+# hang on the last digit
+keyblock_restart(newmark_other_ranks verification/newmark RANKS 2
+  ARGUMENTS --ranks 1 2 --tolerance 1e-8)
+keyblock_restart(friction_rod_other_ranks verification/friction_rod RANKS 2
+  ARGUMENTS --ranks 2 1 --tolerance 1e-8)
+# large kinematics
+keyblock_restart(toppling verification/toppling_slides_and_topples)
+# two stages of excavation in plastic rock
+keyblock_restart(order_stepped verification/order_stepped
+  ARGUMENTS --set "Materials/rock/Model=mohr_coulomb"
+  --set "Materials/rock/Cohesion=1e5")
+# a block that fails in the stage and is taken away, and its safety factor
+keyblock_restart(roof_block verification/roof_block_falls
+  ARGUMENTS --set "Safety factor/Removal slip=0.05"
+  --set "Safety factor/Blocks=all" --set "Safety factor/Bracket=0.02"
+  --set "Materials/rock/Model=mohr_coulomb"
+  --set "Materials/rock/Cohesion=1e5")
+keyblock_restart(factor_incline verification/factor_incline)
+keyblock_restart(factor_incline_stopped verification/factor_incline
+  ARGUMENTS --by stop --breaks 2)

@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+"""Break runs off, continue them, and compare with the uninterrupted run.
+
+usage: restart.py KEYBLOCK SCENE FOLDER [options]
+
+  --breaks N       how many runs that had saved themselves are broken off, at
+                   random moments (3)
+  --by HOW         kill: SIGKILL; stop: SIGTERM, after which the exit code must
+                   be 143; full: no room for files (kill)
+  --ranks N...     ranks of the first run, of the second, ... in turn (1)
+  --tolerance X    of numbers in history.csv, relative to the largest of the
+                   columns of their unit, and in summary.json, relative to the
+                   number or 1; 0: equal bytes (0)
+  --set A=B        as for keyblock
+
+All runs but the first, uninterrupted one save themselves every 20 ms.
+"""
+import argparse
+import csv
+import json
+import math
+import os
+import random
+import resource
+import signal
+import subprocess
+import sys
+import time
+
+parser = argparse.ArgumentParser()
+parser.add_argument("keyblock")
+parser.add_argument("scene")
+parser.add_argument("folder")
+parser.add_argument("--breaks", type=int, default=3)
+parser.add_argument("--by", choices=["kill", "stop", "full"], default="kill")
+parser.add_argument("--ranks", type=int, nargs="+", default=[1])
+parser.add_argument("--tolerance", type=float, default=0.)
+parser.add_argument("--set", action="append", default=[])
+options = parser.parse_args()
+random.seed(1)
+
+TIMINGS = {"wall_time", "loop_time", "contact_time", "force_time", "seconds",
+           "phase_1_seconds", "million_element_steps_per_second",
+           "peak_memory_bytes", "ranks"}
+
+
+def command_of(folder, ranks, interval, extra):
+    command = [options.keyblock, options.scene, "--output", folder,
+               "--set", "Output/Write VTU=false",
+               "--set", f"Output/Checkpoint interval={interval}"] + extra
+    for assignment in options.set:
+        command += ["--set", assignment]
+    if ranks > 1:
+        command = ["mpirun", "--allow-run-as-root", "--oversubscribe",
+                   "-n", str(ranks)] + command
+    return command
+
+
+def run(command):
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def descendants(pid):
+    """The process and all that it started."""
+    found = [pid]
+    try:
+        with open(f"/proc/{pid}/task/{pid}/children") as file:
+            for child in file.read().split():
+                found += descendants(int(child))
+    except FileNotFoundError:
+        pass
+    return found
+
+
+def kill(process):
+    for pid in descendants(process.pid):
+        try:
+            os.kill(pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+    return process.communicate()
+
+
+def assert_equal(a, b, where):
+    if isinstance(a, dict):
+        assert a.keys() == b.keys(), f"{where}: other keys"
+        for key in a.keys() - TIMINGS:
+            assert_equal(a[key], b[key], f"{where}/{key}")
+    elif isinstance(a, list):
+        assert len(a) == len(b), f"{where}: {len(a)} and {len(b)} entries"
+        for i, (x, y) in enumerate(zip(a, b)):
+            assert_equal(x, y, f"{where}/{i}")
+    elif isinstance(a, float) and options.tolerance > 0.:
+        scale = max(1., abs(a))
+        assert abs(a - b) <= options.tolerance * scale, f"{where}: {a}, {b}"
+    else:
+        assert a == b, f"{where}: {a} and {b}"
+
+
+def rows_of(folder):
+    with open(folder + "/history.csv") as file:
+        lines = list(csv.reader(file))
+    return lines[0], [[float(x) for x in line] for line in lines[1:]]
+
+
+def compare(folder, reference):
+    """Largest difference in history.csv, relative to its unit."""
+    with open(folder + "/summary.json") as one, \
+            open(reference + "/summary.json") as other:
+        assert_equal(json.load(one), json.load(other), "summary")
+    if options.tolerance == 0.:
+        with open(folder + "/history.csv", "rb") as one, \
+                open(reference + "/history.csv", "rb") as other:
+            assert one.read() == other.read(), "the histories differ"
+        return 0.
+    (header, rows), (expected_header, expected) = map(rows_of,
+                                                      (folder, reference))
+    assert header == expected_header and len(rows) == len(expected), \
+        "other columns or rows"
+    largest = 0.
+    units = [name.split(" ")[-1] for name in header]
+    scales = dict.fromkeys(units, 1e-300)
+    for row in expected:
+        for unit, value in zip(units, row):
+            scales[unit] = max(scales[unit], abs(value))
+    for c, name in enumerate(header):
+        difference = max(abs(row[c] - other[c])
+                         for row, other in zip(rows, expected))
+        difference /= scales[units[c]]
+        assert difference <= options.tolerance, f"{name}: {difference:g}"
+        largest = max(largest, difference)
+    return largest
+
+
+def is_newer(file_name, begin):
+    return os.path.exists(file_name) and os.path.getmtime(file_name) > begin
+
+
+def wait_for(file_name, begin, process, seconds=60.):
+    while not is_newer(file_name, begin) and process.poll() is None:
+        assert time.time() < begin + seconds, "no checkpoint appears"
+        time.sleep(0.002)
+
+
+def expect(done, code, *texts):
+    output = done.stdout + done.stderr
+    assert done.returncode == code, f"exit code {done.returncode}: {output}"
+    for text in texts:
+        assert text in output, f"'{text}' is missing: {output}"
+
+
+def expect_end(process, code, *texts):
+    """The run ends with the code, having said so, unless it was done."""
+    output = process.communicate()[0]
+    if process.returncode == 0:
+        return
+    assert process.returncode == code, f"exit {process.returncode}: {output}"
+    for text in texts:
+        assert text in output, f"'{text}' is missing: {output}"
+
+
+def fill_disk(process, checkpoint):
+    """From now on no file can be longer than 1 kB."""
+    for pid in descendants(process.pid):
+        try:
+            resource.prlimit(pid, resource.RLIMIT_FSIZE, (1000, 1000))
+        except ProcessLookupError:
+            pass
+    expect_end(process, 2, "history.csv' cannot be written",
+               f"The last complete checkpoint is {checkpoint}",
+               f"--restart {checkpoint}")
+
+
+def stop(process, checkpoint):
+    process.send_signal(signal.SIGTERM)
+    expect_end(process, 143, f"continue by: keyblock {options.scene}",
+               f"--restart {checkpoint}")
+    expect_refusals(checkpoint)
+
+
+def expect_refusals(checkpoint):
+    """Another scene and another version are refused with a sentence."""
+    extra = ["--restart", checkpoint]
+    folder = options.folder + "_refused"
+    expect(run(command_of(folder, 1, 0, extra + ["--set",
+                                                 "Time stepping/Safety=0.7"])),
+           1, "'Time stepping/Safety' is '0.9' there and '0.7' here")
+    with open(checkpoint, "rb") as file:
+        content = file.read()
+    assert content.count(b", checkpoint format ") == 1
+    other = options.folder + "_other_version.h5"
+    with open(other, "wb") as file:
+        file.write(content.replace(b", checkpoint format ",
+                                   b", checkpoint Format "))
+    expect(run(command_of(folder, 1, 0, ["--restart", other])), 1,
+           "was written by keyblock")
+    with open(other, "wb") as file:
+        file.write(content[:len(content) // 2])
+    expect(run(command_of(folder, 1, 0, ["--restart", other])), 1,
+           "is not a checkpoint")
+    assert not os.path.exists(folder), "something was written"
+
+
+reference = options.folder + "_reference"
+begin = time.time()
+expect(run(command_of(reference, options.ranks[0], 0, [])), 0)
+duration = time.time() - begin
+
+broken, n_runs, largest = 0, 0, 0.
+while broken < options.breaks:
+    folder = f"{options.folder}_{n_runs}"
+    checkpoint = folder + "/checkpoint.h5"
+    if os.path.exists(checkpoint):
+        os.remove(checkpoint)
+    n_runs += 1
+    turn = 0
+    while True:
+        restart = ["--restart", checkpoint] if os.path.exists(checkpoint) else []
+        ranks = options.ranks[turn % len(options.ranks)]
+        turn += 1
+        command = command_of(folder, ranks, 0.02, restart)
+        begin = time.time()
+        process = subprocess.Popen(command, stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, text=True)
+        if broken == options.breaks:
+            output = process.communicate()[0]
+            assert process.returncode == 0, output
+            break
+        if options.by != "kill":
+            wait_for(checkpoint, begin, process)
+        try:
+            output = process.communicate(
+                timeout=random.uniform(0., 1.2 * duration))[0]
+            assert process.returncode == 0, output
+            break
+        except subprocess.TimeoutExpired:
+            # counts if it had saved itself
+            broken += is_newer(checkpoint, begin)
+            if options.by == "full":
+                fill_disk(process, checkpoint)
+            elif options.by == "stop":
+                stop(process, checkpoint)
+            else:
+                kill(process)
+            if process.returncode == 0:
+                break
+    largest = max(largest, compare(folder, reference))
+print(f"{broken} runs broken off, {n_runs} continued to the end; "
+      f"largest difference {largest:g}, uninterrupted {duration:.1f} s")
+if not math.isfinite(largest):
+    sys.exit(1)
