@@ -107,12 +107,9 @@ namespace Keyblock
           }
         else
           {
-            // only rest at the joints' own strength is a start at factor 1
             if (was_converged && stage.friction_angle_override < 0. &&
                 stage.unbalanced_ratio > 0.)
               known.stable = 1.;
-            else
-              known.start = scene.safety.lowest;
             SafetyFactor cheap;
             search.add_cheap_answers(b, cheap);
             if (known.hint == 0. && known.stable > 0. &&
@@ -120,6 +117,9 @@ namespace Keyblock
               known.hint = cheap.stress_ratio;
             else if (known.hint == 0. && std::isfinite(cheap.limit_factor))
               known.hint = cheap.limit_factor;
+            // only rest at the joints' own strength is a start at factor 1
+            if (known.stable == 0.)
+              known.start = std::max(scene.safety.lowest, 0.5 * known.hint);
             result = search.find(b, number, known);
           }
         recall(after, parts());

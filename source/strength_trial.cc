@@ -225,7 +225,7 @@ namespace Keyblock
         const double s =
           0.5 *
           (1. - std::cos(dealii::numbers::PI * (trial.n_steps + 1.) / ramp));
-        reduce(block, 1. / ((1. - s) / trial.start + s / trial.factor));
+        reduce(block, trial.start * std::pow(trial.factor / trial.start, s));
         run.step.advance(false);
       }
   }
