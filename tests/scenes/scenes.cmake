@@ -115,3 +115,12 @@ keyblock_scene(verification/corner REFERENCES corner_crossing RANKS 1
   SET ${crossing} "Joints/front/Normal=1, 0.363970234266")
 keyblock_scene(verification/corner REFERENCES corner_crossing_overhang RANKS 1
   SET ${overhang} ${crossing} "Joints/front/Normal=1, -0.363970234266")
+# blocks of the powerhouse in 3D and when they are exposed; nothing is computed
+set(without_motion "Contact/Method=none" "Initial state/Equilibrium=none"
+  "Safety factor/Blocks=none" "Output/Write VTU=false")
+foreach(i 1 2 3 4 5 6 7 8)
+  list(APPEND without_motion "Stages/stage_${i}/Kind=dynamic"
+    "Stages/stage_${i}/Duration=1e-9" "Stages/stage_${i}/Unbalanced ratio=0"
+    "Stages/stage_${i}/Maximum steps=1")
+endforeach()
+keyblock_scene(study/powerhouse_3d RANKS 1 SET ${without_motion})
