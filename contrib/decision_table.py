@@ -202,10 +202,9 @@ def main():
         out.write(
             "\n## A square block\n\n0.5 m x 0.5 m, bracket 1.25 %, first "
             "trials within 0.5 % of the closed form. At 40 degrees the "
-            "resultant is close to the toe, and the block rocks on it. The "
-            "first phase finds no rest, and in the second a creep of the toe "
-            "with any acceleration above zero counts as sliding: the factor "
-            "is too low, and more so on finer meshes.\n\n")
+            "resultant is close to the toe, and the block rocks on it. "
+            "Trials that pass through failure on their way find it too "
+            "early: the path starts below the guess.\n\n")
         square_table(out)
 
 
