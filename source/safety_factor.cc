@@ -55,8 +55,12 @@ namespace Keyblock
     {
       const bool is_above = warm && warm_start <= factor;
       recall(is_above ? *warm : state, owner.run);
-      const Trial trial = owner.trials.try_factor(
-        block, number, is_above ? warm_start : start, factor, first_slip);
+      const Trial trial =
+        owner.trials.try_factor(block,
+                                number,
+                                is_above ? warm_start : start_of(factor),
+                                factor,
+                                first_slip);
       trials.push_back(trial);
       if (trial.is_stable)
         {
@@ -105,6 +109,14 @@ namespace Keyblock
     double stable, unstable; ///< 0: none known
 
   private:
+    /** Factor from which strength changes to @p factor: not through failure. */
+    double
+    start_of(const double factor) const
+    {
+      return factor < start ? std::max(owner.scene.safety.lowest, 0.5 * factor)
+                            : start;
+    }
+
     StrengthReductionSearch &owner;
     const unsigned int block, number;
     const double start; ///< factor of the state
@@ -143,6 +155,7 @@ namespace Keyblock
     SafetyFactor result;
     result.block = block;
     add_cheap_answers(block, result);
+    trials.forget_failure();
     {
       Search search(*this, block, number, known, result.trials);
       result.outcome = scene.safety.method == "sweep"
@@ -152,8 +165,7 @@ namespace Keyblock
       result.upper   = search.unstable;
       search.finish();
     }
-    if (!result.trials.empty() &&
-        result.outcome != SafetyFactor::Outcome::immovable)
+    if (result.outcome != SafetyFactor::Outcome::immovable)
       result.failure_mode = trials.failure();
     trials.reduce(block, 1.);
     return result;

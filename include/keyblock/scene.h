@@ -323,7 +323,7 @@ namespace Keyblock
     double highest             = 100.;
     double mass_damping        = 0.3;
     double local_damping       = 0.;
-    double damping_ratio       = 0.3;
+    double damping_ratio       = 1.;
     double window              = 1.;
     double maximum_periods     = 20.;
     bool warm_start            = true;

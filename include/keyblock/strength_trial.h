@@ -61,7 +61,14 @@ namespace Keyblock
     /** Divide the strength of the block's joints by @p factor. */
     void reduce(const unsigned int block, const double factor);
 
-    /** How the block moved in the last trial that failed. */
+    /** Nothing has failed yet. */
+    void
+    forget_failure()
+    {
+      last_failure.clear();
+    }
+
+    /** How the block moved in the last trial that failed; empty: none. */
     const std::string &
     failure() const
     {
