@@ -251,8 +251,29 @@ namespace Keyblock
   StateExchange<dim>::exchange(const std::string &group, CellArrays<dim> &cells)
   {
     constexpr unsigned int n_points = 1 << dim;
-    exchange_cells(
-      group + "stress", cells, 0, n_points * n_stress<dim>, cells.stress);
+    // cell by cell: other ranks have other batches
+    constexpr unsigned int n_values = n_points * n_stress<dim>;
+    std::vector<double> stress(std::size_t(n_values) * cells.nodes.size());
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const auto s = cells.stress.at(c, q);
+          std::copy(s.begin(),
+                    s.end(),
+                    stress.begin() + std::size_t(n_values) * c +
+                      n_stress<dim> * q);
+        }
+    exchange_cells(group + "stress", cells, 0, n_values, stress);
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          typename StressArray<dim>::Stress s;
+          std::copy_n(stress.begin() + std::size_t(n_values) * c +
+                        n_stress<dim> * q,
+                      n_stress<dim>,
+                      s.begin());
+          cells.stress.set(c, q, s);
+        }
     exchange_cells(group + "plastic_strain",
                    cells,
                    cells.first_plastic(),

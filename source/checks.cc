@@ -23,9 +23,9 @@ namespace Keyblock
         double *const value = by_cell.data() + n_values * cells.mesh_cell[c];
         for (unsigned int q = 0; q < (1 << dim); ++q)
           {
+            const auto stress = cells.stress.at(c, q);
             for (int k = 0; k < n_stress<dim>; ++k)
-              value[k] +=
-                cells.stress_of(c)[q * n_stress<dim> + k] / (1 << dim);
+              value[k] += stress[k] / (1 << dim);
             if (c >= cells.first_plastic() &&
                 cells.plastic_strain[(c - cells.first_plastic()) * (1 << dim) +
                                      q] > 0.)

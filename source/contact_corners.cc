@@ -217,10 +217,8 @@ namespace Keyblock
     std::vector<double> sums(dim * interface.pairs.size(), 0.);
     for (const TractionWeight &entry : traction_weights)
       {
-        const Vector<dim> f =
-          apply_stress<dim, double>(cells.stress_of(entry.cell) +
-                                      entry.point * n_stress<dim>,
-                                    entry.weight);
+        const Vector<dim> f = apply_stress<dim, double>(
+          cells.stress.at(entry.cell, entry.point).data(), entry.weight);
         for (int d = 0; d < dim; ++d)
           sums[dim * entry.pair + d] += f[d];
       }

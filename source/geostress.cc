@@ -189,8 +189,8 @@ namespace Keyblock
         , clamps(hold_boundary(false))
       {}
 
-      /** Stresses of all cells, ordered as those of CellArrays [Pa]. */
-      std::vector<double>
+      /** Stresses of all cells [Pa]. */
+      StressArray<dim>
       solve(const std::string &name)
       {
         const bool is_gravity = name == "gravity";
@@ -217,7 +217,7 @@ namespace Keyblock
                               : boundary_displacement(name, place);
           });
         CellArrays<dim> unit = cells;
-        std::fill(unit.stress.begin(), unit.stress.end(), 0.);
+        unit.stress.reinit(unit.nodes.size());
         for (MohrCoulomb &strength : unit.strengths)
           strength.peak.uniaxial       = strength.peak.tension =
             strength.residual.uniaxial = strength.residual.tension = 1e100;
@@ -350,7 +350,7 @@ namespace Keyblock
       }
 
     UnitFields<dim> unit_fields(scene, split, numbering, cells, fields);
-    std::vector<std::vector<double>> stresses;
+    std::vector<StressArray<dim>> stresses;
     std::vector<std::vector<double>> matrix(
       measurements.size(), std::vector<double>(result->names.size(), 0.));
     std::map<unsigned int, unsigned int> local_cell;
@@ -368,18 +368,18 @@ namespace Keyblock
               for (unsigned int q = 0; q < n; ++q)
                 values[i] +=
                   weight / n *
-                  stresses[j][(found->second * n + q) * n_stress<dim> +
-                              measurements[i].component];
+                  stresses[j].at(found->second, q)[measurements[i].component];
         dealii::Utilities::MPI::sum(values, world(), values);
         for (unsigned int i = 0; i < measurements.size(); ++i)
           matrix[i][j] = values[i];
       }
     result->fit = fit_fields(matrix, result->measured, weights, result->names);
-    for (unsigned int k = 0; k < cells.stress.size(); ++k)
+    for (unsigned int k = 0; k < cells.stress.values.size(); ++k)
       {
-        cells.stress[k] = 0.;
+        cells.stress.values[k] = 0.;
         for (unsigned int j = 0; j < stresses.size(); ++j)
-          cells.stress[k] += result->fit.coefficients[j] * stresses[j][k];
+          cells.stress.values[k] +=
+            result->fit.coefficients[j] * stresses[j].values[k];
       }
     return result;
   }

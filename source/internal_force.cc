@@ -1,149 +1,67 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/cell_geometry.h>
+#include <keyblock/cell_kernels.h>
 #include <keyblock/internal_force.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace Keyblock
 {
+  // of cell_kernels.cc, one per instruction set
+#ifdef KEYBLOCK_HAS_X86_KERNELS
+  namespace avx512
+  {
+    void register_kernels(CellKernels &kernels);
+  }
+  namespace avx2
+  {
+    void register_kernels(CellKernels &kernels);
+  }
+#endif
+  namespace portable
+  {
+    void register_kernels(CellKernels &kernels);
+  }
+
+
+
+  const std::vector<CellKernels> &
+  available_kernels()
+  {
+    static const std::vector<CellKernels> list = [] {
+      std::vector<CellKernels> found;
+      const auto add = [&](const std::string &name,
+                           void (*register_kernels)(CellKernels &)) {
+        found.emplace_back();
+        found.back().name = name;
+        register_kernels(found.back());
+      };
+#ifdef KEYBLOCK_HAS_X86_KERNELS
+      if (__builtin_cpu_supports("avx512f") &&
+          __builtin_cpu_supports("avx512dq") &&
+          __builtin_cpu_supports("avx512vl"))
+        add("avx512", avx512::register_kernels);
+      if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        add("avx2", avx2::register_kernels);
+#endif
+      add("portable", portable::register_kernels);
+      return found;
+    }();
+    return list;
+  }
+
+
+
   namespace
   {
-    template <int dim>
-    inline Corners<dim, double>
-    gather(const std::array<unsigned int, 1 << dim> &nodes, const double *field)
-    {
-      Corners<dim, double> values;
-      for (int a = 0; a < (1 << dim); ++a)
-        for (int d = 0; d < dim; ++d)
-          values[a][d] = field[dim * nodes[a] + d];
-      return values;
-    }
+    const CellKernels *chosen_kernels = nullptr;
 
-    template <int dim>
-    inline void
-    scatter(const std::array<unsigned int, 1 << dim> &nodes,
-            const Corners<dim, double> &values,
-            double *field)
+    const CellKernels &
+    kernels()
     {
-      for (int a = 0; a < (1 << dim); ++a)
-        for (int d = 0; d < dim; ++d)
-          field[dim * nodes[a] + d] += values[a][d];
-    }
-
-    /** sum of rate times gradient, over the vertices, times @p factor */
-    template <int dim>
-    inline Gradient<dim, double>
-    rate_gradient(const Corners<dim, double> &rate,
-                  const Corners<dim, double> &gradient,
-                  const double factor)
-    {
-      Gradient<dim, double> result;
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          {
-            double sum = 0.;
-            for (int a = 0; a < (1 << dim); ++a)
-              sum += rate[a][i] * gradient[a][j];
-            result[i][j] = sum * factor;
-          }
-      return result;
-    }
-
-    template <int dim>
-    inline void
-    add_force(const double *stress,
-              const Corners<dim, double> &gradient,
-              Corners<dim, double> &force)
-    {
-      for (int a = 0; a < (1 << dim); ++a)
-        {
-          const auto f = apply_stress<dim, double>(stress, gradient[a]);
-          for (int d = 0; d < dim; ++d)
-            force[a][d] += f[d] * Shape<dim>::weight;
-        }
-    }
-
-    /** The Gauss points of one cell: gradients of the shape functions times
-     * the determinant, and displacement gradients. */
-    template <int dim>
-    struct CellPoints
-    {
-      std::array<Corners<dim, double>, 1 << dim> gradient;
-      std::array<double, 1 << dim> determinant;
-      std::array<Gradient<dim, double>, 1 << dim> rate;
-    };
-
-    template <int dim>
-    inline double
-    trace(const Gradient<dim, double> &g)
-    {
-      double sum = 0.;
-      for (int d = 0; d < dim; ++d)
-        sum += g[d][d];
-      return sum;
-    }
-
-    /** Third of what the mean dilatation of the cell adds to that of each
-     * point. */
-    template <int dim>
-    inline std::array<double, 1 << dim>
-    dilatation_corrections(const CellPoints<dim> &points)
-    {
-      double volume = 0., change = 0.;
-      for (int q = 0; q < (1 << dim); ++q)
-        {
-          volume += points.determinant[q];
-          change += points.determinant[q] * trace<dim>(points.rate[q]);
-        }
-      std::array<double, 1 << dim> third;
-      for (int q = 0; q < (1 << dim); ++q)
-        third[q] = (change / volume - trace<dim>(points.rate[q])) / 3.;
-      return third;
-    }
-
-    /** Strain g + third * 1 in all three directions: adds the elastic stress of
-     * both. */
-    template <int dim>
-    inline void
-    add_corrected_stress(const Gradient<dim, double> &g,
-                         const double third,
-                         const double lambda,
-                         const double mu,
-                         double *stress)
-    {
-      add_elastic_stress<dim>(g, lambda, mu, stress);
-      for (int k = 0; k < 3; ++k)
-        stress[k] += (3. * lambda + 2. * mu) * third;
-    }
-
-    /** Forces of the stresses of all points with the mean pressure of the cell:
-     * the transpose of the averaged dilatation. */
-    template <int dim>
-    inline void
-    add_averaged_force(const double *stress,
-                       const CellPoints<dim> &points,
-                       Corners<dim, double> &force)
-    {
-      double volume = 0., mean = 0.;
-      std::array<double, 1 << dim> pressure;
-      for (int q = 0; q < (1 << dim); ++q)
-        {
-          const double *s = stress + q * n_stress<dim>;
-          pressure[q]     = (s[0] + s[1] + s[2]) / 3.;
-          volume += points.determinant[q];
-          mean += points.determinant[q] * pressure[q];
-        }
-      mean /= volume;
-      std::array<double, n_stress<dim>> s;
-      for (int q = 0; q < (1 << dim); ++q)
-        {
-          for (int k = 0; k < n_stress<dim>; ++k)
-            s[k] = stress[q * n_stress<dim> + k];
-          for (int k = 0; k < 3; ++k)
-            s[k] += mean - pressure[q];
-          add_force<dim>(s.data(), points.gradient[q], force);
-        }
+      return chosen_kernels ? *chosen_kernels : available_kernels().front();
     }
 
     /** Mean of two stresses times the plastic strain that leads from @p trial
@@ -173,240 +91,125 @@ namespace Keyblock
       return work;
     }
 
-    /** Advance the stress of a Gauss point that may yield; returns the plastic
-     * work [J/m3]. */
-    template <int dim>
-    inline double
-    advance_plastic_point(const Gradient<dim, double> &g,
-                          const double third,
-                          const double lambda,
-                          const double mu,
-                          const MohrCoulomb &strength,
-                          double *stress,
-                          double &plastic_strain,
-                          unsigned int &n_yielding)
+    /** The part of the yield surface's inside that is quick to test. */
+    ElasticBound
+    bound_of(const MohrCoulomb &strength)
     {
-      std::array<double, n_stress<dim>> before, trial;
-      std::copy(stress, stress + n_stress<dim>, before.begin());
-      add_corrected_stress<dim>(g, third, lambda, mu, stress);
+      const YieldStrength &peak = strength.peak;
+      const double k            = peak.slope;
+      ElasticBound bound;
+      bound.slope    = k - 1.;
+      bound.factor   = 4. / 3. * (k * k + k + 1.);
+      bound.uniaxial = peak.uniaxial;
+      bound.tension  = peak.tension;
+      // strength that varies is looked up point by point
+      if (strength.has_residual)
+        bound.uniaxial = -std::numeric_limits<double>::max();
+      return bound;
+    }
+
+    /** Return a point that may yield to the yield surface. */
+    template <int dim>
+    void
+    yield(void *owner,
+          const unsigned int cell,
+          const unsigned int point,
+          const double volume,
+          const double *before,
+          double *stress)
+    {
+      CellArrays<dim> &cells   = *static_cast<CellArrays<dim> *>(owner);
+      const unsigned int place = cell - cells.first_plastic();
+      double &plastic_strain = cells.plastic_strain[(1 << dim) * place + point];
+      std::array<double, n_stress<dim>> trial;
       std::copy(stress, stress + n_stress<dim>, trial.begin());
-      if (!apply_mohr_coulomb<dim>(
-            strength.at(plastic_strain), lambda, mu, stress))
-        return 0.;
-      ++n_yielding;
+      if (!apply_mohr_coulomb<dim>(cells.strengths[cells.strength[place]].at(
+                                     plastic_strain),
+                                   cells.lambda[cell],
+                                   cells.mu[cell],
+                                   stress))
+        return;
       double size       = 0.;
       const double work = plastic_work_density<dim>(
-        before.data(), trial.data(), stress, lambda, mu, size);
+        before, trial.data(), stress, cells.lambda[cell], cells.mu[cell], size);
+      ++cells.n_yielding;
+      cells.plastic_work += volume * work;
       plastic_strain += size;
-      return work;
-    }
-
-    /** Displacement gradients of a cell's points over the step, taken at its
-     * middle, and shape gradients at its end. */
-    template <int dim, bool is_large>
-    inline void
-    evaluate_points(const Corners<dim, double> &x,
-                    const Corners<dim, double> &v,
-                    const double step,
-                    CellPoints<dim> &points)
-    {
-      Corners<dim, double> middle = x;
-      if constexpr (is_large)
-        for (int a = 0; a < (1 << dim); ++a)
-          for (int d = 0; d < dim; ++d)
-            middle[a][d] -= 0.5 * step * v[a][d];
-      for (int q = 0; q < (1 << dim); ++q)
-        {
-          points.determinant[q] =
-            gradients_times_determinant<dim>(q, middle, points.gradient[q]);
-          points.rate[q] = rate_gradient<dim>(v,
-                                              points.gradient[q],
-                                              1. / points.determinant[q]);
-        }
-    }
-
-    /** Put the shape gradients of the step's end in place of those of its
-     * middle. */
-    template <int dim>
-    inline void
-    move_points_to_end(const Corners<dim, double> &x, CellPoints<dim> &points)
-    {
-      for (int q = 0; q < (1 << dim); ++q)
-        points.determinant[q] =
-          gradients_times_determinant<dim>(q, x, points.gradient[q]);
     }
 
     template <int dim>
-    inline Gradient<dim, double>
-    times(Gradient<dim, double> g, const double factor)
-    {
-      for (auto &row : g)
-        for (double &entry : row)
-          entry *= factor;
-      return g;
-    }
-
-    /** Cells whose Gauss points are each for themselves. */
-    template <int dim, bool is_large, bool has_damping>
     void
-    pass_over_full_cells(const double step,
-                         CellArrays<dim> &cells,
-                         const double *position,
-                         const double *rate,
-                         double *internal,
-                         double *damping)
+    run_kernel(const CellKind kind, const CellPass<dim> &pass)
     {
-      constexpr int n        = 1 << dim;
-      const unsigned int end = cells.kind_begin[1];
-      for (unsigned int c = cells.kind_begin[0]; c < end; ++c)
-        {
-          const Corners<dim, double> x = gather<dim>(cells.nodes[c], position);
-          const Corners<dim, double> v = gather<dim>(cells.nodes[c], rate);
-          Corners<dim, double> middle  = x;
-          if constexpr (is_large)
-            for (int a = 0; a < n; ++a)
-              for (int d = 0; d < dim; ++d)
-                middle[a][d] -= 0.5 * step * v[a][d];
-
-          Corners<dim, double> force{}, damping_force{}, gradient;
-          const double lambda = cells.lambda[c], mu = cells.mu[c];
-          for (int q = 0; q < n; ++q)
-            {
-              double *stress = cells.stress_of(c) + q * n_stress<dim>;
-              const double determinant =
-                gradients_times_determinant<dim>(q, middle, gradient);
-              Gradient<dim, double> g =
-                rate_gradient<dim>(v, gradient, 1. / determinant);
-              std::array<double, n_stress<dim>> viscous{};
-              if constexpr (has_damping)
-                add_elastic_stress<dim>(g,
-                                        lambda * cells.beta[c],
-                                        mu * cells.beta[c],
-                                        viscous.data());
-              for (auto &row : g)
-                for (double &entry : row)
-                  entry *= step;
-              if constexpr (is_large)
-                {
-                  rotate_stress<dim>(g, stress);
-                  gradients_times_determinant<dim>(q, x, gradient);
-                }
-              add_elastic_stress<dim>(g, lambda, mu, stress);
-              add_force<dim>(stress, gradient, force);
-              if constexpr (has_damping)
-                add_force<dim>(viscous.data(), gradient, damping_force);
-            }
-          scatter<dim>(cells.nodes[c], force, internal);
-          if constexpr (has_damping)
-            scatter<dim>(cells.nodes[c], damping_force, damping);
-        }
-    }
-
-    /** Cells whose volume change is averaged, elastic or plastic. */
-    template <int dim, bool is_large, bool has_damping, bool is_plastic>
-    void
-    pass_over_averaged_cells(const double step,
-                             CellArrays<dim> &cells,
-                             const double *position,
-                             const double *rate,
-                             double *internal,
-                             double *damping)
-    {
-      constexpr int n = 1 << dim;
-      const auto kind =
-        unsigned(is_plastic ? CellKind::plastic : CellKind::mean_dilatation);
-      CellPoints<dim> points;
-      std::array<double, n * n_stress<dim>> viscous;
-      for (unsigned int c = cells.kind_begin[kind];
-           c < cells.kind_begin[kind + 1];
-           ++c)
-        {
-          const Corners<dim, double> x = gather<dim>(cells.nodes[c], position);
-          const Corners<dim, double> v = gather<dim>(cells.nodes[c], rate);
-          evaluate_points<dim, is_large>(x, v, step, points);
-          const auto third    = dilatation_corrections<dim>(points);
-          const double lambda = cells.lambda[c], mu = cells.mu[c];
-          viscous.fill(0.);
-          for (int q = 0; q < n; ++q)
-            {
-              double *stress = cells.stress_of(c) + q * n_stress<dim>;
-              if constexpr (has_damping)
-                add_corrected_stress<dim>(points.rate[q],
-                                          third[q],
-                                          lambda * cells.beta[c],
-                                          mu * cells.beta[c],
-                                          viscous.data() + q * n_stress<dim>);
-              const Gradient<dim, double> g = times<dim>(points.rate[q], step);
-              if constexpr (is_large)
-                rotate_stress<dim>(g, stress);
-              if constexpr (is_plastic)
-                {
-                  const unsigned int p = c - cells.first_plastic();
-                  cells.plastic_work += Shape<dim>::weight *
-                                        points.determinant[q] *
-                                        advance_plastic_point<dim>(
-                                          g,
-                                          step * third[q],
-                                          lambda,
-                                          mu,
-                                          cells.strengths[cells.strength[p]],
-                                          stress,
-                                          cells.plastic_strain[n * p + q],
-                                          cells.n_yielding);
-                }
-              else
-                add_corrected_stress<dim>(
-                  g, step * third[q], lambda, mu, stress);
-            }
-          if constexpr (is_large)
-            move_points_to_end<dim>(x, points);
-          Corners<dim, double> force{}, damping_force{};
-          add_averaged_force<dim>(cells.stress_of(c), points, force);
-          scatter<dim>(cells.nodes[c], force, internal);
-          if constexpr (has_damping)
-            {
-              add_averaged_force<dim>(viscous.data(), points, damping_force);
-              scatter<dim>(cells.nodes[c], damping_force, damping);
-            }
-        }
-    }
-
-    template <int dim, bool is_large, bool has_damping>
-    void
-    pass_over_cells(const double step,
-                    CellArrays<dim> &cells,
-                    const double *position,
-                    const double *rate,
-                    double *internal,
-                    double *damping)
-    {
-      pass_over_full_cells<dim, is_large, has_damping>(
-        step, cells, position, rate, internal, damping);
-      pass_over_averaged_cells<dim, is_large, has_damping, false>(
-        step, cells, position, rate, internal, damping);
-      cells.n_yielding = 0;
-      pass_over_averaged_cells<dim, is_large, has_damping, true>(
-        step, cells, position, rate, internal, damping);
+      const CellKernels &k = kernels();
+      if constexpr (dim == 2)
+        (kind == CellKind::elastic           ? k.elastic_2d
+         : kind == CellKind::mean_dilatation ? k.averaged_2d
+                                             : k.plastic_2d)(pass);
+      else
+        (kind == CellKind::elastic           ? k.elastic_3d
+         : kind == CellKind::mean_dilatation ? k.averaged_3d
+                                             : k.plastic_3d)(pass);
     }
   } // namespace
 
 
 
+  void
+  choose_kernels(const std::string &name)
+  {
+    chosen_kernels = nullptr;
+    for (const CellKernels &k : available_kernels())
+      if (k.name == name)
+        chosen_kernels = &k;
+    if (chosen_kernels == nullptr && !name.empty())
+      throw std::invalid_argument("no kernels '" + name +
+                                  "' on this processor");
+  }
+
+
+
   template <int dim>
   void
-  add_internal_force(const ForcePass &pass,
+  add_internal_force(const ForcePass &settings,
                      CellArrays<dim> &cells,
                      const double *position,
                      const double *rate,
                      double *internal,
                      double *damping)
   {
-    const auto run =
-      pass.is_large ? (pass.has_damping ? pass_over_cells<dim, true, true>
-                                        : pass_over_cells<dim, true, false>)
-                    : (pass.has_damping ? pass_over_cells<dim, false, true>
-                                        : pass_over_cells<dim, false, false>);
-    run(pass.step, cells, position, rate, internal, damping);
+    CellPass<dim> pass;
+    pass.nodes    = cells.nodes.data();
+    pass.lambda   = cells.lambda.data();
+    pass.mu       = cells.mu.data();
+    pass.beta     = settings.has_damping ? cells.beta.data() : nullptr;
+    pass.stress   = cells.stress.values.data();
+    pass.step     = settings.step;
+    pass.position = position;
+    pass.rate     = rate;
+    pass.internal = internal;
+    pass.damping  = damping;
+    pass.is_large = settings.is_large;
+    for (const CellKind kind :
+         {CellKind::elastic, CellKind::mean_dilatation, CellKind::plastic})
+      {
+        pass.begin = cells.kind_begin[unsigned(kind)];
+        pass.end   = cells.kind_begin[unsigned(kind) + 1];
+        if (kind != CellKind::plastic)
+          run_kernel<dim>(kind, pass);
+      }
+    cells.n_yielding = 0;
+    if (pass.begin == pass.end)
+      return;
+    std::vector<ElasticBound> bounds;
+    for (const MohrCoulomb &strength : cells.strengths)
+      bounds.push_back(bound_of(strength));
+    pass.bounds        = bounds.data();
+    pass.strength      = cells.strength.data();
+    pass.first_plastic = cells.first_plastic();
+    pass.yield         = yield<dim>;
+    pass.owner         = &cells;
+    run_kernel<dim>(CellKind::plastic, pass);
   }
 
 
@@ -418,29 +221,33 @@ namespace Keyblock
                  const double lambda,
                  const double mu)
   {
-    constexpr int n = dim * (1 << dim);
+    constexpr int n_vertices = 1 << dim;
+    constexpr int n          = dim * n_vertices;
+    std::array<unsigned int, n_vertices> nodes;
+    for (unsigned int v = 0; v < n_vertices; ++v)
+      nodes[v] = v;
+    StressArray<dim> stress;
+    CellPass<dim> pass;
+    pass.end      = 1;
+    pass.nodes    = &nodes;
+    pass.lambda   = &lambda;
+    pass.mu       = &mu;
+    pass.step     = 1.;
+    pass.position = corners[0].data();
     std::array<double, n * n> stiffness;
-    CellPoints<dim> points;
     for (int j = 0; j < n; ++j)
       {
-        Corners<dim, double> unit{}, force{};
-        unit[j / dim][j % dim] = 1.;
-        evaluate_points<dim, false>(corners, unit, 1., points);
-        std::array<double, 1 << dim> third{};
-        if (is_averaged)
-          third = dilatation_corrections<dim>(points);
-        std::array<double, (1 << dim) * n_stress<dim>> stress{};
-        for (int q = 0; q < (1 << dim); ++q)
-          {
-            double *s = stress.data() + q * n_stress<dim>;
-            add_corrected_stress<dim>(points.rate[q], third[q], lambda, mu, s);
-            if (!is_averaged)
-              add_force<dim>(s, points.gradient[q], force);
-          }
-        if (is_averaged)
-          add_averaged_force<dim>(stress.data(), points, force);
+        std::array<double, n> unit{}, force{};
+        unit[j] = 1.;
+        stress.reinit(1);
+        pass.stress   = stress.values.data();
+        pass.rate     = unit.data();
+        pass.internal = force.data();
+        run_kernel<dim>(is_averaged ? CellKind::mean_dilatation
+                                    : CellKind::elastic,
+                        pass);
         for (int i = 0; i < n; ++i)
-          stiffness[i * n + j] = force[i / dim][i % dim];
+          stiffness[i * n + j] = force[i];
       }
     return stiffness;
   }
@@ -452,17 +259,17 @@ namespace Keyblock
   elastic_energy(const CellArrays<dim> &cells, const double *position)
   {
     double energy = 0.;
-    Corners<dim, double> gradient;
+    Corners<dim, double> x, gradient;
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       {
-        const auto x = gather<dim>(cells.nodes[c], position);
+        for (int a = 0; a < (1 << dim); ++a)
+          std::copy_n(position + dim * cells.nodes[c][a], dim, x[a].begin());
         for (int q = 0; q < (1 << dim); ++q)
-          energy +=
-            gradients_times_determinant<dim>(q, x, gradient) *
-            Shape<dim>::weight *
-            elastic_energy_density<dim>(cells.stress_of(c) + q * n_stress<dim>,
-                                        cells.lambda[c],
-                                        cells.mu[c]);
+          energy += gradients_times_determinant<dim>(q, x, gradient) *
+                    Shape<dim>::weight *
+                    elastic_energy_density<dim>(cells.stress.at(c, q).data(),
+                                                cells.lambda[c],
+                                                cells.mu[c]);
       }
     return energy;
   }

@@ -273,7 +273,7 @@ namespace Keyblock
         const double share = cell_volume[mesh_cell] / (1 << dim);
         for (int q = 0; q < (1 << dim); ++q)
           {
-            const double *stress = cells.stress_of(c) + q * n_stress<dim>;
+            const auto stress = cells.stress.at(c, q);
             for (unsigned int d = 0; d < dim; ++d)
               trace += share * stress[d];
           }

@@ -189,11 +189,12 @@ namespace Keyblock
         material[i]                  = split.mesh.material[mesh_cell];
         const auto found             = local_cell.find(mesh_cell);
         if (found != local_cell.end())
-          for (unsigned int k = 0; k < components.size(); ++k)
-            for (int q = 0; q < (1 << dim); ++q)
-              stress[k][i] +=
-                cells.stress_of(found->second)[q * n_stress<dim> + k] /
-                (1 << dim);
+          for (unsigned int q = 0; q < (1 << dim); ++q)
+            {
+              const auto at_point = cells.stress.at(found->second, q);
+              for (unsigned int k = 0; k < components.size(); ++k)
+                stress[k][i] += at_point[k] / (1 << dim);
+            }
         if (found != local_cell.end() && found->second >= cells.first_plastic())
           for (unsigned int q = 0; q < (1 << dim); ++q)
             plastic_strain[i] +=

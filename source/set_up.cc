@@ -285,12 +285,11 @@ namespace Keyblock
   void
   Conditions<dim>::list_cells()
   {
-    constexpr unsigned int n_values = (1 << dim) * n_stress<dim>;
-    const CellArrays<dim> old       = std::move(cells);
-    const unsigned int old_plastic  = old.first_plastic();
-    cells                           = CellArrays<dim>();
-    cells.strengths                 = old.strengths;
-    cells.plastic_work              = old.plastic_work;
+    const CellArrays<dim> old      = std::move(cells);
+    const unsigned int old_plastic = old.first_plastic();
+    cells                          = CellArrays<dim>();
+    cells.strengths                = old.strengths;
+    cells.plastic_work             = old.plastic_work;
     std::vector<unsigned int> new_place(cell_of_local.size(), none);
     for (unsigned int kind = 0; kind < n_cell_kinds; ++kind)
       {
@@ -310,12 +309,6 @@ namespace Keyblock
             cells.lambda.push_back(material.lame_lambda());
             cells.mu.push_back(material.shear_modulus());
             const unsigned int before = cell_of_local[i];
-            if (before == none)
-              cells.stress.insert(cells.stress.end(), n_values, 0.);
-            else
-              cells.stress.insert(cells.stress.end(),
-                                  old.stress_of(before),
-                                  old.stress_of(before) + n_values);
             if (!material.is_plastic())
               continue;
             cells.strength.push_back(m);
@@ -329,6 +322,11 @@ namespace Keyblock
       }
     cells.kind_begin[n_cell_kinds] = cells.nodes.size();
     cells.beta.assign(cells.nodes.size(), 0.);
+    cells.stress.reinit(cells.nodes.size());
+    for (unsigned int i = 0; i < new_place.size(); ++i)
+      if (new_place[i] != none && cell_of_local[i] != none)
+        for (unsigned int q = 0; q < (1 << dim); ++q)
+          cells.stress.set(new_place[i], q, old.stress.at(cell_of_local[i], q));
     cell_of_local = new_place;
   }
 
@@ -462,7 +460,9 @@ namespace Keyblock
                 place +=
                   shape<dim>.value[q][v] *
                   split.mesh.vertices[split.mesh.cells[cells.mesh_cell[c]][v]];
-              stress.evaluate(place, cells.stress_of(c) + q * n_stress<dim>);
+              typename StressArray<dim>::Stress value;
+              stress.evaluate(place, value.data());
+              cells.stress.set(c, q, value);
             }
       }
     if (!scene.initial_state.velocity.empty())

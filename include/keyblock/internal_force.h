@@ -5,6 +5,9 @@
 #include <keyblock/material.h>
 #include <keyblock/mohr_coulomb.h>
 #include <keyblock/shape.h>
+#include <keyblock/simd.h>
+
+#include <boost/align/aligned_allocator.hpp>
 
 #include <array>
 #include <vector>
@@ -19,6 +22,55 @@ namespace Keyblock
     plastic          ///< the same with Mohr-Coulomb strength
   };
   constexpr unsigned int n_cell_kinds = 3;
+
+  /** Stresses at the Gauss points of cells [Pa], tension positive. Batches of
+   * cells are stored value by value, so that a register holds the same value
+   * of several cells. */
+  template <int dim>
+  class StressArray
+  {
+  public:
+    static constexpr unsigned int n_points = 1 << dim;
+
+    /** Components in the order of n_stress<dim>. */
+    using Stress = std::array<double, n_stress<dim>>;
+
+    /** Room for @p n_cells stresses of zero. */
+    void
+    reinit(const unsigned int n_cells)
+    {
+      const std::size_t n_batches = (n_cells + batch_size - 1) / batch_size;
+      values.assign(n_batches * batch_size * n_points * n_stress<dim>, 0.);
+    }
+
+    Stress
+    at(const unsigned int cell, const unsigned int point) const
+    {
+      Stress stress;
+      for (int k = 0; k < n_stress<dim>; ++k)
+        stress[k] = values[place(cell, point) + k * batch_size];
+      return stress;
+    }
+
+    void
+    set(const unsigned int cell, const unsigned int point, const Stress &stress)
+    {
+      for (int k = 0; k < n_stress<dim>; ++k)
+        values[place(cell, point) + k * batch_size] = stress[k];
+    }
+
+    /** All numbers, for sums of whole arrays and for the loop over cells. */
+    std::vector<double, boost::alignment::aligned_allocator<double, 64>> values;
+
+  private:
+    static std::size_t
+    place(const unsigned int cell, const unsigned int point)
+    {
+      return (std::size_t(cell / batch_size) * n_points + point) *
+               n_stress<dim> * batch_size +
+             cell % batch_size;
+    }
+  };
 
   /** What the hot loop over cells reads and writes, one entry per deformable
    * cell of this rank. Free of deal.II. */
@@ -37,8 +89,7 @@ namespace Keyblock
     std::vector<double> lambda, mu; ///< [Pa]
     std::vector<double> beta;       ///< stiffness damping time [s]
 
-    /** n_stress<dim> values at each Gauss point of each cell [Pa]. */
-    std::vector<double> stress;
+    StressArray<dim> stress;
 
     // Mohr-Coulomb cells only, counted from the first of them
     std::vector<MohrCoulomb> strengths;   ///< one per material
@@ -51,17 +102,6 @@ namespace Keyblock
     first_plastic() const
     {
       return kind_begin[unsigned(CellKind::plastic)];
-    }
-
-    double *
-    stress_of(const unsigned int cell)
-    {
-      return stress.data() + std::size_t(cell) * n_vertices * n_stress<dim>;
-    }
-    const double *
-    stress_of(const unsigned int cell) const
-    {
-      return stress.data() + std::size_t(cell) * n_vertices * n_stress<dim>;
     }
   };
 

@@ -2,6 +2,8 @@
 #ifndef keyblock_material_h
 #define keyblock_material_h
 
+#include <keyblock/simd.h>
+
 #include <array>
 
 namespace Keyblock
@@ -19,7 +21,7 @@ namespace Keyblock
    * lambda tr(e) 1 + 2 mu e to @p stress, which holds n_stress<dim> values.
    */
   template <int dim, typename Number>
-  inline void
+  KEYBLOCK_ALWAYS_INLINE void
   add_elastic_stress(const Gradient<dim, Number> &g,
                      const Number lambda,
                      const Number mu,
@@ -49,7 +51,7 @@ namespace Keyblock
 
   /** Stress times a vector: row sums of stress . g. */
   template <int dim, typename Number>
-  inline std::array<Number, dim>
+  KEYBLOCK_ALWAYS_INLINE std::array<Number, dim>
   apply_stress(const Number *stress, const std::array<Number, dim> &g)
   {
     if constexpr (dim == 2)
@@ -69,7 +71,7 @@ namespace Keyblock
    * skew part. Exact for rigid rotations (Hughes and Winget 1980).
    */
   template <int dim, typename Number>
-  inline void
+  KEYBLOCK_ALWAYS_INLINE void
   rotate_stress(const Gradient<dim, Number> &g, Number *stress)
   {
     if constexpr (dim == 2)

@@ -53,7 +53,7 @@ namespace
     double eigenvalue = 0.;
     for (unsigned int iteration = 0; iteration < 20000; ++iteration)
       {
-        std::fill(cells.stress.begin(), cells.stress.end(), 0.);
+        cells.stress.reinit(cells.nodes.size());
         std::fill(y.begin(), y.end(), 0.);
         ForcePass pass;
         pass.step = 1.;
