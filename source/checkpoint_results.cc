@@ -2,6 +2,10 @@
 // What came out of a run so far, as it stands in a checkpoint.
 #include <keyblock/checkpoint.h>
 #include <keyblock/state_rows.h>
+#include <keyblock/teams.h>
+
+#include <algorithm>
+#include <utility>
 
 namespace Keyblock
 {
@@ -101,6 +105,55 @@ namespace Keyblock
         factors[f].trials.assign(next, next + n_trials[f]);
         next += n_trials[f];
       }
+  }
+
+
+
+  std::vector<SafetyFactor>
+  gather_from_teams(const std::vector<SafetyFactor> &mine)
+  {
+    if (n_teams() == 1)
+      return {};
+    // numbers of factors and of their trials, and texts
+    using Rows = std::vector<std::vector<double>>;
+    std::pair<Rows, std::vector<std::string>> packed;
+    for (const SafetyFactor &factor : mine)
+      {
+        packed.first.push_back(numbers_of(factor));
+        packed.first.emplace_back();
+        for (const Trial &trial : factor.trials)
+          for (const double number : numbers_of(trial))
+            packed.first.back().push_back(number);
+        for (const std::string &text :
+             {factor.stage, factor.failure_mode, factor.limit_mode})
+          packed.second.push_back(text);
+      }
+    const std::size_t n = numbers_of(Trial()).size();
+    std::vector<SafetyFactor> theirs;
+    for (const auto &[rows, texts] :
+         dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, packed))
+      for (std::size_t f = 0; 2 * f < rows.size(); ++f)
+        {
+          auto factor = from_numbers<SafetyFactor>(rows[2 * f].data());
+          for (std::size_t t = 0; t + n <= rows[2 * f + 1].size(); t += n)
+            factor.trials.push_back(
+              from_numbers<Trial>(rows[2 * f + 1].data() + t));
+          factor.stage        = texts[3 * f];
+          factor.failure_mode = texts[3 * f + 1];
+          factor.limit_mode   = texts[3 * f + 2];
+          const auto is_same  = [&](const SafetyFactor &other) {
+            return other.block == factor.block && other.stage == factor.stage;
+          };
+          if (std::none_of(mine.begin(), mine.end(), is_same) &&
+              std::none_of(theirs.begin(), theirs.end(), is_same))
+            theirs.push_back(factor);
+        }
+    std::sort(theirs.begin(),
+              theirs.end(),
+              [](const SafetyFactor &a, const SafetyFactor &b) {
+                return a.block < b.block;
+              });
+    return theirs;
   }
 
 

@@ -74,30 +74,53 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** Sum of @p force times the sum of velocities before and after the step,
+     * over the first @p n_nodes nodes. */
+    template <int dim>
+    double
+    work_of(const std::vector<double> &force,
+            const Fields<dim> &fields,
+            const unsigned int n_nodes)
+    {
+      std::array<double, 4> sums{}; // four, to add several at a time
+      unsigned int i       = 0;
+      const unsigned int n = dim * n_nodes;
+      for (; i + 4 <= n; i += 4)
+        for (unsigned int k = 0; k < 4; ++k)
+          sums[k] += force[i + k] *
+                     (fields.old_velocity[i + k] + fields.velocity[i + k]);
+      for (; i < n; ++i)
+        sums[0] += force[i] * (fields.old_velocity[i] + fields.velocity[i]);
+      return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   ExplicitStep<dim>::book_work()
   {
     const bool has_viscous = stage.damping_ratio > 0.;
-    const bool has_local   = stage.local_damping > 0.;
-    double external = 0., viscous = 0., mass_damping = 0., local = 0.;
-    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
-      for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
-        {
-          const double path = fields.old_velocity[i] + fields.velocity[i];
-          external += fields.load[i] * path;
-          if (has_viscous)
-            viscous += fields.damping_force[i] * path;
-          if (stage.mass_damping > 0.)
-            mass_damping += stage.mass_damping * fields.mass[node] *
-                            fields.old_velocity[i] * path;
-          if (has_local)
-            local -= fields.local_damping[i] * path;
-        }
-    sums.external += 0.5 * kick * external;
-    sums.stiffness_damping += 0.5 * kick * viscous;
-    sums.mass_damping += 0.5 * kick * mass_damping;
-    sums.local_damping += 0.5 * local;
+    const unsigned int n   = numbering.n_owned();
+    const double half_kick = 0.5 * kick;
+    sums.external += half_kick * work_of<dim>(fields.load, fields, n);
+    if (has_viscous)
+      sums.stiffness_damping +=
+        half_kick * work_of<dim>(fields.damping_force, fields, n);
+    if (stage.local_damping > 0.)
+      sums.local_damping -= 0.5 * work_of<dim>(fields.local_damping, fields, n);
+    if (stage.mass_damping > 0.)
+      {
+        double momentum = 0.;
+        for (unsigned int node = 0; node < n; ++node)
+          for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+            momentum += fields.mass[node] * fields.old_velocity[i] *
+                        (fields.old_velocity[i] + fields.velocity[i]);
+        sums.mass_damping += half_kick * stage.mass_damping * momentum;
+      }
 
     // the force that a support must have given: what the others left missing
     for (const NodeSupport<dim> &support : fields.supports)

@@ -2,6 +2,7 @@
 #include <keyblock/command_line.h>
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
+#include <keyblock/teams.h>
 
 #include <iostream>
 
@@ -44,7 +45,7 @@ main(int argc, char *argv[])
     }
   catch (const Keyblock::InputError &error)
     {
-      if (Keyblock::is_root())
+      if (Keyblock::is_root() && Keyblock::this_team() == 0)
         std::cerr << "Error: " << error.message << std::endl;
       exit_code = 1;
     }
@@ -53,6 +54,8 @@ main(int argc, char *argv[])
       if (Keyblock::is_root())
         std::cerr << "Failed: " << error.message << std::endl;
       exit_code = 2;
+      if (Keyblock::n_teams() > 1) // the others may be waiting
+        MPI_Abort(MPI_COMM_WORLD, exit_code);
     }
   catch (const Keyblock::StopRequest &request)
     {

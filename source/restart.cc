@@ -2,6 +2,7 @@
 // When a run is saved, what a checkpoint contains, and how it is taken up.
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
+#include <keyblock/teams.h>
 
 #include <cstring>
 #include <iomanip>
@@ -42,6 +43,8 @@ namespace Keyblock
   Simulation<dim>::save()
   {
     check_finite();
+    if (this_team() > 0)
+      return;
     StateFile file;
     std::string program = written_by, entries = scene.used_entries(),
                 mesh_signature = signature(split);
@@ -103,6 +106,8 @@ namespace Keyblock
   Simulation<dim>::save_and_stop(const StopRequest &request)
   {
     save();
+    if (this_team() > 0)
+      return;
     monitors->write_csv(folder + "history.csv");
     if (is_root())
       std::cout << "Stopped by a signal (" << strsignal(request.signal) << ")."
@@ -126,7 +131,10 @@ namespace Keyblock
     file.exchange("origin/entries", entries);
     unsigned int index = 0;
     file.exchange("run/stage", index);
-    std::vector<std::string> changeable = {"Title", "Output/", "Check/"};
+    std::vector<std::string> changeable = {"Title",
+                                           "Output/",
+                                           "Check/",
+                                           "Safety factor/Teams"};
     for (unsigned int s = index + 1; s < scene.stages.size(); ++s)
       changeable.push_back("Stages/" + scene.stages[s]->name + "/");
     const auto [entry, there, here] =

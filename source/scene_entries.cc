@@ -567,6 +567,12 @@ namespace Keyblock
     prm.add_parameter("Reduce rock",
                       reduces_rock,
                       "Divide the strength of mohr_coulomb rock as well.");
+    prm.add_parameter("Teams",
+                      teams,
+                      "Teams of ranks that look for the factors of different "
+                      "blocks at the same time; each team computes all stages. "
+                      "A divisor of the number of ranks.",
+                      Integer(1));
     prm.add_parameter("Method",
                       method,
                       "bisection of a bracket, or sweep: from Lowest by Sweep "

@@ -3,6 +3,7 @@
 
 #include <keyblock/block_theory.h>
 #include <keyblock/mpi.h>
+#include <keyblock/teams.h>
 
 #include <unistd.h>
 
@@ -23,6 +24,13 @@ namespace Keyblock
     , last_saved(wall_start)
   {
     scene.read(scene_file, overrides);
+    form_teams(scene.safety.teams);
+    if (this_team() > 0)
+      {
+        std::cout.setstate(std::ios::failbit); // the first team prints
+        scene.output.write_vtu           = false;
+        scene.output.checkpoint_interval = 0.;
+      }
     folder  = !output_folder.empty() ? output_folder
               : !scene.output.folder.empty()
                 ? scene.output.folder
@@ -174,6 +182,8 @@ namespace Keyblock
   void
   Simulation<dim>::open_output()
   {
+    if (this_team() > 0)
+      return;
     on_root([&]() {
       std::error_code error;
       std::filesystem::create_directories(folder, error);
@@ -314,6 +324,9 @@ namespace Keyblock
     report.contact_time   = step->contact_seconds;
     report.force_time     = step->force_seconds;
     report.capped_groups  = contact ? contact->n_capped : 0;
+    wait_for_all_teams();
+    if (this_team() > 0)
+      return;
     monitors->write_csv(folder + "history.csv");
     output->write_summary(quality,
                           report,

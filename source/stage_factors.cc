@@ -2,6 +2,7 @@
 // Blocks that fail in a stage, and the safety factors at its end.
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
+#include <keyblock/teams.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +59,30 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<unsigned int>
+  Simulation<dim>::list_wanted_blocks(const unsigned int index) const
+  {
+    const unsigned int number = index + 2;
+    std::vector<unsigned int> wanted;
+    for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+      {
+        const bool is_known =
+          std::any_of(safety_factors.begin(),
+                      safety_factors.end(),
+                      [&](const SafetyFactor &factor) {
+                        return factor.block == b &&
+                               factor.stage == scene.stages[index]->name;
+                      });
+        if (is_class_wanted(b, number) && !is_known &&
+            (removal_stage[b] == 0 || removal_stage[b] >= number))
+          wanted.push_back(b);
+      }
+    return wanted;
+  }
+
+
+
+  template <int dim>
   void
   Simulation<dim>::find_safety_factors(const unsigned int index,
                                        const Snapshot<dim> &before,
@@ -69,17 +94,10 @@ namespace Keyblock
       scene, split, blocks, *numbering, parts());
     const std::vector<unsigned int> removed = removal_stage;
     const bool was_converged                = is_converged;
-    for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+    const std::vector<unsigned int> wanted  = list_wanted_blocks(index);
+    for (unsigned int i = this_team(); i < wanted.size(); i += n_teams())
       {
-        const bool is_known =
-          std::any_of(safety_factors.begin(),
-                      safety_factors.end(),
-                      [&](const SafetyFactor &factor) {
-                        return factor.block == b && factor.stage == stage.name;
-                      });
-        if (!is_class_wanted(b, number) || is_known ||
-            (removed[b] > 0 && removed[b] < number))
-          continue;
+        const unsigned int b = wanted[i];
         typename StrengthReductionSearch<dim>::Known known;
         for (const SafetyFactor &earlier : safety_factors)
           if (earlier.block == b)
@@ -130,6 +148,12 @@ namespace Keyblock
         print_factor(result);
         count_cells();
         save_if_due();
+      }
+    wait_for_all_teams();
+    for (const SafetyFactor &theirs : gather_from_teams(safety_factors))
+      {
+        safety_factors.push_back(theirs);
+        print_factor(theirs);
       }
   }
 

@@ -9,6 +9,57 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Add @p kick / mass times all forces but those of contact to the
+     * velocities of the first @p n_nodes nodes. */
+    template <int dim, bool has_viscous, bool has_local>
+    void
+    kick_nodes(const Stage &stage,
+               const double kick,
+               const unsigned int n_nodes,
+               Fields<dim> &fields)
+    {
+      const double *const load     = fields.load.data();
+      const double *const internal = fields.internal_force.data();
+      const double *const viscous  = fields.damping_force.data();
+      const double *const contact  = fields.contact_force.data();
+      double *const velocity       = fields.velocity.data();
+      double *const local          = fields.local_damping.data();
+      for (unsigned int node = 0; node < n_nodes; ++node)
+        {
+          const double mass   = fields.mass[node];
+          const double factor = kick * fields.inverse_mass[node];
+          // the contact step damps clusters itself
+          const double alpha =
+            stage.damps_contact_force && fields.is_in_cluster[node]
+              ? 0.
+              : stage.local_damping;
+          for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+            {
+              const double old = velocity[i];
+              double force     = load[i] - internal[i];
+              if (has_viscous)
+                force -= viscous[i];
+              force -= stage.mass_damping * mass * old;
+              double change = factor * force;
+              if (has_local)
+                {
+                  const double total =
+                    stage.damps_contact_force ? force + contact[i] : force;
+                  const double damping =
+                    local_damping_change(old, factor * total, alpha);
+                  local[i] = mass * damping;
+                  change += damping;
+                }
+              velocity[i] = old + change;
+            }
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   ExplicitStep<dim>::ExplicitStep(const Scene<dim> &scene,
                                   const SplitMesh<dim> &split,
@@ -274,39 +325,14 @@ namespace Keyblock
   {
     conditions.set_load(time);
     fields.old_velocity    = fields.velocity;
+    const unsigned int n   = numbering.n_owned();
     const bool has_viscous = stage.damping_ratio > 0.;
-    const double alpha     = stage.local_damping;
-    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
-      {
-        const double factor = kick * fields.inverse_mass[node];
-        for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
-          {
-            double force = fields.load[i] - fields.internal_force[i];
-            if (has_viscous)
-              force -= fields.damping_force[i];
-            if (stage.mass_damping > 0.)
-              force -=
-                stage.mass_damping * fields.mass[node] * fields.old_velocity[i];
-            if (alpha > 0.)
-              {
-                fields.local_damping[i] = 0.;
-                if (!(fields.is_in_cluster[node] &&
-                      stage.damps_contact_force) &&
-                    factor > 0.)
-                  {
-                    const double contact_force =
-                      stage.damps_contact_force ? fields.contact_force[i] : 0.;
-                    const double change =
-                      local_damping_change(fields.velocity[i],
-                                           factor * (force + contact_force),
-                                           alpha);
-                    fields.local_damping[i] = fields.mass[node] * change;
-                    force += change / factor;
-                  }
-              }
-            fields.velocity[i] += factor * force;
-          }
-      }
+    if (stage.local_damping > 0.)
+      has_viscous ? kick_nodes<dim, true, true>(stage, kick, n, fields)
+                  : kick_nodes<dim, false, true>(stage, kick, n, fields);
+    else
+      has_viscous ? kick_nodes<dim, true, false>(stage, kick, n, fields)
+                  : kick_nodes<dim, false, false>(stage, kick, n, fields);
     conditions.apply_supports(time, dt);
     numbering.update_ghosts(fields.velocity);
   }

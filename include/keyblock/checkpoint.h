@@ -68,6 +68,11 @@ namespace Keyblock
                 std::vector<SafetyFactor> &factors);
   void exchange(StateFile &file, const std::string &group, History &history);
 
+  /** Factors that other teams found and that are not among @p mine yet, by
+   * block (collective over all ranks of all teams). */
+  std::vector<SafetyFactor>
+  gather_from_teams(const std::vector<SafetyFactor> &mine);
+
   /** A number that changes with the vertices, cells and pairs of a mesh, as
    * text. */
   template <int dim>

@@ -4,6 +4,7 @@
 
 #include <keyblock/contact_law.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Keyblock
@@ -21,8 +22,7 @@ namespace Keyblock
                        const double total,
                        const double alpha)
   {
-    return -std::copysign(std::fmin(alpha * std::fabs(total),
-                                    std::fabs(velocity)),
+    return -std::copysign(std::min(std::abs(velocity), alpha * std::abs(total)),
                           velocity);
   }
 

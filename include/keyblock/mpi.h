@@ -12,12 +12,9 @@
 
 namespace Keyblock
 {
-  /** All ranks of the run. */
-  inline MPI_Comm
-  world()
-  {
-    return MPI_COMM_WORLD;
-  }
+  /** All ranks that share this mesh: those of the run, or of this rank's team
+   * (teams.h). */
+  MPI_Comm world();
 
   inline bool
   is_root()

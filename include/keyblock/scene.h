@@ -331,6 +331,7 @@ namespace Keyblock
     double reach               = 3.;
     std::vector<double> seismic_coefficient;
     double removal_slip = 0.05;
+    unsigned int teams  = 1;
 
     bool
     is_wanted() const

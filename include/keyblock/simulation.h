@@ -112,6 +112,9 @@ namespace Keyblock
     void solve_stage();
     /** Whether any was there to be removed. */
     bool remove_failed_blocks(const Stage &stage, const unsigned int index);
+    /** Blocks whose factor after a stage is wanted and not known. */
+    std::vector<unsigned int>
+    list_wanted_blocks(const unsigned int index) const;
     void find_safety_factors(const unsigned int index,
                              const Snapshot<dim> &before,
                              const Snapshot<dim> &after);

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/teams.h>
+
+#include <keyblock/mpi.h>
+#include <keyblock/stop_request.h>
+
+#include <chrono>
+#include <thread>
+
+namespace Keyblock
+{
+  namespace
+  {
+    MPI_Comm team           = MPI_COMM_WORLD;
+    unsigned int team_count = 1;
+    unsigned int my_team    = 0;
+  } // namespace
+
+
+
+  MPI_Comm
+  world()
+  {
+    return team;
+  }
+
+
+
+  void
+  form_teams(const unsigned int wanted)
+  {
+    const unsigned int n_all =
+      dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    const unsigned int rank =
+      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    AssertThrow(n_all % wanted == 0,
+                InputError("The entry 'Safety factor/Teams' is " +
+                           std::to_string(wanted) + ", and the run has " +
+                           std::to_string(n_all) +
+                           " ranks, which cannot be shared out evenly; give "
+                           "a divisor of the number of ranks."));
+    if (team != MPI_COMM_WORLD)
+      MPI_Comm_free(&team);
+    team       = MPI_COMM_WORLD;
+    team_count = wanted;
+    my_team    = rank / (n_all / wanted);
+    if (wanted > 1)
+      MPI_Comm_split(MPI_COMM_WORLD, my_team, rank, &team);
+  }
+
+
+
+  unsigned int
+  n_teams()
+  {
+    return team_count;
+  }
+
+
+
+  unsigned int
+  this_team()
+  {
+    return my_team;
+  }
+
+
+
+  void
+  wait_for_all_teams()
+  {
+    if (team_count == 1)
+      return;
+    MPI_Request request;
+    MPI_Ibarrier(MPI_COMM_WORLD, &request);
+    for (int is_complete = 0; !is_complete;)
+      {
+        MPI_Test(&request, &is_complete, MPI_STATUS_IGNORE);
+        if (!is_complete)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (!is_complete && signal_received())
+          throw StopRequest{signal_received()};
+      }
+  }
+} // namespace Keyblock
