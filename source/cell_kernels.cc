@@ -204,11 +204,12 @@ namespace Keyblock
 
       /** Values of @p field at the vertices of the cells @p nodes points to. */
       template <int dim, typename Number>
-      KEYBLOCK_ALWAYS_INLINE AtVertices<dim, Number>
-      gather(const Nodes<dim> *nodes, const double *field)
+      KEYBLOCK_ALWAYS_INLINE void
+      gather(const Nodes<dim> *nodes,
+             const double *field,
+             AtVertices<dim, Number> &x)
       {
         constexpr int width = n_lanes<Number>;
-        AtVertices<dim, Number> x;
         for (int a = 0; a < (1 << dim); ++a)
           if constexpr (dim == 2 && width > 1)
             gather_pairs(nodes, a, field, x.value[a][0], x.value[a][1]);
@@ -219,7 +220,6 @@ namespace Keyblock
                   return field[dim * nodes[l][a] + d];
                 },
                 std::make_index_sequence<width>());
-        return x;
       }
 
       /** Add @p force to @p field at the vertices. */
@@ -288,10 +288,10 @@ namespace Keyblock
       }
 
       template <int dim, typename Number>
-      KEYBLOCK_ALWAYS_INLINE AlongEdges<dim, Number>
-      differentiate(const AtVertices<dim, Number> &x)
+      KEYBLOCK_ALWAYS_INLINE void
+      differentiate(const AtVertices<dim, Number> &x,
+                    AlongEdges<dim, Number> &result)
       {
-        AlongEdges<dim, Number> result;
         for (int d = 0; d < dim; ++d)
           for (int i = 0; i < dim; ++i)
             {
@@ -303,13 +303,15 @@ namespace Keyblock
                 }
               interpolate<dim>(result.value[d][i]);
             }
-        return result;
       }
 
-      /** Forces at the vertices of fluxes along the axes: the transpose. */
+      /** Add the forces of fluxes along the axes, which are overwritten, at the
+       * vertices: the transpose. */
       template <int dim, typename Number>
-      KEYBLOCK_ALWAYS_INLINE AtVertices<dim, Number>
-      sum_to_vertices(AlongEdges<dim, Number> flux)
+      KEYBLOCK_ALWAYS_INLINE void
+      scatter_flux(const Nodes<dim> *nodes,
+                   AlongEdges<dim, Number> &flux,
+                   double *field)
       {
         AtVertices<dim, Number> force;
         for (int d = 0; d < dim; ++d)
@@ -326,7 +328,7 @@ namespace Keyblock
                   high           = d == 0 ? f : high + f;
                 }
             }
-        return force;
+        scatter<dim>(nodes, force, field);
       }
 
       /** Cofactors of the Jacobian at a point (gradients of the unit cell's
@@ -673,29 +675,53 @@ namespace Keyblock
                 Kind kind,
                 typename Number>
       KEYBLOCK_ALWAYS_INLINE void
+      integrate(const Batch<dim, Number> &batch,
+                const AlongEdges<dim, Number> &middle,
+                const AlongEdges<dim, Number> &end,
+                const AlongEdges<dim, Number> &rate,
+                Fluxes<dim, Number> &flux)
+      {
+        if constexpr (kind == Kind::elastic)
+          integrate_points<dim, is_large, has_damping>(
+            batch, middle, end, rate, flux);
+        else
+          integrate_averaged_points<dim, is_large, has_damping, kind>(
+            batch, middle, end, rate, flux);
+      }
+
+      template <int dim,
+                bool is_large,
+                bool has_damping,
+                Kind kind,
+                typename Number>
+      KEYBLOCK_ALWAYS_INLINE void
       work_on(const CellPass<dim> &pass, const unsigned int first)
       {
         const Batch<dim, Number> batch(pass, first);
         const Nodes<dim> *nodes = pass.nodes + first;
-        const auto v            = gather<dim, Number>(nodes, pass.rate);
-        auto x                  = gather<dim, Number>(nodes, pass.position);
-        const auto end          = differentiate<dim>(x);
-        if constexpr (is_large)
-          for (int a = 0; a < (1 << dim); ++a)
-            for (int d = 0; d < dim; ++d)
-              x.value[a][d] -= 0.5 * pass.step * v.value[a][d];
-        const auto middle = is_large ? differentiate<dim>(x) : end;
-        const auto rate   = differentiate<dim>(v);
+        AtVertices<dim, Number> v, x;
+        gather<dim>(nodes, pass.rate, v);
+        gather<dim>(nodes, pass.position, x);
+        AlongEdges<dim, Number> rate, end;
+        differentiate<dim>(v, rate);
+        differentiate<dim>(x, end);
         Fluxes<dim, Number> flux;
-        if constexpr (kind == Kind::elastic)
-          integrate_points<dim, is_large, has_damping, Number>(
-            batch, middle, end, rate, flux);
+        if constexpr (is_large)
+          {
+            for (int a = 0; a < (1 << dim); ++a)
+              for (int d = 0; d < dim; ++d)
+                x.value[a][d] -= 0.5 * pass.step * v.value[a][d];
+            AlongEdges<dim, Number> middle;
+            differentiate<dim>(x, middle);
+            integrate<dim, is_large, has_damping, kind>(
+              batch, middle, end, rate, flux);
+          }
         else
-          integrate_averaged_points<dim, is_large, has_damping, kind, Number>(
-            batch, middle, end, rate, flux);
-        scatter<dim>(nodes, sum_to_vertices<dim>(flux.internal), pass.internal);
+          integrate<dim, is_large, has_damping, kind>(
+            batch, end, end, rate, flux);
+        scatter_flux<dim>(nodes, flux.internal, pass.internal);
         if constexpr (has_damping)
-          scatter<dim>(nodes, sum_to_vertices<dim>(flux.damping), pass.damping);
+          scatter_flux<dim>(nodes, flux.damping, pass.damping);
       }
 
       /** Whole batches together; cells before and behind them one by one. */

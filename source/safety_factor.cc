@@ -211,7 +211,9 @@ namespace Keyblock
     do
       {
         // on either side of the guess, then further and further from it
-        for (; search.stable == 0. || search.unstable == 0.; spread *= 4.)
+        for (bool is_first = true;
+             is_first || search.stable == 0. || search.unstable == 0.;
+             spread *= 4., is_first = false)
           {
             if (search.stable >= settings.highest)
               return Outcome::immovable;
@@ -221,7 +223,7 @@ namespace Keyblock
               std::max(settings.lowest, middle / (1. + spread));
             const double above =
               std::min(settings.highest, middle * (1. + spread));
-            if (search.stable == 0. && search.is_open(below))
+            if ((is_first || search.stable == 0.) && search.is_open(below))
               search.holds_at(below);
             if (search.unstable == 0. && search.is_open(above))
               search.holds_at(above);

@@ -436,6 +436,15 @@ namespace Keyblock
           is_free && fields.mass[node] > 0. ? 1. / fields.mass[node] : 0.;
       }
     hold_frozen_nodes();
+    fields.free_nodes.clear();
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      if (fields.inverse_mass[node] > 0.)
+        {
+          if (fields.free_nodes.empty() ||
+              fields.free_nodes.back().second != node)
+            fields.free_nodes.emplace_back(node, node);
+          ++fields.free_nodes.back().second;
+        }
     stable_step = true_step;
     if (is_scaled)
       stable_step.frequency = lowest_frequency;

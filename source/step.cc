@@ -12,13 +12,10 @@ namespace Keyblock
   namespace
   {
     /** Add @p kick / mass times all forces but those of contact to the
-     * velocities of the first @p n_nodes nodes. */
+     * velocities of the nodes that are free to move. */
     template <int dim, bool has_viscous, bool has_local>
     void
-    kick_nodes(const Stage &stage,
-               const double kick,
-               const unsigned int n_nodes,
-               Fields<dim> &fields)
+    kick_nodes(const Stage &stage, const double kick, Fields<dim> &fields)
     {
       const double *const load     = fields.load.data();
       const double *const internal = fields.internal_force.data();
@@ -26,35 +23,43 @@ namespace Keyblock
       const double *const contact  = fields.contact_force.data();
       double *const velocity       = fields.velocity.data();
       double *const local          = fields.local_damping.data();
-      for (unsigned int node = 0; node < n_nodes; ++node)
-        {
-          const double mass   = fields.mass[node];
-          const double factor = kick * fields.inverse_mass[node];
-          // the contact step damps clusters itself
-          const double alpha =
-            stage.damps_contact_force && fields.is_in_cluster[node]
-              ? 0.
-              : stage.local_damping;
-          for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
-            {
-              const double old = velocity[i];
-              double force     = load[i] - internal[i];
-              if (has_viscous)
-                force -= viscous[i];
-              force -= stage.mass_damping * mass * old;
-              double change = factor * force;
-              if (has_local)
-                {
-                  const double total =
-                    stage.damps_contact_force ? force + contact[i] : force;
-                  const double damping =
-                    local_damping_change(old, factor * total, alpha);
-                  local[i] = mass * damping;
-                  change += damping;
-                }
-              velocity[i] = old + change;
-            }
-        }
+      const double contact_share   = stage.damps_contact_force ? 1. : 0.;
+      for (const auto &[begin, end] : fields.free_nodes)
+        for (unsigned int node = begin; node < end; ++node)
+          {
+            const unsigned int i = dim * node;
+            const double mass    = fields.mass[node];
+            const double factor  = kick * fields.inverse_mass[node];
+            const double drag    = stage.mass_damping * mass;
+            // the contact step damps clusters itself
+            const double alpha =
+              stage.damps_contact_force && fields.is_in_cluster[node]
+                ? 0.
+                : stage.local_damping;
+            // read everything before anything is written
+            double old[dim], force[dim], change[dim], damping[dim];
+            for (int d = 0; d < dim; ++d)
+              {
+                old[d]   = velocity[i + d];
+                force[d] = load[i + d] - internal[i + d] - drag * old[d];
+                if (has_viscous)
+                  force[d] -= viscous[i + d];
+                change[d] = factor * force[d];
+                if (has_local)
+                  {
+                    force[d] += contact_share * contact[i + d];
+                    damping[d] =
+                      local_damping_change(old[d], factor * force[d], alpha);
+                    change[d] += damping[d];
+                  }
+              }
+            for (int d = 0; d < dim; ++d)
+              {
+                velocity[i + d] = old[d] + change[d];
+                if (has_local)
+                  local[i + d] = mass * damping[d];
+              }
+          }
     }
   } // namespace
 
@@ -68,7 +73,8 @@ namespace Keyblock
                                   CellArrays<dim> &cells,
                                   Fields<dim> &fields,
                                   Contact<dim> *contact)
-    : scene(scene)
+    : keeps_ledger(scene.time_stepping.ledger)
+    , scene(scene)
     , split(split)
     , numbering(numbering)
     , conditions(conditions)
@@ -260,7 +266,7 @@ namespace Keyblock
     compute_internal_force();
     predict();
     resolve_contact();
-    if (scene.time_stepping.ledger)
+    if (keeps_ledger)
       book_work();
     if (sample)
       {
@@ -325,14 +331,13 @@ namespace Keyblock
   {
     conditions.set_load(time);
     fields.old_velocity    = fields.velocity;
-    const unsigned int n   = numbering.n_owned();
     const bool has_viscous = stage.damping_ratio > 0.;
     if (stage.local_damping > 0.)
-      has_viscous ? kick_nodes<dim, true, true>(stage, kick, n, fields)
-                  : kick_nodes<dim, false, true>(stage, kick, n, fields);
+      has_viscous ? kick_nodes<dim, true, true>(stage, kick, fields)
+                  : kick_nodes<dim, false, true>(stage, kick, fields);
     else
-      has_viscous ? kick_nodes<dim, true, false>(stage, kick, n, fields)
-                  : kick_nodes<dim, false, false>(stage, kick, n, fields);
+      has_viscous ? kick_nodes<dim, true, false>(stage, kick, fields)
+                  : kick_nodes<dim, false, false>(stage, kick, fields);
     conditions.apply_supports(time, dt);
     numbering.update_ghosts(fields.velocity);
   }
@@ -350,7 +355,7 @@ namespace Keyblock
                     dt,
                     stage.damps_contact_force ? stage.local_damping : 0.,
                     scene.time_stepping.is_large(),
-                    scene.time_stepping.ledger,
+                    keeps_ledger,
                     conditions.ramp_share_left()});
     contact_seconds += MPI_Wtime() - start;
   }

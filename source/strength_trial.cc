@@ -376,6 +376,8 @@ namespace Keyblock
     if (!scene.safety.true_masses)
       moving.kind = "quasi-static";
 
+    const bool keeps_ledger = run.step.keeps_ledger;
+    run.step.keeps_ledger   = false;
     run.step.begin_stage(quiet, number);
     change_strength(block, trial);
     Verdict verdict = Verdict::open;
@@ -395,6 +397,7 @@ namespace Keyblock
         run.step.begin_stage(moving, number);
         verdict = watch(block, first, trial);
       }
+    run.step.keeps_ledger = keeps_ledger;
     trial.is_stable =
       verdict == Verdict::holds ||
       (verdict == Verdict::open &&

@@ -56,6 +56,10 @@ namespace Keyblock
     std::vector<double> weighing_mass; ///< the true one [kg]
     std::vector<double> inverse_mass;  ///< one per node [1/kg]
 
+    /** Owned nodes with an inverse mass, as ranges: first, one past the last.
+     */
+    std::vector<std::pair<unsigned int, unsigned int>> free_nodes;
+
     /** One per node: held by a cluster, whose solve applies the damping. */
     std::vector<unsigned char> is_in_cluster;
 

@@ -161,6 +161,9 @@ namespace Keyblock
     /** Measure unbalanced_ratio and largest_nodal_ratio (collective). */
     void sample_unbalanced_force();
 
+    /** Whether the work of all forces is added up. */
+    bool keeps_ledger;
+
     double contact_seconds = 0.; ///< wall time spent in contact
     double force_seconds   = 0.; ///< wall time spent in cell forces
 
