@@ -160,7 +160,7 @@ namespace Keyblock
       Search search(*this, block, number, known, result.trials);
       result.outcome = scene.safety.method == "sweep"
                          ? sweep(search)
-                         : bisect(search, known.hint);
+                         : bisect(search, known.hint, known.onset);
       result.lower   = search.stable;
       result.upper   = search.unstable;
       search.finish();
@@ -195,11 +195,19 @@ namespace Keyblock
 
   template <int dim>
   SafetyFactor::Outcome
-  StrengthReductionSearch<dim>::bisect(Search &search, const double hint) const
+  StrengthReductionSearch<dim>::bisect(Search &search,
+                                       double hint,
+                                       const double onset) const
   {
     using Outcome                  = SafetyFactor::Outcome;
     const SafetySettings &settings = scene.safety;
     double spread                  = 0.4 * settings.bracket;
+    // a block that slips at the onset may be caught by its neighbour further
+    // on: the guess must not jump over that
+    if (onset > (1. + settings.bracket) * search.stable &&
+        (hint == 0. || onset < hint / (1. + settings.bracket)) &&
+        !search.holds_at(onset * (1. + spread)))
+      hint = onset;
     double middle = hint > 0. ? hint : std::max(1., search.stable);
     if (hint == 0.)
       {

@@ -130,6 +130,8 @@ namespace Keyblock
               known.stable = 1.;
             SafetyFactor cheap;
             search.add_cheap_answers(b, cheap);
+            if (known.stable > 0.)
+              known.onset = cheap.stress_ratio;
             if (known.hint == 0. && known.stable > 0. &&
                 std::isfinite(cheap.limit_factor) && cheap.stress_ratio > 1.)
               known.hint = cheap.stress_ratio;

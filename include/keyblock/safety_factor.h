@@ -60,6 +60,7 @@ namespace Keyblock
       double stable   = 0.; ///< a factor at which the block holds
       double unstable = 0.; ///< one at which it fails
       double hint     = 0.; ///< a guess
+      double onset    = 0.; ///< at which present forces exceed the strength
       double start    = 1.; ///< factor of the equilibrium to start from
     };
 
@@ -82,7 +83,8 @@ namespace Keyblock
      * is anything to leave. */
     bool freeze_beyond_reach(const unsigned int block);
 
-    SafetyFactor::Outcome bisect(Search &search, const double hint) const;
+    SafetyFactor::Outcome
+    bisect(Search &search, double hint, const double onset) const;
     SafetyFactor::Outcome sweep(Search &search) const;
 
     const Scene<dim> &scene;
