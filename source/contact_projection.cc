@@ -11,7 +11,7 @@ namespace Keyblock
   namespace
   {
     /** Weights of bilinear interpolation at (s, t). */
-    std::array<double, 4>
+    inline std::array<double, 4>
     bilinear_weights(const double s, const double t)
     {
       return {{(1. - s) * (1. - t), s * (1. - t), (1. - s) * t, s * t}};
@@ -19,7 +19,7 @@ namespace Keyblock
 
     /** sum of weights times corners */
     template <int dim, std::size_t n>
-    Vector<dim>
+    inline Vector<dim>
     combine(const std::array<Vector<dim>, n> &corner,
             const std::array<double, n> &weight)
     {
@@ -54,6 +54,35 @@ namespace Keyblock
       return {{s, t}};
     }
 
+    /** Whether a projection of @p p on the face with corners @p x could be
+     * inside, or nearer than @p reach, with a gap of at most @p reach. Errs on
+     * the safe side where the face is warped. */
+    bool
+    could_touch(const std::array<Vector<3>, 4> &x,
+                const Vector<3> &p,
+                const double reach)
+    {
+      const Vector<3> center = combine<3, 4>(x, {{0.25, 0.25, 0.25, 0.25}});
+      const Vector<3> normal =
+        unit<3>(cross(difference<3>(x[3], x[0]), difference<3>(x[2], x[1])));
+      double radius = 0., warp = 0.;
+      for (const Vector<3> &corner : x)
+        {
+          const Vector<3> arm = difference<3>(corner, center);
+          radius              = std::max(radius, dot<3>(arm, arm));
+          warp                = std::max(warp, std::abs(dot<3>(arm, normal)));
+        }
+      radius                 = std::sqrt(radius);
+      const Vector<3> arm    = difference<3>(p, center);
+      const double height    = dot<3>(arm, normal);
+      const double sideways2 = dot<3>(arm, arm) - height * height;
+      const double margin =
+        1.01 * radius + reach +
+        0.5 * std::abs(height) * std::min(1., warp / radius);
+      return height <= reach + 3. * warp + 1e-9 * radius &&
+             sideways2 <= margin * margin;
+    }
+
     constexpr double inside_tolerance = 1e-9;
 
     bool
@@ -66,16 +95,27 @@ namespace Keyblock
 
 
   template <int dim>
+  std::array<Vector<dim>, Mesh<dim>::n_face_vertices>
+  ContactSearch<dim>::corners_of(const std::vector<double> &position,
+                                 const unsigned int face) const
+  {
+    std::array<Vector<dim>, Mesh<dim>::n_face_vertices> corners;
+    for (unsigned int v = 0; v < corners.size(); ++v)
+      corners[v] = at<dim>(position, face_slots[face][v]);
+    return corners;
+  }
+
+
+
+  template <int dim>
   typename ContactSearch<dim>::Projection
   ContactSearch<dim>::project(const std::vector<double> &position,
                               const unsigned int slave,
                               const unsigned int face) const
   {
     constexpr unsigned int n = Mesh<dim>::n_face_vertices;
-    std::array<Vector<dim>, n> x;
-    for (unsigned int v = 0; v < n; ++v)
-      x[v] = at<dim>(position, face_slots[face][v]);
-    const Vector<dim> p = at<dim>(position, slave);
+    const auto x             = corners_of(position, face);
+    const Vector<dim> p      = at<dim>(position, slave);
 
     Projection result;
     result.face = face;
@@ -210,6 +250,11 @@ namespace Keyblock
     };
     for (const unsigned int f : candidate.faces)
       {
+        if constexpr (dim == 3)
+          if (!could_touch(corners_of(position, f),
+                           at<dim>(position, candidate.slave),
+                           reach))
+            continue;
         const Projection projection = project(position, candidate.slave, f);
         if (projection.gap > reach || projection.gap < -0.5 * projection.size ||
             is_covered_by_pair(projection))

@@ -106,6 +106,8 @@ namespace Keyblock
             result.mesh.cells.push_back(mesh.cells[c]);
             result.mesh.region.push_back(mesh.region[c]);
             result.mesh.material.push_back(mesh.material[c]);
+            if (!mesh.later_materials.empty())
+              result.mesh.later_materials.push_back(mesh.later_materials[c]);
             result.mesh.joint.push_back(mesh.joint[c]);
             result.mesh.boundary.push_back(mesh.boundary[c]);
             result.mesh.boundary_id.push_back(mesh.boundary_id[c]);

@@ -138,7 +138,13 @@ namespace Keyblock
                 (!is_id && !is_band &&
                  inside.value(mesh.cell_center(c), 0., 0) > 0.))
               {
-                mesh.material[c] = m;
+                if (scene.materials[m]->stage.empty())
+                  mesh.material[c] = m;
+                else
+                  {
+                    mesh.later_materials.resize(mesh.n_cells());
+                    mesh.later_materials[c].push_back(m);
+                  }
                 ++n_hits;
               }
           AssertThrow(n_hits > 0,
@@ -156,6 +162,16 @@ namespace Keyblock
                       dealii::Utilities::to_string(mesh.cell_center(c)[1]) +
                       " has no material; extend one of the entries "
                       "'Materials/*/Region', for example the first to all."));
+      for (unsigned int c = 0; c < mesh.later_materials.size(); ++c)
+        for (const unsigned int later : mesh.later_materials[c])
+          AssertThrow(!scene.materials[mesh.material[c]]->is_rigid(),
+                      InputError("The entry 'Materials/" +
+                                 scene.materials[later]->name +
+                                 "/Region' contains cells of the rigid "
+                                 "material '" +
+                                 scene.materials[mesh.material[c]]->name +
+                                 "', which cannot change; restrict it to "
+                                 "deformable ones."));
     }
 
 

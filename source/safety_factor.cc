@@ -195,11 +195,38 @@ namespace Keyblock
 
   template <int dim>
   SafetyFactor::Outcome
+  StrengthReductionSearch<dim>::find_bracket(Search &search,
+                                             const double middle,
+                                             double spread) const
+  {
+    using Outcome                  = SafetyFactor::Outcome;
+    const SafetySettings &settings = scene.safety;
+    for (bool is_first = true;
+         is_first || search.stable == 0. || search.unstable == 0.;
+         spread *= 4., is_first = false)
+      {
+        if (search.stable >= settings.highest)
+          return Outcome::immovable;
+        if (search.unstable > 0. && search.unstable <= settings.lowest)
+          return Outcome::falls_freely;
+        const double below = std::max(settings.lowest, middle / (1. + spread));
+        const double above = std::min(settings.highest, middle * (1. + spread));
+        if ((is_first || search.stable == 0.) && search.is_open(below))
+          search.holds_at(below);
+        if (search.unstable == 0. && search.is_open(above))
+          search.holds_at(above);
+      }
+    return Outcome::bracketed;
+  }
+
+
+
+  template <int dim>
+  SafetyFactor::Outcome
   StrengthReductionSearch<dim>::bisect(Search &search,
                                        double hint,
                                        const double onset) const
   {
-    using Outcome                  = SafetyFactor::Outcome;
     const SafetySettings &settings = scene.safety;
     double spread                  = 0.4 * settings.bracket;
     // a block that slips at the onset may be caught by its neighbour further
@@ -208,43 +235,28 @@ namespace Keyblock
         (hint == 0. || onset < hint / (1. + settings.bracket)) &&
         !search.holds_at(onset * (1. + spread)))
       hint = onset;
-    double middle = hint > 0. ? hint : std::max(1., search.stable);
     if (hint == 0.)
       {
         // nothing to go by: most such blocks cannot move at all
+        hint   = std::max(1., search.stable);
         spread = 0.5;
         if (search.stable > 0. && search.unstable == 0.)
           search.holds_at(settings.highest);
       }
     do
       {
-        // on either side of the guess, then further and further from it
-        for (bool is_first = true;
-             is_first || search.stable == 0. || search.unstable == 0.;
-             spread *= 4., is_first = false)
-          {
-            if (search.stable >= settings.highest)
-              return Outcome::immovable;
-            if (search.unstable > 0. && search.unstable <= settings.lowest)
-              return Outcome::falls_freely;
-            const double below =
-              std::max(settings.lowest, middle / (1. + spread));
-            const double above =
-              std::min(settings.highest, middle * (1. + spread));
-            if ((is_first || search.stable == 0.) && search.is_open(below))
-              search.holds_at(below);
-            if (search.unstable == 0. && search.is_open(above))
-              search.holds_at(above);
-          }
+        const auto outcome = find_bracket(search, hint, spread);
+        if (outcome != SafetyFactor::Outcome::bracketed)
+          return outcome;
         while (search.unstable - search.stable >
                settings.bracket * search.unstable)
           search.holds_at(search.unstable > 2. * search.stable
                             ? std::sqrt(search.stable * search.unstable)
                             : 0.5 * (search.stable + search.unstable));
-        middle = search.unstable;
+        hint   = search.unstable;
         spread = settings.bracket;
     } while (!search.confirm());
-    return Outcome::bracketed;
+    return SafetyFactor::Outcome::bracketed;
   }
 
 

@@ -294,6 +294,25 @@ namespace Keyblock
                   traction->stage +
                   "', which is not in 'Stages/Names'; name a stage there, or "
                   "start.");
+      for (const auto &material : scene.materials)
+        {
+          if (material->stage.empty())
+            continue;
+          require(material->stage != "start" &&
+                    scene.stage_number(material->stage) <
+                      scene.stages.size() + 2,
+                  "The entry 'Materials/" + material->name + "/Stage' is '" +
+                    material->stage +
+                    "', which is not in 'Stages/Names'; name a stage there, "
+                    "or leave it empty for the start.");
+          require(!material->is_rigid(),
+                  "The material '" + material->name +
+                    "' is rigid and takes its region in a later stage ("
+                    "'Materials/" +
+                    material->name +
+                    "/Stage'), which only deformable materials can; change "
+                    "its 'Model'.");
+        }
       for (const auto &excavation : scene.excavations)
         {
           if (excavation->backfill_stage.empty())

@@ -212,6 +212,11 @@ namespace Keyblock
       "in x, y (z) that is positive at the cell centres "
       "inside; or `band A B` for the rock between the joints A and B. Later "
       "materials overwrite earlier ones.");
+    prm.add_parameter("Stage",
+                      stage,
+                      "The stage from which on it takes the place of what its "
+                      "region was made of; stresses stay as they are. Empty: "
+                      "from the start.");
     prm.add_parameter(
       "Model",
       model,

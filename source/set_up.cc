@@ -164,11 +164,26 @@ namespace Keyblock
   unsigned int
   Conditions<dim>::material_of(const unsigned int mesh_cell) const
   {
-    return is_filled(mesh_cell)
-             ? scene.material_index(
-                 scene.excavations[split.mesh.excavation[mesh_cell]]
-                   ->backfill_material)
-             : split.mesh.material[mesh_cell];
+    unsigned int material = split.mesh.material[mesh_cell], since = 0;
+    if (is_filled(mesh_cell))
+      {
+        const Excavation<dim> &excavation =
+          *scene.excavations[split.mesh.excavation[mesh_cell]];
+        material = scene.material_index(excavation.backfill_material);
+        since    = scene.stage_number(excavation.backfill_stage);
+      }
+    if (!split.mesh.later_materials.empty())
+      for (const unsigned int later : split.mesh.later_materials[mesh_cell])
+        {
+          const unsigned int from =
+            scene.stage_number(scene.materials[later]->stage);
+          if (from <= stage_number && from >= since)
+            {
+              material = later;
+              since    = from;
+            }
+        }
+    return material;
   }
 
 
@@ -184,6 +199,10 @@ namespace Keyblock
         return true;
     for (const auto &traction : scene.tractions)
       if (scene.stage_number(traction->stage) == number)
+        return true;
+    for (const auto &material : scene.materials)
+      if (!material->stage.empty() &&
+          scene.stage_number(material->stage) == number)
         return true;
     return false;
   }
@@ -314,7 +333,7 @@ namespace Keyblock
             cells.strength.push_back(m);
             for (unsigned int q = 0; q < (1 << dim); ++q)
               cells.plastic_strain.push_back(
-                before == none
+                before == none || before < old_plastic
                   ? 0.
                   : old
                       .plastic_strain[(before - old_plastic) * (1 << dim) + q]);

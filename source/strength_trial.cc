@@ -347,6 +347,63 @@ namespace Keyblock
 
 
   template <int dim>
+  Stage
+  StrengthTrials<dim>::quiet_stage(const unsigned int block) const
+  {
+    Stage quiet;
+    quiet.kind          = "quasi-static";
+    quiet.local_damping = scene.safety.local_damping;
+    quiet.damping_ratio = scene.safety.damping_ratio;
+    // critical for the block's lowest mode: 2 omega
+    run.conditions.scale_density(true);
+    quiet.mass_damping = scene.safety.mass_damping * dealii::numbers::PI /
+                         (2. * n_across(block)) *
+                         run.conditions.stable_step.frequency;
+    return quiet;
+  }
+
+
+
+  template <int dim>
+  typename StrengthTrials<dim>::Verdict
+  StrengthTrials<dim>::decide(const unsigned int block,
+                              const unsigned int number,
+                              const Vector<dim> &first,
+                              Trial &trial)
+  {
+    const Stage quiet = quiet_stage(block);
+    Stage moving;
+    moving.damping_ratio = scene.safety.damping_ratio;
+    moving.reset_motion  = true;
+    if (!scene.safety.true_masses)
+      moving.kind = "quasi-static";
+
+    run.step.begin_stage(quiet, number);
+    change_strength(block, trial);
+    for (unsigned int round = 0; round < n_rounds; ++round)
+      {
+        const double begin = MPI_Wtime();
+        trial.phase        = 1;
+        if (round > 0)
+          run.step.begin_stage(quiet, number);
+        const bool rests = settle(block, first, trial);
+        trial.phase_1_seconds += MPI_Wtime() - begin;
+        if (rests)
+          return Verdict::holds;
+        trial.phase = 2;
+        run.step.begin_stage(moving, number);
+        const Verdict verdict = watch(block, first, trial);
+        if (verdict != Verdict::open)
+          return verdict;
+      }
+    return trial.acceleration <= 0. || is_as_good_as_at_rest(trial)
+             ? Verdict::holds
+             : Verdict::fails;
+  }
+
+
+
+  template <int dim>
   Trial
   StrengthTrials<dim>::try_factor(const unsigned int block,
                                   const unsigned int number,
@@ -360,48 +417,11 @@ namespace Keyblock
     trial.start  = start;
     reduce(block, start);
     run.conditions.scale_density(false);
-    const double true_mass = mass_in_use(block);
-    Stage quiet;
-    quiet.kind          = "quasi-static";
-    quiet.local_damping = scene.safety.local_damping;
-    quiet.damping_ratio = scene.safety.damping_ratio;
-    // critical for the block's lowest mode: 2 omega
-    run.conditions.scale_density(true);
-    quiet.mass_damping = scene.safety.mass_damping * dealii::numbers::PI /
-                         (2. * n_across(block)) *
-                         run.conditions.stable_step.frequency;
-    Stage moving;
-    moving.damping_ratio = scene.safety.damping_ratio;
-    moving.reset_motion  = true;
-    if (!scene.safety.true_masses)
-      moving.kind = "quasi-static";
-
+    const double true_mass  = mass_in_use(block);
     const bool keeps_ledger = run.step.keeps_ledger;
     run.step.keeps_ledger   = false;
-    run.step.begin_stage(quiet, number);
-    change_strength(block, trial);
-    Verdict verdict = Verdict::open;
-    for (unsigned int round = 0; verdict == Verdict::open && round < n_rounds;
-         ++round)
-      {
-        const double round_begin = MPI_Wtime();
-        trial.phase              = 1;
-        if (round > 0)
-          run.step.begin_stage(quiet, number);
-        if (settle(block, first, trial))
-          verdict = Verdict::holds;
-        trial.phase_1_seconds += MPI_Wtime() - round_begin;
-        if (verdict == Verdict::holds)
-          break;
-        trial.phase = 2;
-        run.step.begin_stage(moving, number);
-        verdict = watch(block, first, trial);
-      }
+    trial.is_stable = decide(block, number, first, trial) == Verdict::holds;
     run.step.keeps_ledger = keeps_ledger;
-    trial.is_stable =
-      verdict == Verdict::holds ||
-      (verdict == Verdict::open &&
-       (trial.acceleration <= 0. || is_as_good_as_at_rest(trial)));
     if (!trial.is_stable)
       last_failure = name_failure(block);
     // of the true masses

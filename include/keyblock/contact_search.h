@@ -140,6 +140,10 @@ namespace Keyblock
       double size;
     };
 
+    std::array<Vector<dim>, Mesh<dim>::n_face_vertices>
+    corners_of(const std::vector<double> &position,
+               const unsigned int face) const;
+
     Projection project(const std::vector<double> &position,
                        const unsigned int slave,
                        const unsigned int face) const;

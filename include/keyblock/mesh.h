@@ -58,6 +58,10 @@ namespace Keyblock
      */
     std::vector<unsigned int> excavation_stage;
 
+    /** Materials that take the place of `material` in later stages, one list
+     * per cell; empty: there are none. */
+    std::vector<std::vector<unsigned int>> later_materials;
+
     /** Index into Scene::excavations of the one that digs each cell. */
     std::vector<unsigned int> excavation;
 

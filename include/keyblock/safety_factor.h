@@ -83,6 +83,12 @@ namespace Keyblock
      * is anything to leave. */
     bool freeze_beyond_reach(const unsigned int block);
 
+    /** Try either side of a guess, then further and further from it, until
+     * one factor holds and one fails. */
+    SafetyFactor::Outcome
+    find_bracket(Search &search, const double middle, double spread) const;
+
+    /** @param hint, @p onset as in Known */
     SafetyFactor::Outcome
     bisect(Search &search, double hint, const double onset) const;
     SafetyFactor::Outcome sweep(Search &search) const;

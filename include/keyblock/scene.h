@@ -118,6 +118,7 @@ namespace Keyblock
   {
     std::string name;
     std::string region         = "all";
+    std::string stage          = ""; ///< from which on; empty: the start
     std::string model          = "elastic";
     double young_modulus       = 15e9;
     double poisson_ratio       = 0.25;

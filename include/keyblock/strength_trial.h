@@ -93,6 +93,15 @@ namespace Keyblock
       fails
     };
 
+    /** Both phases, in turn until one decides. */
+    Verdict decide(const unsigned int block,
+                   const unsigned int number,
+                   const Vector<dim> &first,
+                   Trial &trial);
+
+    /** Settings of the first phase. */
+    Stage quiet_stage(const unsigned int block) const;
+
     void change_strength(const unsigned int block, Trial &trial);
 
     /** Phase 1; whether the block has come to rest. */

@@ -30,6 +30,7 @@ keyblock_scene(verification/salencon RANKS 1 2)
 keyblock_scene(verification/salencon_associated RANKS 2)
 keyblock_scene(verification/footing RANKS 2)
 keyblock_scene(verification/friction_rod)
+keyblock_scene(verification/material_change)
 keyblock_scene(verification/geostress)
 keyblock_scene(verification/order_at_once RANKS 1 2)
 keyblock_scene(verification/order_left_first)
@@ -47,6 +48,8 @@ keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
   SET "Safety factor/Removal slip=0.05")
 # safety factors of blocks on inclines: friction angle, dip
 keyblock_scene(verification/factor_incline)
+keyblock_scene(verification/factor_incline REFERENCES factor_incline_teams
+  RANKS 2 SET "Safety factor/Teams=2")
 foreach(case 10_40 68_40 25_50 60_40 50_25)
   string(REPLACE "_" ";" angles ${case})
   list(GET angles 0 friction)
@@ -115,6 +118,8 @@ keyblock_scene(verification/corner REFERENCES corner_crossing RANKS 1
   SET ${crossing} "Joints/front/Normal=1, 0.363970234266")
 keyblock_scene(verification/corner REFERENCES corner_crossing_overhang RANKS 1
   SET ${overhang} ${crossing} "Joints/front/Normal=1, -0.363970234266")
+# the study in the plane, all stages and factors: one to two minutes
+keyblock_scene(study/powerhouse RANKS 2 SLOW SET "Safety factor/Teams=2")
 # blocks of the powerhouse in 3D and when they are exposed; nothing is computed
 set(without_motion "Contact/Method=none" "Initial state/Equilibrium=none"
   "Safety factor/Blocks=none" "Output/Write VTU=false")
