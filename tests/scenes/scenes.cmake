@@ -65,6 +65,17 @@ keyblock_scene(verification/footing_30 RANKS 2 SLOW)
 keyblock_scene(verification/wedge_3d RANKS 2)
 keyblock_scene(verification/wedge_slides RANKS 2)
 keyblock_scene(verification/roof_wedge RANKS 2)
+# its weight grows to 0.98 and 1.02 of what pulls it out
+foreach(case bears,1.97 pulled_out,2.05)
+  string(REPLACE "," ";" case ${case})
+  list(GET case 0 name)
+  list(GET case 1 load)
+  keyblock_scene(verification/roof_wedge REFERENCES roof_wedge_${name} RANKS 1
+    SET "Safety factor/Blocks=none" "Stages/rest/Kind=dynamic"
+    "Stages/rest/Unbalanced ratio=0" "Stages/rest/Duration=0.6"
+    "Stages/rest/Mass damping=40" "Stages/rest/Damping ratio=0.3"
+    "Initial state/Gravity=0@ -9.81*(1 + (${load} - 1)*0.5*(1 - cos(pi*min(1, t/0.4))))")
+endforeach()
 keyblock_scene(verification/roof_wedge REFERENCES roof_wedge_ratio_10 RANKS 1
   SET "Materials/layer/Poisson ratio=0.444444444444")
 # cohesion [Pa], friction angle; the last with a tensile strength besides
