@@ -232,6 +232,7 @@ namespace Keyblock
     // a block that slips at the onset may be caught by its neighbour further
     // on: the guess must not jump over that
     if (onset > (1. + settings.bracket) * search.stable &&
+        onset < settings.highest &&
         (hint == 0. || onset < hint / (1. + settings.bracket)) &&
         !search.holds_at(onset * (1. + spread)))
       hint = onset;

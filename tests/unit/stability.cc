@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The time step against the true limit of a mesh, and rest under initial
 // stress.
-#include <boost/test/unit_test.hpp>
+#include "mesh_frequency.h"
 
 #include <keyblock/errors.h>
-#include <keyblock/mpi.h>
-#include <keyblock/simulation.h>
+
+#include <boost/test/unit_test.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -38,45 +38,6 @@ namespace
     MPI_Barrier(world());
     return name;
   }
-
-  /** Highest frequency of a mesh by power iteration on M^-1 K. */
-  double
-  true_frequency(const Simulation<2> &simulation)
-  {
-    CellArrays<2> cells        = simulation.cell_arrays();
-    const Fields<2> &fields    = simulation.nodal_fields();
-    const Numbering<2> &number = simulation.node_numbering();
-    std::vector<double> x(fields.velocity.size()), y(x.size());
-    for (unsigned int i = 0; i < x.size(); ++i)
-      x[i] = std::sin(3. + 11. * number.vertex_of_node[i / 2] + i % 2);
-    number.update_ghosts(x);
-    double eigenvalue = 0.;
-    for (unsigned int iteration = 0; iteration < 20000; ++iteration)
-      {
-        cells.stress.reinit(cells.nodes.size());
-        std::fill(y.begin(), y.end(), 0.);
-        ForcePass pass;
-        pass.step = 1.;
-        add_internal_force<2>(
-          pass, cells, fields.reference.data(), x.data(), y.data(), nullptr);
-        number.add_ghosts_to_owners(y);
-        double xy = 0., xx = 0.;
-        for (unsigned int i = 0; i < 2 * number.n_owned(); ++i)
-          {
-            xy += x[i] * y[i];
-            xx += x[i] * x[i] * fields.mass[i / 2];
-            y[i] /= fields.mass[i / 2];
-          }
-        xy = dealii::Utilities::MPI::sum(xy, world());
-        xx = dealii::Utilities::MPI::sum(xx, world());
-        number.update_ghosts(y);
-        eigenvalue         = xy / xx;
-        const double scale = 1. / eigenvalue;
-        for (unsigned int i = 0; i < x.size(); ++i)
-          x[i] = scale * y[i];
-      }
-    return std::sqrt(eigenvalue);
-  }
 } // namespace
 
 BOOST_AUTO_TEST_CASE(time_step_limit)
@@ -87,7 +48,7 @@ BOOST_AUTO_TEST_CASE(time_step_limit)
     Simulation<2> simulation(name + ".prm", {}, name);
     simulation.run();
     bound = simulation.stable_step();
-    limit = 2. / true_frequency(simulation);
+    limit = 2. / highest_frequency_of_mesh(simulation, 20000);
   }
   // h sqrt(1 - nu) / c_p is the bound of a square cell, and a free plate of
   // 8 x 8 cells allows 0.99018 h / c_p
