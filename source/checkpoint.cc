@@ -225,23 +225,6 @@ namespace Keyblock
                               fields.is_in_cluster.end());
     exchange_nodes(group + "is_in_cluster", flags, 1, n_local);
     fields.is_in_cluster.assign(flags.begin(), flags.end());
-
-    constexpr unsigned int n = dim * dim;
-    std::vector<double> stiffness(n * numbering.n_owned(), 0.);
-    for (const NodeSpring<dim> &spring : fields.springs)
-      std::copy(spring.stiffness.begin(),
-                spring.stiffness.end(),
-                stiffness.begin() + n * spring.node);
-    exchange_nodes(group + "springs", stiffness, n, numbering.n_owned());
-    fields.springs.clear();
-    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
-      {
-        NodeSpring<dim> spring;
-        spring.node = node;
-        std::copy_n(stiffness.begin() + n * node, n, spring.stiffness.begin());
-        if (spring.stiffness != std::array<double, n>{})
-          fields.springs.push_back(spring);
-      }
   }
 
 

@@ -155,13 +155,8 @@ namespace Keyblock
           internal += fields.internal_force[i] * v;
           before += fields.internal_force[i] * (v + w);
         }
-    double stored = elastic_energy<dim>(cells, positions());
-    for (const NodeSpring<dim> &spring : fields.springs)
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int e = 0; e < dim; ++e)
-          stored += 0.5 * spring.stiffness[dim * d + e] *
-                    fields.displacement[dim * spring.node + d] *
-                    fields.displacement[dim * spring.node + e];
+    const double stored = elastic_energy<dim>(cells, positions()) +
+                          fields.far_field.stored_energy(fields.displacement);
     Energies mine = sums;
     // discrete energy of the leapfrog between n and n + 1 (theory, eq. 12)
     mine.elastic = stored + 0.5 * dt * internal;

@@ -213,19 +213,18 @@ namespace Keyblock
             stiffness(i, j) = k[i * n + j];
         homogeneous.distribute_local_to_global(stiffness, dofs, matrix);
       }
-    dealii::FullMatrix<double> spring_stiffness(dim, dim);
-    dofs.resize(dim);
-    for (const NodeSpring<dim> &spring : fields.springs)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            dofs[d] =
-              numbering.partitioner->local_to_global(dim * spring.node + d);
-            for (unsigned int e = 0; e < dim; ++e)
-              spring_stiffness(d, e) = spring.stiffness[dim * d + e];
-          }
-        homogeneous.distribute_local_to_global(spring_stiffness, dofs, matrix);
-      }
+    dealii::FullMatrix<double> spring_stiffness(1, 1);
+    dofs.resize(1);
+    for (const auto &spring : fields.far_field.springs)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          dofs[0] =
+            numbering.partitioner->local_to_global(dim * spring.node + d);
+          spring_stiffness(0, 0) = spring.stiffness;
+          homogeneous.distribute_local_to_global(spring_stiffness,
+                                                 dofs,
+                                                 matrix);
+        }
     matrix.compress(dealii::VectorOperation::add);
     // rows of nodes without cells
     double diagonal = 0.;
@@ -245,7 +244,54 @@ namespace Keyblock
     settings.smoother_sweeps       = 2;
     settings.aggregation_threshold = 0.02;
     preconditioner.initialize(matrix, settings);
+    condense_far_field();
   }
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::condense_far_field()
+  {
+    const FarField<dim> &far_field = fields.far_field;
+    const unsigned int n           = far_field.n_columns();
+    std::vector<double> column(dim * numbering.n_owned());
+    for (unsigned int m = 0; m < n; ++m)
+      {
+        std::fill(column.begin(), column.end(), 0.);
+        for (unsigned int i = 0; i < dim * far_field.springs.size(); ++i)
+          column[dim * far_field.springs[i / dim].node + i % dim] =
+            far_field.columns[i * n + m];
+        far_columns.push_back(condense(column));
+      }
+  }
+
+
+
+  namespace
+  {
+    /** Sparse matrix plus the coupling of the far field. */
+    template <typename VectorType>
+    struct CoupledMatrix
+    {
+      const dealii::TrilinosWrappers::SparseMatrix &matrix;
+      const std::vector<VectorType> &columns;
+      const dealii::FullMatrix<double> &coupling;
+
+      void
+      vmult(VectorType &result, const VectorType &x) const
+      {
+        matrix.vmult(result, x);
+        dealii::Vector<double> work(columns.size()), strength(columns.size());
+        for (unsigned int m = 0; m < columns.size(); ++m)
+          work[m] = columns[m] * x;
+        if (!columns.empty())
+          coupling.vmult(strength, work);
+        for (unsigned int m = 0; m < columns.size(); ++m)
+          result.add(strength[m], columns[m]);
+      }
+    };
+  } // namespace
 
 
 
@@ -264,7 +310,9 @@ namespace Keyblock
         dealii::SolverCG<TrilinosVector> solver(control);
         try
           {
-            solver.solve(matrix, solution, right_side, preconditioner);
+            const CoupledMatrix<TrilinosVector> coupled{
+              matrix, far_columns, fields.far_field.coupling};
+            solver.solve(coupled, solution, right_side, preconditioner);
           }
         catch (const dealii::SolverControl::NoConvergence &failure)
           {

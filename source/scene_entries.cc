@@ -299,8 +299,9 @@ namespace Keyblock
                       Selection("all|normal|x|y|z|xy|xz|yz"));
     prm.add_parameter("Kind",
                       kind,
-                      "held: fixed or moved by Velocity; far field: springs "
-                      "with the stiffness of infinite rock around the model "
+                      "held: fixed or moved by Velocity; far field: the "
+                      "stiffness of infinite rock around the model, exact for "
+                      "double forces at Center if the far field encloses it "
                       "(Boundaries only), after the initial state.",
                       Selection("held|far field"));
     prm.add_parameter("Displacement",

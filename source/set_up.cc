@@ -284,6 +284,8 @@ namespace Keyblock
   Conditions<dim>::resume(const StageState &state)
   {
     StageState::operator=(state);
+    if (is_far_field_free)
+      set_up_far_field();
     dig(stage_number);
   }
 
@@ -467,7 +469,7 @@ namespace Keyblock
     stable_step = true_step;
     if (is_scaled)
       stable_step.frequency = lowest_frequency;
-    bound_step_by_springs();
+    bound_step_by_far_field();
   }
 
 

@@ -308,12 +308,7 @@ namespace Keyblock
                             fields.damping_force.data());
     numbering.add_hanging_to_masters(fields.internal_force);
     numbering.add_ghosts_to_owners(fields.internal_force);
-    for (const NodeSpring<dim> &spring : fields.springs)
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int e = 0; e < dim; ++e)
-          fields.internal_force[dim * spring.node + d] +=
-            spring.stiffness[dim * d + e] *
-            fields.displacement[dim * spring.node + e];
+    fields.far_field.add_force(fields.displacement, fields.internal_force);
     if (pass.has_damping)
       {
         numbering.add_hanging_to_masters(fields.damping_force);

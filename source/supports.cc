@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <map>
 
 namespace Keyblock
@@ -176,79 +177,60 @@ namespace Keyblock
   {
     if (!has_far_field() || is_far_field_free)
       return;
-    const Mesh<dim> &mesh = split.mesh;
+    set_up_far_field();
     // what the boundary carries now stays as a dead load
     far_field_force.assign(dim * numbering.n_owned(), 0.);
-    std::map<unsigned int, std::array<double, dim * dim>> stiffness;
+    for (const auto &spring : fields.far_field.springs)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const unsigned int i = dim * spring.node + d;
+          far_field_force[i]   = fields.internal_force[i] - fields.load[i];
+        }
+    is_far_field_free = true;
+    is_load_set       = false;
+    set_up_supports();
+    if (is_root() && !fields.far_field.is_coupled())
+      std::cout << "Rock    the far field does not enclose its centre: springs "
+                   "only"
+                << std::endl;
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::set_up_far_field()
+  {
+    const Mesh<dim> &mesh = split.mesh;
+    std::vector<typename FarField<dim>::Face> faces;
     for (const auto &support : scene.supports)
       if (support->is_far_field())
         for (const std::string &name : support->boundaries)
           for (unsigned int c = 0; c < mesh.n_cells(); ++c)
             for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-              if (mesh.is_on(c, f, name) && !is_dug(c))
-                add_far_field_face(*support, c, f, stiffness);
-    for (const auto &[node, k] : stiffness)
-      if (node < numbering.n_owned())
-        {
-          fields.springs.push_back({node, k});
-          for (int d = 0; d < dim; ++d)
-            far_field_force[dim * node + d] =
-              fields.internal_force[dim * node + d] -
-              fields.load[dim * node + d];
-        }
-    is_far_field_free = true;
-    is_load_set       = false;
-    set_up_supports();
+              if (mesh.is_on(c, f, name) && mesh.excavation_stage[c] != 1)
+                {
+                  const Material<dim> &rock =
+                    *scene.materials[mesh.material[c]];
+                  faces.push_back({mesh.face_vertices(c, f),
+                                   mesh.face_center(c, f),
+                                   mesh.face_area_vector(c, f),
+                                   support->center,
+                                   rock.lame_lambda(),
+                                   rock.shear_modulus()});
+                }
+    fields.far_field = FarField<dim>(faces, split, numbering);
   }
 
 
 
   template <int dim>
   void
-  Conditions<dim>::add_far_field_face(
-    const Support<dim> &support,
-    const unsigned int cell,
-    const unsigned int face,
-    std::map<unsigned int, std::array<double, dim * dim>> &stiffness) const
+  Conditions<dim>::bound_step_by_far_field()
   {
-    const Mesh<dim> &mesh         = split.mesh;
-    const Material<dim> &material = *scene.materials[mesh.material[cell]];
-    const double shear            = material.shear_modulus();
-    const Point<dim> place        = mesh.face_center(cell, face);
-    const double distance         = place.distance(support.center);
-    // a cavity of radius R in an infinite body under a uniform pressure p
-    // widens by p R / (2 G) (cylinder) or p R / (4 G) (sphere)
-    const double normal = (dim == 2 ? 2. : 4.) * shear / distance;
-    const double area =
-      mesh.face_area_vector(cell, face).norm() / Mesh<dim>::n_face_vertices;
-    for (const unsigned int v : mesh.face_vertices(cell, face))
-      split.for_each_carrier(
-        v, [&](const unsigned int carrier, const double weight) {
-          if (numbering.local_node(carrier) == none)
-            return;
-          auto &k = stiffness[numbering.local_node(carrier)];
-          for (int d = 0; d < dim; ++d)
-            k[(dim + 1) * d] += weight * area * normal;
-        });
-  }
-
-
-
-  template <int dim>
-  void
-  Conditions<dim>::bound_step_by_springs()
-  {
-    double largest = 0.;
-    for (const NodeSpring<dim> &spring : fields.springs)
-      {
-        double trace = 0.;
-        for (int d = 0; d < dim; ++d)
-          trace = std::max(trace, spring.stiffness[(dim + 1) * d]);
-        largest = std::max(largest, trace * fields.inverse_mass[spring.node]);
-      }
-    largest = dealii::Utilities::MPI::max(largest, world());
     stable_step.frequency =
-      std::sqrt(stable_step.frequency * stable_step.frequency + largest);
+      std::sqrt(stable_step.frequency * stable_step.frequency +
+                fields.far_field.frequency_bound(fields.inverse_mass));
   }
 
 
@@ -327,10 +309,12 @@ namespace Keyblock
   template void Conditions<3>::set_up_supports();
   template bool Conditions<2>::has_far_field() const;
   template bool Conditions<3>::has_far_field() const;
+  template void Conditions<2>::set_up_far_field();
+  template void Conditions<3>::set_up_far_field();
   template void Conditions<2>::release_far_field();
   template void Conditions<3>::release_far_field();
-  template void Conditions<2>::bound_step_by_springs();
-  template void Conditions<3>::bound_step_by_springs();
+  template void Conditions<2>::bound_step_by_far_field();
+  template void Conditions<3>::bound_step_by_far_field();
   template void Conditions<2>::apply_supports(const double, const double);
   template void Conditions<3>::apply_supports(const double, const double);
   template void

@@ -22,6 +22,10 @@ keyblock_restart(toppling verification/toppling_slides_and_topples)
 keyblock_restart(order_stepped verification/order_stepped
   ARGUMENTS --set "Materials/rock/Model=mohr_coulomb"
   --set "Materials/rock/Cohesion=1e5")
+# springs of the far field and what couples them
+keyblock_restart(far_field verification/kirsch_far_field RANKS 2
+  ARGUMENTS --ranks 2
+  --set "Stages/dig/Kind=quasi-static" --set "Mesh/Size at excavation=0.1")
 # a block that fails in the stage and is taken away, and its safety factor
 keyblock_restart(roof_block verification/roof_block_falls
   ARGUMENTS --set "Safety factor/Removal slip=0.05"

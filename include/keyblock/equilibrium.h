@@ -65,6 +65,7 @@ namespace Keyblock
     /** Nodal forces with those of constrained nodes added to the nodes that
      * lead them. */
     TrilinosVector condense(const std::vector<double> &force) const;
+    void condense_far_field();
     TrilinosVector solve_system(TrilinosVector &right_side,
                                 const dealii::AffineConstraints<double> &lines);
 
@@ -77,6 +78,8 @@ namespace Keyblock
     dealii::IndexSet owned, relevant;
     dealii::AffineConstraints<double> homogeneous;
     dealii::TrilinosWrappers::SparseMatrix matrix;
+    /** Columns that couple the nodes of the far field, condensed. */
+    std::vector<TrilinosVector> far_columns;
     dealii::TrilinosWrappers::PreconditionAMG preconditioner;
   };
 } // namespace Keyblock

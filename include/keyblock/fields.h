@@ -2,6 +2,8 @@
 #ifndef keyblock_fields_h
 #define keyblock_fields_h
 
+#include <keyblock/far_field.h>
+
 #include <array>
 #include <utility>
 #include <vector>
@@ -24,14 +26,6 @@ namespace Keyblock
     {
       return n_directions == dim;
     }
-  };
-
-  /** Elastic rest of the world beside a node. */
-  template <int dim>
-  struct NodeSpring
-  {
-    unsigned int node;
-    std::array<double, dim * dim> stiffness; ///< by rows [N/m]
   };
 
   /**
@@ -70,7 +64,7 @@ namespace Keyblock
     /** Velocity of the last move with its shifts, kept in `large` only. */
     std::vector<double> rate;
 
-    std::vector<NodeSpring<dim>> springs;   ///< of owned nodes
+    FarField<dim> far_field;
     std::vector<NodeSupport<dim>> supports; ///< sorted by node
     /** Owned nodes of each entry of Scene::supports. */
     std::vector<std::vector<unsigned int>> nodes_of_support;

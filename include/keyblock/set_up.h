@@ -144,8 +144,8 @@ namespace Keyblock
 
     bool has_far_field() const;
 
-    /** Replace the far-field supports by springs, and what they carry now by a
-     * dead load; needs the present internal force and load. */
+    /** Replace the far-field supports by springs (far_field.h), and what they
+     * carry now by a dead load; needs the present internal force and load. */
     void release_far_field();
 
     /** Set fields.load to gravity, tractions and ramped forces at @p time. */
@@ -179,12 +179,8 @@ namespace Keyblock
     void hold_frozen_nodes();
     void set_up_frequencies();
     std::vector<double> sum_masses(const bool is_scaled) const;
-    void add_far_field_face(
-      const Support<dim> &support,
-      const unsigned int cell,
-      const unsigned int face,
-      std::map<unsigned int, std::array<double, dim * dim>> &stiffness) const;
-    void bound_step_by_springs();
+    void set_up_far_field();
+    void bound_step_by_far_field();
     void set_up_mass();
     void set_up_supports();
     void set_up_tractions();
