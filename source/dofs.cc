@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/cell_order.h>
 #include <keyblock/dofs.h>
 
 #include <deal.II/distributed/fully_distributed_tria.h>
@@ -34,11 +35,31 @@ namespace Keyblock
   Numbering<dim>::create_triangulation(const Scene<dim> &scene,
                                        const Mesh<dim> &mesh)
   {
-    const auto make_serial = [&mesh](dealii::Triangulation<dim> &serial) {
+    // equal numbers of deformable cells, in chunks of the mesh's order
+    std::vector<double> before(mesh.n_cells() + 1, 0.);
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      before[c + 1] =
+        before[c] + (scene.materials[mesh.material[c]]->is_rigid() ? 1e-3 : 1.);
+    const auto rank_of = [&](const unsigned int c) {
+      return std::min<unsigned int>(n_ranks() - 1,
+                                    before[c] * n_ranks() / before.back());
+    };
+    mesh_cell_of_coarse.clear();
+    for (unsigned int c = 0, end; c < mesh.n_cells(); c = end)
+      {
+        for (end = c; end < mesh.n_cells() && rank_of(end) == rank_of(c);)
+          ++end;
+        const auto chunk = sweep_order(mesh, c, end);
+        mesh_cell_of_coarse.insert(mesh_cell_of_coarse.end(),
+                                   chunk.begin(),
+                                   chunk.end());
+      }
+
+    const auto make_serial = [&](dealii::Triangulation<dim> &serial) {
       std::vector<dealii::CellData<dim>> cells(mesh.n_cells());
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        std::copy(mesh.cells[c].begin(),
-                  mesh.cells[c].end(),
+        std::copy(mesh.cells[mesh_cell_of_coarse[c]].begin(),
+                  mesh.cells[mesh_cell_of_coarse[c]].end(),
                   cells[c].vertices.begin());
       serial.create_triangulation(mesh.vertices, cells, dealii::SubCellData());
     };
@@ -48,22 +69,12 @@ namespace Keyblock
         make_serial(*triangulation);
         return;
       }
-    // equal numbers of deformable cells, in chunks of the Hilbert order
     const auto partition = [&](dealii::Triangulation<dim> &serial,
                                const MPI_Comm,
                                const unsigned int) {
-      std::vector<double> before(mesh.n_cells() + 1, 0.);
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        before[c + 1] =
-          before[c] +
-          (scene.materials[mesh.material[c]]->is_rigid() ? 1e-3 : 1.);
       for (const auto &cell : serial.active_cell_iterators())
-        {
-          const double place = before[cell->active_cell_index()];
-          cell->set_subdomain_id(
-            std::min<unsigned int>(n_ranks() - 1,
-                                   place * n_ranks() / before.back()));
-        }
+        cell->set_subdomain_id(
+          rank_of(mesh_cell_of_coarse[cell->active_cell_index()]));
     };
     const auto description = dealii::TriangulationDescription::Utilities::
       create_description_from_triangulation_in_groups<dim, dim>(make_serial,
@@ -89,7 +100,7 @@ namespace Keyblock
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const unsigned int c = cell->id().get_coarse_cell_id();
+          const unsigned int c = mesh_cell_of(cell);
           for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
             found[mesh.cells[c][v]] = cell->vertex_dof_index(v, 0) / dim + 1;
         }
@@ -105,7 +116,7 @@ namespace Keyblock
     };
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
-        for (const unsigned int v : mesh.cells[cell->id().get_coarse_cell_id()])
+        for (const unsigned int v : mesh.cells[mesh_cell_of(cell)])
           split.for_each_carrier(v, [&](const unsigned int carrier, double) {
             for (const unsigned int node :
                  {node_of_vertex[v], node_of_vertex[carrier]})
@@ -143,7 +154,7 @@ namespace Keyblock
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const unsigned int c = cell->id().get_coarse_cell_id();
+          const unsigned int c = mesh_cell_of(cell);
           if (scene.materials[mesh.material[c]]->is_rigid())
             continue;
           CellNodes nodes;

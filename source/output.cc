@@ -182,7 +182,7 @@ namespace Keyblock
       {
         if (cell->is_artificial())
           continue;
-        const unsigned int mesh_cell = cell->id().get_coarse_cell_id();
+        const unsigned int mesh_cell = numbering.mesh_cell_of(cell);
         const unsigned int i         = cell->active_cell_index();
         const unsigned int b         = split.block_of_cell[mesh_cell];
         block[i]                     = b == none ? 0 : blocks.blocks[b].id;
@@ -213,7 +213,7 @@ namespace Keyblock
       // not those that are dug
       if (!cell->is_locally_owned())
         return false;
-      const unsigned int c = cell->id().get_coarse_cell_id();
+      const unsigned int c = numbering.mesh_cell_of(cell);
       return local_cell.count(c) > 0 ||
              scene.materials[split.mesh.material[c]]->is_rigid();
     });
@@ -224,7 +224,7 @@ namespace Keyblock
     std::vector<bool> is_local(split.mesh.n_cells(), false);
     for (const auto &cell : numbering.triangulation->active_cell_iterators())
       if (cell->is_locally_owned())
-        is_local[cell->id().get_coarse_cell_id()] = true;
+        is_local[numbering.mesh_cell_of(cell)] = true;
 
     FacePatches<dim> faces;
     faces.names = {

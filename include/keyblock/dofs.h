@@ -18,7 +18,8 @@ namespace Keyblock
 {
   /**
    * The distributed mesh and the numbering of its nodes. Cells are dealt to the
-   * ranks as chunks of the Hilbert order. Node = dof / dim everywhere; on each
+   * ranks as chunks of the Hilbert order, within which they are swept front by
+   * front (cell_order.h). Node = dof / dim everywhere; on each
    * rank owned nodes come first, then ghosts: nodes of the rank's cells owned
    * elsewhere, and the other nodes of every interface group that has a node
    * here, so that each rank can solve all groups that touch its nodes.
@@ -45,6 +46,14 @@ namespace Keyblock
     n_global() const
     {
       return partitioner->size() / dim;
+    }
+
+    /** Cell of the split mesh that a cell of the triangulation is. */
+    unsigned int
+    mesh_cell_of(
+      const typename dealii::Triangulation<dim>::cell_iterator &cell) const
+    {
+      return mesh_cell_of_coarse[cell->id().get_coarse_cell_id()];
     }
 
     /** Local index of a vertex of the split mesh, or `none` if not here. */
@@ -102,7 +111,8 @@ namespace Keyblock
 
     void list_hanging_nodes(const SplitMesh<dim> &split);
 
-    std::vector<unsigned int> node_of_vertex; ///< global numbers
+    std::vector<unsigned int> node_of_vertex;      ///< global numbers
+    std::vector<unsigned int> mesh_cell_of_coarse; ///< by coarse cell
 
     mutable std::vector<double> exchange_buffer;
     mutable std::vector<MPI_Request> exchange_requests;
