@@ -40,8 +40,8 @@ namespace Keyblock
         Batch(const CellPass<dim> &pass, const unsigned int first)
           : pass(pass)
           , first(first)
-          , lambda(load<Number>(pass.lambda + first))
-          , mu(load<Number>(pass.mu + first))
+          , lambda(load<Number>(pass.lambda + pass.moduli_stride * first))
+          , mu(load<Number>(pass.mu + pass.moduli_stride * first))
           , beta(pass.beta ? load<Number>(pass.beta + first) : Number())
           , stress(pass.stress +
                    std::size_t(first / batch_size) * batch_size * (1 << dim) *
@@ -53,6 +53,16 @@ namespace Keyblock
         stress_at(const int q, const int k) const
         {
           return stress + batch_size * (q * n_stress<dim> + k);
+        }
+
+        /** Stresses come as a stream; hardware alone fetches it too late. */
+        KEYBLOCK_ALWAYS_INLINE void
+        prefetch(const int q, const int k) const
+        {
+          constexpr int n_ahead = 2; // batches
+          __builtin_prefetch(stress_at(q, k) + n_ahead * batch_size *
+                                                 (1 << dim) * n_stress<dim>,
+                             1);
         }
       };
 
@@ -117,6 +127,15 @@ namespace Keyblock
             }
       }
 
+      /** Whether a component of the stress is kept in a form that elastic
+       * strain does not change (CellArrays::stress). */
+      template <int dim, Kind kind>
+      constexpr bool
+      is_kept(const int component)
+      {
+        return dim == 2 && kind == Kind::elastic && component == 2;
+      }
+
       /** Advance the stress at a point by the strain rate @p g, to whose
        * normal components @p third is added; @p viscous is set. */
       template <int dim, bool is_large, Kind kind, typename Number>
@@ -133,7 +152,11 @@ namespace Keyblock
         for (int k = 0; k < n_stress<dim>; ++k)
           {
             rate[k]   = Number();
-            stress[k] = load<Number>(batch.stress_at(q, k));
+            stress[k] = is_kept<dim, kind>(k)
+                          ? Number()
+                          : load<Number>(batch.stress_at(q, k));
+            if (n_lanes < Number >> 1)
+              batch.prefetch(q, k);
           }
         add_elastic_stress<dim, Number>(g, batch.lambda, batch.mu, rate);
         if constexpr (kind != Kind::elastic)
@@ -155,7 +178,8 @@ namespace Keyblock
         if constexpr (kind == Kind::plastic)
           yield<dim, Number>(batch, q, volume, before, stress);
         for (int k = 0; k < n_stress<dim>; ++k)
-          store(stress[k], batch.stress_at(q, k));
+          if (!is_kept<dim, kind>(k))
+            store(stress[k], batch.stress_at(q, k));
       }
 
       // ---- cells
@@ -322,21 +346,35 @@ namespace Keyblock
           scatter_flux<dim>(nodes, flux.damping, pass.damping);
       }
 
-      /** Whole batches together; cells before and behind them one by one. */
-      template <int dim, bool is_large, bool has_damping, Kind kind>
-      void
-      loop(const CellPass<dim> &pass)
+      /** Call action(number, first cell) for whole batches; cells before and
+       * behind them one by one. The number tells the type to compute with. */
+      template <int dim, typename Action>
+      KEYBLOCK_ALWAYS_INLINE void
+      for_each_batch(const CellPass<dim> &pass, const Action &action)
       {
         using Number               = KEYBLOCK_LANES_TYPE;
         constexpr unsigned width   = n_lanes<Number>;
         const unsigned first_batch = (pass.begin + width - 1) / width * width;
         unsigned int c             = pass.begin;
         for (; c < pass.end && c < first_batch; ++c)
-          work_on<dim, is_large, has_damping, kind, double>(pass, c);
+          action(double(), c);
         for (; c + width <= pass.end; c += width)
-          work_on<dim, is_large, has_damping, kind, Number>(pass, c);
+          action(Number(), c);
         for (; c < pass.end; ++c)
-          work_on<dim, is_large, has_damping, kind, double>(pass, c);
+          action(double(), c);
+      }
+
+      template <int dim, bool is_large, bool has_damping, Kind kind>
+      void
+      loop(const CellPass<dim> &pass)
+      {
+        for_each_batch(
+          pass,
+          [&](auto number,
+              const unsigned int first) __attribute__((always_inline)) {
+            work_on<dim, is_large, has_damping, kind, decltype(number)>(pass,
+                                                                        first);
+          });
       }
 
       template <int dim, Kind kind>
@@ -350,6 +388,54 @@ namespace Keyblock
           pass.beta ? loop<dim, false, true, kind>(pass)
                     : loop<dim, false, false, kind>(pass);
       }
+      // ---- energy
+
+      /** Elastic energy of a batch of cells [J]. */
+      template <int dim, Kind kind, typename Number>
+      KEYBLOCK_ALWAYS_INLINE double
+      energy_of_batch(const CellPass<dim> &pass, const unsigned int first)
+      {
+        const Batch<dim, Number> batch(pass, first);
+        AtVertices<dim, Number> x;
+        gather<dim>(pass.nodes + first, pass.position, x);
+        AlongEdges<dim, Number> edges;
+        differentiate<dim>(x, edges);
+        const Number poisson_ratio =
+          0.5 * batch.lambda / (batch.lambda + batch.mu);
+        Number energy = Number();
+        for (int q = 0; q < (1 << dim); ++q)
+          {
+            Number stress[n_stress<dim>];
+            for (int k = 0; k < n_stress<dim>; ++k)
+              stress[k] = load<Number>(batch.stress_at(q, k));
+            if constexpr (is_kept<dim, kind>(2))
+              stress[2] += poisson_ratio * (stress[0] + stress[1]);
+            energy += Shape<dim>::weight *
+                      jacobian_at<dim>(q, edges).determinant *
+                      elastic_energy_density<dim, Number>(stress,
+                                                          batch.lambda,
+                                                          batch.mu);
+          }
+        double lane[n_lanes<Number>], sum = 0.;
+        store(energy, lane);
+        for (const double value : lane)
+          sum += value;
+        return sum;
+      }
+
+      template <int dim, Kind kind>
+      double
+      energy(const CellPass<dim> &pass)
+      {
+        double sum = 0.;
+        for_each_batch(
+          pass,
+          [&](auto number, const unsigned int first)
+            __attribute__((always_inline)) {
+              sum += energy_of_batch<dim, kind, decltype(number)>(pass, first);
+            });
+        return sum;
+      }
     } // namespace
 
     void
@@ -361,6 +447,8 @@ namespace Keyblock
       kernels.averaged_3d = run<3, Kind::averaged>;
       kernels.plastic_2d  = run<2, Kind::plastic>;
       kernels.plastic_3d  = run<3, Kind::plastic>;
+      kernels.energy_2d = {energy<2, Kind::elastic>, energy<2, Kind::averaged>};
+      kernels.energy_3d = {energy<3, Kind::elastic>, energy<3, Kind::averaged>};
     }
   } // namespace KEYBLOCK_KERNELS
 } // namespace Keyblock

@@ -240,7 +240,7 @@ namespace Keyblock
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       for (unsigned int q = 0; q < n_points; ++q)
         {
-          const auto s = cells.stress.at(c, q);
+          const auto s = cells.stress_at(c, q);
           std::copy(s.begin(),
                     s.end(),
                     stress.begin() + std::size_t(n_values) * c +
@@ -255,7 +255,7 @@ namespace Keyblock
                         n_stress<dim> * q,
                       n_stress<dim>,
                       s.begin());
-          cells.stress.set(c, q, s);
+          cells.set_stress(c, q, s);
         }
     exchange_cells(group + "plastic_strain",
                    cells,

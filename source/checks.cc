@@ -23,7 +23,7 @@ namespace Keyblock
         double *const value = by_cell.data() + n_values * cells.mesh_cell[c];
         for (unsigned int q = 0; q < (1 << dim); ++q)
           {
-            const auto stress = cells.stress.at(c, q);
+            const auto stress = cells.stress_at(c, q);
             for (int k = 0; k < n_stress<dim>; ++k)
               value[k] += stress[k] / (1 << dim);
             if (c >= cells.first_plastic() &&

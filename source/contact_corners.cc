@@ -218,7 +218,7 @@ namespace Keyblock
     for (const TractionWeight &entry : traction_weights)
       {
         const Vector<dim> f = apply_stress<dim, double>(
-          cells.stress.at(entry.cell, entry.point).data(), entry.weight);
+          cells.stress_at(entry.cell, entry.point).data(), entry.weight);
         for (int d = 0; d < dim; ++d)
           sums[dim * entry.pair + d] += f[d];
       }

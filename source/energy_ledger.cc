@@ -77,22 +77,25 @@ namespace Keyblock
   namespace
   {
     /** Sum of @p force times the sum of velocities before and after the step,
-     * over the first @p n_nodes nodes. */
+     * over the nodes of @p ranges. */
     template <int dim>
     double
     work_of(const std::vector<double> &force,
             const Fields<dim> &fields,
-            const unsigned int n_nodes)
+            const NodeRanges &ranges)
     {
       std::array<double, 4> sums{}; // four, to add several at a time
-      unsigned int i       = 0;
-      const unsigned int n = dim * n_nodes;
-      for (; i + 4 <= n; i += 4)
-        for (unsigned int k = 0; k < 4; ++k)
-          sums[k] += force[i + k] *
-                     (fields.old_velocity[i + k] + fields.velocity[i + k]);
-      for (; i < n; ++i)
-        sums[0] += force[i] * (fields.old_velocity[i] + fields.velocity[i]);
+      for (const auto &[begin, end] : ranges)
+        {
+          unsigned int i       = dim * begin;
+          const unsigned int n = dim * end;
+          for (; i + 4 <= n; i += 4)
+            for (unsigned int k = 0; k < 4; ++k)
+              sums[k] += force[i + k] *
+                         (fields.old_velocity[i + k] + fields.velocity[i + k]);
+          for (; i < n; ++i)
+            sums[0] += force[i] * (fields.old_velocity[i] + fields.velocity[i]);
+        }
       return (sums[0] + sums[1]) + (sums[2] + sums[3]);
     }
   } // namespace
@@ -101,26 +104,33 @@ namespace Keyblock
 
   template <int dim>
   void
-  ExplicitStep<dim>::book_work()
+  ExplicitStep<dim>::book_work(const bool inner_is_booked)
   {
     const bool has_viscous = stage.damping_ratio > 0.;
-    const unsigned int n   = numbering.n_owned();
     const double half_kick = 0.5 * kick;
-    sums.external += half_kick * work_of<dim>(fields.load, fields, n);
-    if (has_viscous)
-      sums.stiffness_damping +=
-        half_kick * work_of<dim>(fields.damping_force, fields, n);
-    if (stage.local_damping > 0.)
-      sums.local_damping -= 0.5 * work_of<dim>(fields.local_damping, fields, n);
-    if (stage.mass_damping > 0.)
-      {
-        double momentum = 0.;
-        for (unsigned int node = 0; node < n; ++node)
-          for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
-            momentum += fields.mass[node] * fields.old_velocity[i] *
-                        (fields.old_velocity[i] + fields.velocity[i]);
-        sums.mass_damping += half_kick * stage.mass_damping * momentum;
-      }
+    NodeWork work          = inner_is_booked ? inner_work : NodeWork();
+    const auto book        = [&](const NodeRanges &ranges) {
+      work.external += half_kick * work_of<dim>(fields.load, fields, ranges);
+      if (has_viscous)
+        work.stiffness_damping +=
+          half_kick * work_of<dim>(fields.damping_force, fields, ranges);
+      if (stage.local_damping > 0.)
+        work.local_damping -=
+          0.5 * work_of<dim>(fields.local_damping, fields, ranges);
+      if (stage.mass_damping > 0.)
+        for (const auto &[begin, end] : ranges)
+          for (unsigned int i = dim * begin; i < dim * end; ++i)
+            work.mass_damping += half_kick * stage.mass_damping *
+                                 fields.mass[i / dim] * fields.old_velocity[i] *
+                                 (fields.old_velocity[i] + fields.velocity[i]);
+    };
+    if (!inner_is_booked)
+      book(fields.inner_nodes);
+    book(fields.outer_nodes);
+    sums.external += work.external;
+    sums.stiffness_damping += work.stiffness_damping;
+    sums.mass_damping += work.mass_damping;
+    sums.local_damping += work.local_damping;
 
     // the force that a support must have given: what the others left missing
     for (const NodeSupport<dim> &support : fields.supports)
@@ -237,8 +247,8 @@ namespace Keyblock
     largest_nodal_ratio = scale > 0. ? largest * sums[1] / scale : 0.;
   }
 
-  template void ExplicitStep<2>::book_work();
-  template void ExplicitStep<3>::book_work();
+  template void ExplicitStep<2>::book_work(const bool);
+  template void ExplicitStep<3>::book_work(const bool);
   template void ExplicitStep<2>::sample_energies();
   template void ExplicitStep<3>::sample_energies();
   template void ExplicitStep<2>::sample_unbalanced_force();

@@ -368,7 +368,9 @@ namespace Keyblock
               for (unsigned int q = 0; q < n; ++q)
                 values[i] +=
                   weight / n *
-                  stresses[j].at(found->second, q)[measurements[i].component];
+                  cells.stress_at(found->second,
+                                  q,
+                                  stresses[j])[measurements[i].component];
         dealii::Utilities::MPI::sum(values, world(), values);
         for (unsigned int i = 0; i < measurements.size(); ++i)
           matrix[i][j] = values[i];

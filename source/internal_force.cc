@@ -178,10 +178,9 @@ namespace Keyblock
                      double *internal,
                      double *damping)
   {
+    std::array<double, batch_size> lambda, mu;
     CellPass<dim> pass;
     pass.nodes    = cells.nodes.data();
-    pass.lambda   = cells.lambda.data();
-    pass.mu       = cells.mu.data();
     pass.beta     = settings.has_damping ? cells.beta.data() : nullptr;
     pass.stress   = cells.stress.values.data();
     pass.step     = settings.step;
@@ -195,6 +194,15 @@ namespace Keyblock
       {
         pass.begin = cells.kind_begin[unsigned(kind)];
         pass.end   = cells.kind_begin[unsigned(kind) + 1];
+        if (pass.begin == pass.end)
+          continue;
+        // one batch of moduli serves all
+        const bool is_uniform = cells.is_uniform[unsigned(kind)];
+        lambda.fill(cells.lambda[pass.begin]);
+        mu.fill(cells.mu[pass.begin]);
+        pass.lambda        = is_uniform ? lambda.data() : cells.lambda.data();
+        pass.mu            = is_uniform ? mu.data() : cells.mu.data();
+        pass.moduli_stride = is_uniform ? 0 : 1;
         if (kind != CellKind::plastic)
           run_kernel<dim>(kind, pass);
       }
@@ -258,20 +266,22 @@ namespace Keyblock
   double
   elastic_energy(const CellArrays<dim> &cells, const double *position)
   {
-    double energy = 0.;
-    Corners<dim, double> x, gradient;
-    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
-      {
-        for (int a = 0; a < (1 << dim); ++a)
-          std::copy_n(position + dim * cells.nodes[c][a], dim, x[a].begin());
-        for (int q = 0; q < (1 << dim); ++q)
-          energy += gradients_times_determinant<dim>(q, x, gradient) *
-                    Shape<dim>::weight *
-                    elastic_energy_density<dim>(cells.stress.at(c, q).data(),
-                                                cells.lambda[c],
-                                                cells.mu[c]);
-      }
-    return energy;
+    CellPass<dim> pass;
+    pass.nodes    = cells.nodes.data();
+    pass.lambda   = cells.lambda.data();
+    pass.mu       = cells.mu.data();
+    // only read here
+    pass.stress   = const_cast<double *>(cells.stress.values.data());
+    pass.position = position;
+    const auto of = [&](const bool is_elastic) {
+      pass.begin = is_elastic ? 0 : cells.kind_begin[1];
+      pass.end   = is_elastic ? cells.kind_begin[1] : cells.nodes.size();
+      if constexpr (dim == 2)
+        return kernels().energy_2d[is_elastic ? 0 : 1](pass);
+      else
+        return kernels().energy_3d[is_elastic ? 0 : 1](pass);
+    };
+    return of(true) + of(false);
   }
 
   template void add_internal_force(const ForcePass &,

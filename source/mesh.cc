@@ -26,10 +26,16 @@ namespace Keyblock
   Mesh<dim>::face_vertices(const unsigned int cell,
                            const unsigned int face) const
   {
+    static const auto vertices_of_face = [] {
+      std::array<FaceVertices, n_cell_faces> list;
+      for (unsigned int f = 0; f < n_cell_faces; ++f)
+        for (unsigned int v = 0; v < n_face_vertices; ++v)
+          list[f][v] = GeometryInfo<dim>::face_to_cell_vertices(f, v);
+      return list;
+    }();
     FaceVertices result;
     for (unsigned int v = 0; v < n_face_vertices; ++v)
-      result[v] =
-        cells[cell][GeometryInfo<dim>::face_to_cell_vertices(face, v)];
+      result[v] = cells[cell][vertices_of_face[face][v]];
     return result;
   }
 

@@ -273,7 +273,7 @@ namespace Keyblock
         const double share = cell_volume[mesh_cell] / (1 << dim);
         for (int q = 0; q < (1 << dim); ++q)
           {
-            const auto stress = cells.stress.at(c, q);
+            const auto stress = cells.stress_at(c, q);
             for (unsigned int d = 0; d < dim; ++d)
               trace += share * stress[d];
           }

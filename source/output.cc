@@ -191,7 +191,7 @@ namespace Keyblock
         if (found != local_cell.end())
           for (unsigned int q = 0; q < (1 << dim); ++q)
             {
-              const auto at_point = cells.stress.at(found->second, q);
+              const auto at_point = cells.stress_at(found->second, q);
               for (unsigned int k = 0; k < components.size(); ++k)
                 stress[k][i] += at_point[k] / (1 << dim);
             }

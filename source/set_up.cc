@@ -342,12 +342,21 @@ namespace Keyblock
           }
       }
     cells.kind_begin[n_cell_kinds] = cells.nodes.size();
+    for (unsigned int kind = 0; kind < n_cell_kinds; ++kind)
+      {
+        const unsigned int first = cells.kind_begin[kind];
+        cells.is_uniform[kind]   = true;
+        for (unsigned int c = first; c < cells.kind_begin[kind + 1]; ++c)
+          cells.is_uniform[kind] = cells.is_uniform[kind] &&
+                                   cells.lambda[c] == cells.lambda[first] &&
+                                   cells.mu[c] == cells.mu[first];
+      }
     cells.beta.assign(cells.nodes.size(), 0.);
     cells.stress.reinit(cells.nodes.size());
     for (unsigned int i = 0; i < new_place.size(); ++i)
       if (new_place[i] != none && cell_of_local[i] != none)
         for (unsigned int q = 0; q < (1 << dim); ++q)
-          cells.stress.set(new_place[i], q, old.stress.at(cell_of_local[i], q));
+          cells.set_stress(new_place[i], q, old.stress_at(cell_of_local[i], q));
     cell_of_local = new_place;
   }
 
@@ -457,19 +466,49 @@ namespace Keyblock
           is_free && fields.mass[node] > 0. ? 1. / fields.mass[node] : 0.;
       }
     hold_frozen_nodes();
-    fields.free_nodes.clear();
-    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
-      if (fields.inverse_mass[node] > 0.)
-        {
-          if (fields.free_nodes.empty() ||
-              fields.free_nodes.back().second != node)
-            fields.free_nodes.emplace_back(node, node);
-          ++fields.free_nodes.back().second;
-        }
+    list_moving_nodes();
     stable_step = true_step;
     if (is_scaled)
       stable_step.frequency = lowest_frequency;
     bound_step_by_far_field();
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::list_moving_nodes()
+  {
+    std::vector<bool> is_outer(numbering.n_local(), false);
+    const auto take = [&](const unsigned int vertex) {
+      split.for_each_carrier(vertex, [&](const unsigned int carrier, double) {
+        for (const unsigned int v : {vertex, carrier})
+          if (numbering.is_owned(v))
+            is_outer[numbering.local_node(v)] = true;
+      });
+    };
+    for (const unsigned int v : split.interface.group_vertices)
+      take(v);
+    for (const SurfaceFace<dim> &face : split.interface.surface)
+      for (const unsigned int v : face.vertices)
+        take(v);
+    for (const unsigned int node : numbering.hanging_nodes)
+      is_outer[node] = true;
+    for (const NodeSupport<dim> &support : fields.supports)
+      is_outer[support.node] = true;
+
+    const auto append = [](NodeRanges &ranges, const unsigned int node) {
+      if (ranges.empty() || ranges.back().second != node)
+        ranges.emplace_back(node, node);
+      ++ranges.back().second;
+    };
+    fields.inner_nodes.clear();
+    fields.outer_nodes.clear();
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      if (is_outer[node])
+        append(fields.outer_nodes, node);
+      else if (fields.inverse_mass[node] > 0.)
+        append(fields.inner_nodes, node);
   }
 
 
@@ -492,7 +531,7 @@ namespace Keyblock
                   split.mesh.vertices[split.mesh.cells[cells.mesh_cell[c]][v]];
               typename StressArray<dim>::Stress value;
               stress.evaluate(place, value.data());
-              cells.stress.set(c, q, value);
+              cells.set_stress(c, q, value);
             }
       }
     if (!scene.initial_state.velocity.empty())

@@ -1,70 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step.h>
 
-#include <keyblock/damping.h>
 #include <keyblock/mpi.h>
+#include <keyblock/predict.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace Keyblock
 {
-  namespace
-  {
-    /** Add @p kick / mass times all forces but those of contact to the
-     * velocities of the nodes that are free to move. */
-    template <int dim, bool has_viscous, bool has_local>
-    void
-    kick_nodes(const Stage &stage, const double kick, Fields<dim> &fields)
-    {
-      const double *const load     = fields.load.data();
-      const double *const internal = fields.internal_force.data();
-      const double *const viscous  = fields.damping_force.data();
-      const double *const contact  = fields.contact_force.data();
-      double *const velocity       = fields.velocity.data();
-      double *const local          = fields.local_damping.data();
-      const double contact_share   = stage.damps_contact_force ? 1. : 0.;
-      for (const auto &[begin, end] : fields.free_nodes)
-        for (unsigned int node = begin; node < end; ++node)
-          {
-            const unsigned int i = dim * node;
-            const double mass    = fields.mass[node];
-            const double factor  = kick * fields.inverse_mass[node];
-            const double drag    = stage.mass_damping * mass;
-            // the contact step damps clusters itself
-            const double alpha =
-              stage.damps_contact_force && fields.is_in_cluster[node]
-                ? 0.
-                : stage.local_damping;
-            // read everything before anything is written
-            double old[dim], force[dim], change[dim], damping[dim];
-            for (int d = 0; d < dim; ++d)
-              {
-                old[d]   = velocity[i + d];
-                force[d] = load[i + d] - internal[i + d] - drag * old[d];
-                if (has_viscous)
-                  force[d] -= viscous[i + d];
-                change[d] = factor * force[d];
-                if (has_local)
-                  {
-                    force[d] += contact_share * contact[i + d];
-                    damping[d] =
-                      local_damping_change(old[d], factor * force[d], alpha);
-                    change[d] += damping[d];
-                  }
-              }
-            for (int d = 0; d < dim; ++d)
-              {
-                velocity[i + d] = old[d] + change[d];
-                if (has_local)
-                  local[i + d] = mass * damping[d];
-              }
-          }
-    }
-  } // namespace
-
-
-
   template <int dim>
   ExplicitStep<dim>::ExplicitStep(const Scene<dim> &scene,
                                   const SplitMesh<dim> &split,
@@ -180,7 +124,7 @@ namespace Keyblock
     stage                              = Stage();
     kick                               = 0.5 * dt;
     compute_internal_force();
-    predict();
+    predict_nodes(false);
     contact->solve({kick, dt, 0., scene.time_stepping.is_large(), false, 0.});
     fields.shifts.clear();
     fields.velocity = velocity;
@@ -264,16 +208,18 @@ namespace Keyblock
   {
     kick = starts_at_rest ? 0.5 * dt : 0.5 * (previous_dt + dt);
     compute_internal_force();
-    predict();
+    // energies are measured before anything moves
+    const bool moves_inner = !sample;
+    predict_nodes(moves_inner);
     resolve_contact();
     if (keeps_ledger)
-      book_work();
+      book_work(moves_inner);
     if (sample)
       {
         sample_energies();
         sample_unbalanced_force();
       }
-    move();
+    move_nodes(moves_inner);
     starts_at_rest    = false;
     is_first          = false;
     is_stress_current = false;
@@ -322,17 +268,21 @@ namespace Keyblock
 
   template <int dim>
   void
-  ExplicitStep<dim>::predict()
+  ExplicitStep<dim>::predict_nodes(const bool moves_inner)
   {
     conditions.set_load(time);
-    fields.old_velocity    = fields.velocity;
-    const bool has_viscous = stage.damping_ratio > 0.;
-    if (stage.local_damping > 0.)
-      has_viscous ? kick_nodes<dim, true, true>(stage, kick, fields)
-                  : kick_nodes<dim, false, true>(stage, kick, fields);
+    for_each_range(!moves_inner,
+                   [&](const unsigned int begin, const unsigned int end) {
+                     std::copy(fields.velocity.begin() + dim * begin,
+                               fields.velocity.begin() + dim * end,
+                               fields.old_velocity.begin() + dim * begin);
+                   });
+    predict(stage, kick, fields.outer_nodes, fields);
+    if (moves_inner)
+      inner_work = advance_inner_nodes(
+        stage, kick, dt, scene.time_stepping.is_large(), fields);
     else
-      has_viscous ? kick_nodes<dim, true, false>(stage, kick, fields)
-                  : kick_nodes<dim, false, false>(stage, kick, fields);
+      predict(stage, kick, fields.inner_nodes, fields);
     conditions.apply_supports(time, dt);
     numbering.update_ghosts(fields.velocity);
   }
@@ -359,15 +309,21 @@ namespace Keyblock
 
   template <int dim>
   void
-  ExplicitStep<dim>::move()
+  ExplicitStep<dim>::move_nodes(const bool inner_has_moved)
   {
     numbering.interpolate_hanging(fields.velocity);
-    const std::size_t n = fields.displacement.size();
-    for (std::size_t i = 0; i < n; ++i)
-      fields.displacement[i] += dt * fields.velocity[i];
-    if (!scene.time_stepping.is_large())
+    const bool is_large = scene.time_stepping.is_large();
+    for_each_range(!inner_has_moved,
+                   [&](const unsigned int begin, const unsigned int end) {
+                     for (unsigned int i = dim * begin; i < dim * end; ++i)
+                       fields.displacement[i] += dt * fields.velocity[i];
+                     if (is_large)
+                       std::copy(fields.velocity.begin() + dim * begin,
+                                 fields.velocity.begin() + dim * end,
+                                 fields.rate.begin() + dim * begin);
+                   });
+    if (!is_large)
       return;
-    fields.rate = fields.velocity;
     for (const auto &[dof, shift] : fields.shifts)
       {
         fields.displacement[dof] += shift;
@@ -376,8 +332,28 @@ namespace Keyblock
     fields.shifts.clear();
     numbering.interpolate_hanging(fields.rate);
     numbering.interpolate_hanging(fields.displacement);
-    for (std::size_t i = 0; i < n; ++i)
-      fields.position[i] = fields.reference[i] + fields.displacement[i];
+    for_each_range(!inner_has_moved,
+                   [&](const unsigned int begin, const unsigned int end) {
+                     for (unsigned int i = dim * begin; i < dim * end; ++i)
+                       fields.position[i] =
+                         fields.reference[i] + fields.displacement[i];
+                   });
+  }
+
+
+
+  template <int dim>
+  template <typename Action>
+  void
+  ExplicitStep<dim>::for_each_range(const bool with_inner,
+                                    const Action &action) const
+  {
+    if (with_inner)
+      for (const auto &[begin, end] : fields.inner_nodes)
+        action(begin, end);
+    for (const auto &[begin, end] : fields.outer_nodes)
+      action(begin, end);
+    action(numbering.n_owned(), numbering.n_local());
   }
 
   template class ExplicitStep<2>;

@@ -29,8 +29,10 @@ namespace Keyblock
     unsigned int begin = 0, end = 0; ///< cells
     const std::array<unsigned int, 1 << dim> *nodes = nullptr;
     const double *lambda = nullptr, *mu = nullptr; ///< [Pa]
-    const double *beta = nullptr;                  ///< [s]; null: no damping
-    double *stress     = nullptr;                  ///< as in StressArray [Pa]
+    /** 1: moduli have an entry per cell; 0: one batch of them, for all. */
+    unsigned int moduli_stride = 1;
+    const double *beta         = nullptr; ///< [s]; null: no damping
+    double *stress             = nullptr; ///< as in StressArray [Pa]
 
     double step            = 0.;      ///< [s]
     const double *position = nullptr; ///< [m]
@@ -65,6 +67,10 @@ namespace Keyblock
     void (*averaged_3d)(const CellPass<3> &) = nullptr;
     void (*plastic_2d)(const CellPass<2> &)  = nullptr;
     void (*plastic_3d)(const CellPass<3> &)  = nullptr;
+
+    /** Elastic energy [J] of elastic cells and of the others. */
+    std::array<double (*)(const CellPass<2> &), 2> energy_2d{};
+    std::array<double (*)(const CellPass<3> &), 2> energy_3d{};
   };
 
   /** Those that this processor can run, the fastest first. */

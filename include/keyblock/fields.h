@@ -28,6 +28,9 @@ namespace Keyblock
     }
   };
 
+  /** Nodes as ranges: first, one past the last. */
+  using NodeRanges = std::vector<std::pair<unsigned int, unsigned int>>;
+
   /**
    * The state of all local nodes: dim values per node, owned nodes first. A
    * node that is fixed in all directions has inverse mass zero.
@@ -50,9 +53,12 @@ namespace Keyblock
     std::vector<double> weighing_mass; ///< the true one [kg]
     std::vector<double> inverse_mass;  ///< one per node [1/kg]
 
-    /** Owned nodes with an inverse mass, as ranges: first, one past the last.
-     */
-    std::vector<std::pair<unsigned int, unsigned int>> free_nodes;
+    /** Owned nodes that are free to move and that nothing but cells, loads and
+     * damping acts on: no joint, support or hanging node; they are predicted
+     * and moved in one pass. */
+    NodeRanges inner_nodes;
+    /** All other owned nodes that may move. */
+    NodeRanges outer_nodes;
 
     /** One per node: held by a cluster, whose solve applies the damping. */
     std::vector<unsigned char> is_in_cluster;

@@ -59,7 +59,8 @@ namespace Keyblock
         values[place(cell, point) + k * batch_size] = stress[k];
     }
 
-    /** All numbers, for sums of whole arrays and for the loop over cells. */
+    /** All numbers as they are kept (CellArrays::stress_at), for sums of whole
+     * arrays and for the loop over cells. */
     std::vector<double, boost::alignment::aligned_allocator<double, 64>> values;
 
   private:
@@ -89,7 +90,43 @@ namespace Keyblock
     std::vector<double> lambda, mu; ///< [Pa]
     std::vector<double> beta;       ///< stiffness damping time [s]
 
+    /**
+     * In 2D elastic cells (not those with mean dilatation) the stress across
+     * the plane is kept less nu times the sum of the normal stresses in it:
+     * that is what elastic strain does not change, so that the loop over cells
+     * need not touch it.
+     */
     StressArray<dim> stress;
+
+    using Stress = typename StressArray<dim>::Stress;
+
+    /** Stress at a Gauss point [Pa]. */
+    Stress
+    stress_at(const unsigned int cell, const unsigned int point) const
+    {
+      return stress_at(cell, point, stress);
+    }
+
+    /** The same of an array of these cells kept elsewhere. */
+    Stress
+    stress_at(const unsigned int cell,
+              const unsigned int point,
+              const StressArray<dim> &array) const
+    {
+      Stress s = array.at(cell, point);
+      s[2] += kept_share(cell) * (s[0] + s[1]);
+      return s;
+    }
+
+    void
+    set_stress(const unsigned int cell, const unsigned int point, Stress s)
+    {
+      s[2] -= kept_share(cell) * (s[0] + s[1]);
+      stress.set(cell, point, s);
+    }
+
+    /** Whether all cells of a kind have the same moduli. */
+    std::array<bool, n_cell_kinds> is_uniform{};
 
     // Mohr-Coulomb cells only, counted from the first of them
     std::vector<MohrCoulomb> strengths;   ///< one per material
@@ -102,6 +139,17 @@ namespace Keyblock
     first_plastic() const
     {
       return kind_begin[unsigned(CellKind::plastic)];
+    }
+
+  private:
+    /** Poisson's ratio where `stress` is kept without the part that follows
+     * from the others, else 0. */
+    double
+    kept_share(const unsigned int cell) const
+    {
+      return dim == 2 && cell < kind_begin[1]
+               ? 0.5 * lambda[cell] / (lambda[cell] + mu[cell])
+               : 0.;
     }
   };
 

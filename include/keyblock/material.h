@@ -124,18 +124,18 @@ namespace Keyblock
 
 
   /** Elastic energy per volume, half of stress : C^-1 : stress [J/m3]. */
-  template <int dim>
-  inline double
-  elastic_energy_density(const double *stress,
-                         const double lambda,
-                         const double mu)
+  template <int dim, typename Number>
+  KEYBLOCK_ALWAYS_INLINE Number
+  elastic_energy_density(const Number *stress,
+                         const Number lambda,
+                         const Number mu)
   {
-    double square = 0.;
+    Number square = Number();
     for (int k = 0; k < 3; ++k)
       square += stress[k] * stress[k];
     for (int k = 3; k < n_stress<dim>; ++k)
       square += 2. * stress[k] * stress[k];
-    const double trace = stress[0] + stress[1] + stress[2];
+    const Number trace = stress[0] + stress[1] + stress[2];
     return (square - lambda / (3. * lambda + 2. * mu) * trace * trace) /
            (4. * mu);
   }

@@ -177,6 +177,7 @@ namespace Keyblock
     void read_formulas();
     void list_cells();
     void hold_frozen_nodes();
+    void list_moving_nodes();
     void set_up_frequencies();
     std::vector<double> sum_masses(const bool is_scaled) const;
     void set_up_far_field();

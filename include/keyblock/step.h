@@ -3,6 +3,7 @@
 #define keyblock_step_h
 
 #include <keyblock/contact.h>
+#include <keyblock/predict.h>
 #include <keyblock/set_up.h>
 
 #include <algorithm>
@@ -172,11 +173,17 @@ namespace Keyblock
     void apply_settings(const Stage &stage);
     const double *positions() const;
     void compute_internal_force();
-    void predict();
+    /** Kick all nodes; with @p moves_inner the inner ones move as well. */
+    void predict_nodes(const bool moves_inner);
     void resolve_contact();
-    void book_work();
+    void book_work(const bool inner_is_booked);
     void sample_energies();
-    void move();
+    void move_nodes(const bool inner_has_moved);
+
+    /** Call action(first node, one past the last) for the outer nodes and the
+     * ghosts, and for the inner ones if asked to. */
+    template <typename Action>
+    void for_each_range(const bool with_inner, const Action &action) const;
 
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
@@ -185,6 +192,8 @@ namespace Keyblock
     CellArrays<dim> &cells;
     Fields<dim> &fields;
     Contact<dim> *contact;
+
+    NodeWork inner_work; ///< of the inner nodes in this step
   };
 
 

@@ -2,6 +2,7 @@
 // All instruction sets give the same forces and stresses.
 #include <keyblock/internal_force.h>
 
+#include <keyblock/cell_geometry.h>
 #include <keyblock/cell_kernels.h>
 
 #include <boost/test/unit_test.hpp>
@@ -63,7 +64,7 @@ namespace
           typename StressArray<dim>::Stress stress;
           for (double &s : stress)
             s = 1e6 * random(engine);
-          cells.stress.set(c, q, stress);
+          cells.set_stress(c, q, stress);
         }
     cells.strengths.resize(2);
     cells.strengths[0].peak =
@@ -132,6 +133,59 @@ BOOST_AUTO_TEST_CASE(kernels_of_all_instruction_sets_agree)
       compare_all<2>(is_large);
       compare_all<3>(is_large);
     }
+}
+
+namespace
+{
+  /** Energy of a uniform stress in cells of one material: volume by volume. */
+  template <int dim>
+  void
+  check_energy()
+  {
+    Problem<dim> problem   = make_problem<dim>();
+    CellArrays<dim> &cells = problem.cells;
+    typename StressArray<dim>::Stress stress;
+    for (int k = 0; k < n_stress<dim>; ++k)
+      stress[k] = 1e6 * (k + 1.);
+    double expected = 0.;
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      {
+        cells.lambda[c] = 2e9;
+        cells.mu[c]     = 1e9;
+        Corners<dim, double> x, gradient;
+        for (int a = 0; a < (1 << dim); ++a)
+          std::copy_n(problem.position.data() + dim * cells.nodes[c][a],
+                      dim,
+                      x[a].begin());
+        for (int q = 0; q < (1 << dim); ++q)
+          {
+            cells.set_stress(c, q, stress);
+            expected += gradients_times_determinant<dim>(q, x, gradient) *
+                        Shape<dim>::weight;
+          }
+      }
+    // strain = (stress - nu / (1 + nu) trace) / (2 mu), nu = 1/3
+    double trace = 0., work = 0.;
+    for (int k = 0; k < 3; ++k)
+      trace += stress[k];
+    for (int k = 0; k < n_stress<dim>; ++k)
+      work += stress[k] * (k < 3 ? stress[k] - trace / 4. : 2. * stress[k]);
+    expected *= 0.5 * work / 2e9;
+    for (const CellKernels &kernels : available_kernels())
+      {
+        choose_kernels(kernels.name);
+        const double found =
+          elastic_energy<dim>(cells, problem.position.data());
+        BOOST_TEST(std::abs(found / expected - 1.) < 1e-13, kernels.name);
+      }
+    choose_kernels("");
+  }
+} // namespace
+
+BOOST_AUTO_TEST_CASE(energy_of_uniform_stress)
+{
+  check_energy<2>();
+  check_energy<3>();
 }
 
 BOOST_AUTO_TEST_CASE(unknown_kernels_are_refused)

@@ -49,7 +49,7 @@ namespace
       for (unsigned int i = 0; i < 16; ++i)
         largest =
           std::max(largest,
-                   std::abs(cells.stress.at(c, i / 4)[i % 4] - exact[i % 4]));
+                   std::abs(cells.stress_at(c, i / 4)[i % 4] - exact[i % 4]));
     return dealii::Utilities::MPI::max(largest, world()) / 1e6;
   }
 
@@ -110,7 +110,7 @@ namespace
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       for (unsigned int q = 0; q < 4; ++q)
         {
-          const double error = std::abs(cells.stress.at(c, q)[1] + 1e6) / 1e6;
+          const double error = std::abs(cells.stress_at(c, q)[1] + 1e6) / 1e6;
           largest            = std::max(largest, error);
           square += error * error;
           n_points += 1.;
