@@ -267,9 +267,9 @@ namespace Keyblock
   elastic_energy(const CellArrays<dim> &cells, const double *position)
   {
     CellPass<dim> pass;
-    pass.nodes    = cells.nodes.data();
-    pass.lambda   = cells.lambda.data();
-    pass.mu       = cells.mu.data();
+    pass.nodes  = cells.nodes.data();
+    pass.lambda = cells.lambda.data();
+    pass.mu     = cells.mu.data();
     // only read here
     pass.stress   = const_cast<double *>(cells.stress.values.data());
     pass.position = position;
