@@ -147,8 +147,12 @@ namespace Keyblock
     const Pair<dim> &p      = interface.pairs[pair];
     const Joint<dim> &joint = *scene.joints[p.joint];
     PointStrength strength;
-    const auto sides   = blocks_of_pair(pair);
-    const double share = reduction.share_between(sides[0], sides[1], p.joint);
+    double share = reduction.share;
+    if (share != 1.)
+      {
+        const auto sides = blocks_of_pair(pair);
+        share            = reduction.share_between(sides[0], sides[1], p.joint);
+      }
     strength.static_friction =
       share *
       (override_tangent >= 0. ? override_tangent : static_tangent[p.joint]);

@@ -18,9 +18,28 @@ namespace Keyblock
     std::vector<ContactPoint<dim>> point(1);
     std::vector<PointStrength> broken(1);
     const ContactNodes<dim> nodes{v, fields.inverse_mass.data(), nullptr};
-    for (const SinglePair &single : single_pairs)
+    // a joint runs across the order of the nodes: what its pairs need comes
+    // from anywhere in memory
+    const auto prefetch = [&](const SinglePair &single)
+      __attribute__((always_inline))
+    {
+      __builtin_prefetch(&state[single.pair]);
+      __builtin_prefetch(&interface.pairs[single.pair]);
+      for (const unsigned int node : {single.minus, single.plus})
+        {
+          __builtin_prefetch(&fields.velocity[dim * node]);
+          __builtin_prefetch(&fields.old_velocity[dim * node]);
+          __builtin_prefetch(&fields.contact_force[dim * node]);
+          __builtin_prefetch(&fields.inverse_mass[node]);
+          __builtin_prefetch(&fields.is_in_cluster[node]);
+        }
+    };
+    for (unsigned int i = 0; i < single_pairs.size(); ++i)
       {
-        PairState<dim> &s     = state[single.pair];
+        prefetch(
+          single_pairs[std::min<std::size_t>(i + 8, single_pairs.size() - 1)]);
+        const SinglePair &single = single_pairs[i];
+        PairState<dim> &s        = state[single.pair];
         const unsigned int pm = dim * single.minus, pp = dim * single.plus;
         const double wm = fields.inverse_mass[single.minus];
         const double wp = fields.inverse_mass[single.plus];

@@ -77,26 +77,18 @@ namespace Keyblock
   namespace
   {
     /** Sum of @p force times the sum of velocities before and after the step,
-     * over the nodes of @p ranges. */
+     * over degrees of freedom. */
     template <int dim>
     double
     work_of(const std::vector<double> &force,
             const Fields<dim> &fields,
-            const NodeRanges &ranges)
+            const unsigned int begin,
+            const unsigned int end)
     {
-      std::array<double, 4> sums{}; // four, to add several at a time
-      for (const auto &[begin, end] : ranges)
-        {
-          unsigned int i       = dim * begin;
-          const unsigned int n = dim * end;
-          for (; i + 4 <= n; i += 4)
-            for (unsigned int k = 0; k < 4; ++k)
-              sums[k] += force[i + k] *
-                         (fields.old_velocity[i + k] + fields.velocity[i + k]);
-          for (; i < n; ++i)
-            sums[0] += force[i] * (fields.old_velocity[i] + fields.velocity[i]);
-        }
-      return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+      double sum = 0.;
+      for (unsigned int i = begin; i < end; ++i)
+        sum += force[i] * (fields.old_velocity[i] + fields.velocity[i]);
+      return sum;
     }
   } // namespace
 
@@ -104,34 +96,31 @@ namespace Keyblock
 
   template <int dim>
   void
-  ExplicitStep<dim>::book_work(const bool inner_is_booked)
+  ExplicitStep<dim>::book_work(const NodeRun &run)
+  {
+    const double half_kick   = 0.5 * kick;
+    const unsigned int begin = dim * run.begin, end = dim * run.end;
+    sums.external += half_kick * work_of<dim>(fields.load, fields, begin, end);
+    if (stage.damping_ratio > 0.)
+      sums.stiffness_damping +=
+        half_kick * work_of<dim>(fields.damping_force, fields, begin, end);
+    if (stage.local_damping > 0.)
+      sums.local_damping -=
+        0.5 * work_of<dim>(fields.local_damping, fields, begin, end);
+    if (stage.mass_damping > 0.)
+      for (unsigned int i = begin; i < end; ++i)
+        sums.mass_damping += half_kick * stage.mass_damping *
+                             fields.mass[i / dim] * fields.old_velocity[i] *
+                             (fields.old_velocity[i] + fields.velocity[i]);
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::book_supports()
   {
     const bool has_viscous = stage.damping_ratio > 0.;
-    const double half_kick = 0.5 * kick;
-    NodeWork work          = inner_is_booked ? inner_work : NodeWork();
-    const auto book        = [&](const NodeRanges &ranges) {
-      work.external += half_kick * work_of<dim>(fields.load, fields, ranges);
-      if (has_viscous)
-        work.stiffness_damping +=
-          half_kick * work_of<dim>(fields.damping_force, fields, ranges);
-      if (stage.local_damping > 0.)
-        work.local_damping -=
-          0.5 * work_of<dim>(fields.local_damping, fields, ranges);
-      if (stage.mass_damping > 0.)
-        for (const auto &[begin, end] : ranges)
-          for (unsigned int i = dim * begin; i < dim * end; ++i)
-            work.mass_damping += half_kick * stage.mass_damping *
-                                 fields.mass[i / dim] * fields.old_velocity[i] *
-                                 (fields.old_velocity[i] + fields.velocity[i]);
-    };
-    if (!inner_is_booked)
-      book(fields.inner_nodes);
-    book(fields.outer_nodes);
-    sums.external += work.external;
-    sums.stiffness_damping += work.stiffness_damping;
-    sums.mass_damping += work.mass_damping;
-    sums.local_damping += work.local_damping;
-
     // the force that a support must have given: what the others left missing
     for (const NodeSupport<dim> &support : fields.supports)
       if (support.motion >= 0 && support.node < numbering.n_owned())
@@ -247,8 +236,10 @@ namespace Keyblock
     largest_nodal_ratio = scale > 0. ? largest * sums[1] / scale : 0.;
   }
 
-  template void ExplicitStep<2>::book_work(const bool);
-  template void ExplicitStep<3>::book_work(const bool);
+  template void ExplicitStep<2>::book_work(const NodeRun &);
+  template void ExplicitStep<3>::book_work(const NodeRun &);
+  template void ExplicitStep<2>::book_supports();
+  template void ExplicitStep<3>::book_supports();
   template void ExplicitStep<2>::sample_energies();
   template void ExplicitStep<3>::sample_energies();
   template void ExplicitStep<2>::sample_unbalanced_force();

@@ -3,6 +3,8 @@
 #include <keyblock/damping.h>
 #include <keyblock/predict.h>
 
+#include <type_traits>
+
 namespace Keyblock
 {
   namespace
@@ -15,7 +17,23 @@ namespace Keyblock
       double damping[dim]; ///< part of the change: local damping
     };
 
-    template <int dim, bool has_viscous, bool has_local>
+    /** Twice the work per unit of kick, of each component: kept apart, so that
+     * sums do not wait for each other. */
+    template <int dim>
+    struct ComponentWork
+    {
+      double external[dim]{}, viscous[dim]{}, momentum[dim]{}, local[dim]{};
+    };
+
+    /** What acts on nodes besides cells and loads. */
+    template <bool viscous, bool local, bool drag>
+    struct Damping
+    {
+      static constexpr bool has_viscous = viscous, has_local = local,
+                            has_drag = drag;
+    };
+
+    template <int dim, typename Damping>
     inline Kicked<dim>
     kick_node(const Stage &stage,
               const double kick,
@@ -29,17 +47,18 @@ namespace Keyblock
       const double *const contact  = fields.contact_force.data() + dim * node;
       const double *const velocity = fields.velocity.data() + dim * node;
       const double factor          = kick * fields.inverse_mass[node];
-      const double drag            = stage.mass_damping * fields.mass[node];
       const double contact_share   = stage.damps_contact_force ? 1. : 0.;
       Kicked<dim> result;
       for (int d = 0; d < dim; ++d)
         {
           result.old[d] = velocity[d];
-          double force  = load[d] - internal[d] - drag * velocity[d];
-          if (has_viscous)
+          double force  = load[d] - internal[d];
+          if (Damping::has_drag)
+            force -= stage.mass_damping * fields.mass[node] * velocity[d];
+          if (Damping::has_viscous)
             force -= viscous[d];
           result.change[d] = factor * force;
-          if (has_local)
+          if (Damping::has_local)
             {
               force += contact_share * contact[d];
               result.damping[d] =
@@ -50,86 +69,93 @@ namespace Keyblock
       return result;
     }
 
-    template <int dim, bool has_viscous, bool has_local>
+    template <int dim, typename Damping>
     void
-    predict_ranges(const Stage &stage,
-                   const double kick,
-                   const NodeRanges &ranges,
-                   Fields<dim> &fields)
+    predict_run(const Stage &stage,
+                const double kick,
+                const NodeRun &run,
+                Fields<dim> &fields)
     {
-      for (const auto &[begin, end] : ranges)
-        for (unsigned int node = begin; node < end; ++node)
-          {
-            // the contact step damps clusters itself
-            const double alpha =
-              stage.damps_contact_force && fields.is_in_cluster[node]
-                ? 0.
-                : stage.local_damping;
-            const auto kicked = kick_node<dim, has_viscous, has_local>(
-              stage, kick, alpha, node, fields);
-            for (int d = 0; d < dim; ++d)
-              {
-                const unsigned int i = dim * node + d;
-                fields.velocity[i]   = kicked.old[d] + kicked.change[d];
-                if (has_local)
-                  fields.local_damping[i] =
-                    fields.mass[node] * kicked.damping[d];
-              }
-          }
+      for (unsigned int node = run.begin; node < run.end; ++node)
+        {
+          // the contact step damps clusters itself
+          const double alpha =
+            stage.damps_contact_force && fields.is_in_cluster[node]
+              ? 0.
+              : stage.local_damping;
+          const auto kicked =
+            kick_node<dim, Damping>(stage, kick, alpha, node, fields);
+          for (int d = 0; d < dim; ++d)
+            {
+              const unsigned int i   = dim * node + d;
+              fields.old_velocity[i] = kicked.old[d];
+              fields.velocity[i]     = kicked.old[d] + kicked.change[d];
+              if (Damping::has_local)
+                fields.local_damping[i] = fields.mass[node] * kicked.damping[d];
+            }
+        }
     }
 
-    /** Twice the work per unit of kick, of each component: kept apart, so that
-     * sums do not wait for each other. */
-    template <int dim>
-    struct ComponentWork
+    template <int dim, typename Damping>
+    inline void
+    advance_node(const Stage &stage,
+                 const double kick,
+                 const double dt,
+                 const unsigned int node,
+                 Fields<dim> &fields,
+                 ComponentWork<dim> &work)
     {
-      double external[dim]{}, viscous[dim]{}, momentum[dim]{}, local[dim]{};
-    };
+      const auto kicked =
+        kick_node<dim, Damping>(stage, kick, stage.local_damping, node, fields);
+      for (int d = 0; d < dim; ++d)
+        {
+          const unsigned int i  = dim * node + d;
+          const double velocity = kicked.old[d] + kicked.change[d];
+          const double both     = kicked.old[d] + velocity;
+          work.external[d] += fields.load[i] * both;
+          if (Damping::has_viscous)
+            work.viscous[d] += fields.damping_force[i] * both;
+          if (Damping::has_local)
+            work.local[d] += fields.mass[node] * kicked.damping[d] * both;
+          if (Damping::has_drag)
+            work.momentum[d] += fields.mass[node] * kicked.old[d] * both;
+          fields.velocity[i] = velocity;
+          fields.displacement[i] += dt * velocity;
+        }
+    }
 
-    template <int dim, bool has_viscous, bool has_local, bool is_large>
+    template <int dim, typename Damping>
     NodeWork
-    advance_ranges(const Stage &stage,
-                   const double kick,
-                   const double dt,
-                   Fields<dim> &fields)
+    predict_runs(const Stage &stage,
+                 const double kick,
+                 const double dt,
+                 const bool moves_inner,
+                 const bool is_large,
+                 Fields<dim> &fields)
     {
       constexpr unsigned int n_sums = 4;
       ComponentWork<dim> sums[n_sums];
-      const bool has_drag = stage.mass_damping > 0.;
-      const auto advance  = [&](const unsigned int node,
-                               ComponentWork<dim> &sum) {
-        const auto kicked = kick_node<dim, has_viscous, has_local>(
-          stage, kick, stage.local_damping, node, fields);
-        for (int d = 0; d < dim; ++d)
-          {
-            const unsigned int i  = dim * node + d;
-            const double velocity = kicked.old[d] + kicked.change[d];
-            const double both     = kicked.old[d] + velocity;
-            sum.external[d] += fields.load[i] * both;
-            if (has_viscous)
-              sum.viscous[d] += fields.damping_force[i] * both;
-            if (has_local)
-              sum.local[d] += fields.mass[node] * kicked.damping[d] * both;
-            if (has_drag)
-              sum.momentum[d] += fields.mass[node] * kicked.old[d] * both;
-            fields.velocity[i] = velocity;
-            fields.displacement[i] += dt * velocity;
-            if (is_large)
+      for (const NodeRun &run : fields.runs)
+        {
+          if (!run.is_inner || !moves_inner)
+            {
+              predict_run<dim, Damping>(stage, kick, run, fields);
+              continue;
+            }
+          unsigned int node = run.begin;
+          for (; node + n_sums <= run.end; node += n_sums)
+            for (unsigned int k = 0; k < n_sums; ++k)
+              advance_node<dim, Damping>(
+                stage, kick, dt, node + k, fields, sums[k]);
+          for (; node < run.end; ++node)
+            advance_node<dim, Damping>(stage, kick, dt, node, fields, sums[0]);
+          if (is_large)
+            for (unsigned int i = dim * run.begin; i < dim * run.end; ++i)
               {
-                fields.rate[i] = velocity;
+                fields.rate[i] = fields.velocity[i];
                 fields.position[i] =
                   fields.reference[i] + fields.displacement[i];
               }
-          }
-      };
-      for (const auto &[begin, end] : fields.inner_nodes)
-        {
-          unsigned int node = begin;
-          for (; node + n_sums <= end; node += n_sums)
-            for (unsigned int k = 0; k < n_sums; ++k)
-              advance(node + k, sums[k]);
-          for (; node < end; ++node)
-            advance(node, sums[0]);
         }
       NodeWork work;
       for (const ComponentWork<dim> &sum : sums)
@@ -148,59 +174,42 @@ namespace Keyblock
 
 
   template <int dim>
-  void
+  NodeWork
   predict(const Stage &stage,
           const double kick,
-          const NodeRanges &ranges,
+          const double dt,
+          const bool moves_inner,
+          const bool is_large,
           Fields<dim> &fields)
   {
-    const bool has_viscous = stage.damping_ratio > 0.;
-    if (stage.local_damping > 0.)
-      has_viscous
-        ? predict_ranges<dim, true, true>(stage, kick, ranges, fields)
-        : predict_ranges<dim, false, true>(stage, kick, ranges, fields);
-    else
-      has_viscous
-        ? predict_ranges<dim, true, false>(stage, kick, ranges, fields)
-        : predict_ranges<dim, false, false>(stage, kick, ranges, fields);
-  }
-
-
-
-  template <int dim>
-  NodeWork
-  advance_inner_nodes(const Stage &stage,
-                      const double kick,
-                      const double dt,
-                      const bool is_large,
-                      Fields<dim> &fields)
-  {
-    const bool has_viscous = stage.damping_ratio > 0.;
-    const auto run         = [&](auto viscous, auto local) {
-      return is_large ? advance_ranges<dim, viscous.value, local.value, true>(
-                          stage, kick, dt, fields)
-                              : advance_ranges<dim, viscous.value, local.value, false>(
-                          stage, kick, dt, fields);
+    const auto run = [&](const auto viscous,
+                         const auto local,
+                         const auto drag) {
+      return predict_runs<dim, Damping<viscous.value, local.value, drag.value>>(
+        stage, kick, dt, moves_inner, is_large, fields);
     };
-    if (stage.local_damping > 0.)
-      return has_viscous ? run(std::true_type(), std::true_type())
-                         : run(std::false_type(), std::true_type());
-    return has_viscous ? run(std::true_type(), std::false_type())
-                       : run(std::false_type(), std::false_type());
+    const auto with_drag = [&](const auto viscous, const auto local) {
+      return stage.mass_damping > 0. ? run(viscous, local, std::true_type())
+                                     : run(viscous, local, std::false_type());
+    };
+    const auto with_local = [&](const auto viscous) {
+      return stage.local_damping > 0. ? with_drag(viscous, std::true_type())
+                                      : with_drag(viscous, std::false_type());
+    };
+    return stage.damping_ratio > 0. ? with_local(std::true_type())
+                                    : with_local(std::false_type());
   }
 
-  template void
-  predict(const Stage &, const double, const NodeRanges &, Fields<2> &);
-  template void
-  predict(const Stage &, const double, const NodeRanges &, Fields<3> &);
-  template NodeWork advance_inner_nodes(const Stage &,
-                                        const double,
-                                        const double,
-                                        const bool,
-                                        Fields<2> &);
-  template NodeWork advance_inner_nodes(const Stage &,
-                                        const double,
-                                        const double,
-                                        const bool,
-                                        Fields<3> &);
+  template NodeWork predict(const Stage &,
+                            const double,
+                            const double,
+                            const bool,
+                            const bool,
+                            Fields<2> &);
+  template NodeWork predict(const Stage &,
+                            const double,
+                            const double,
+                            const bool,
+                            const bool,
+                            Fields<3> &);
 } // namespace Keyblock

@@ -497,18 +497,15 @@ namespace Keyblock
     for (const NodeSupport<dim> &support : fields.supports)
       is_outer[support.node] = true;
 
-    const auto append = [](NodeRanges &ranges, const unsigned int node) {
-      if (ranges.empty() || ranges.back().second != node)
-        ranges.emplace_back(node, node);
-      ++ranges.back().second;
-    };
-    fields.inner_nodes.clear();
-    fields.outer_nodes.clear();
+    fields.runs.clear();
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
-      if (is_outer[node])
-        append(fields.outer_nodes, node);
-      else if (fields.inverse_mass[node] > 0.)
-        append(fields.inner_nodes, node);
+      if (is_outer[node] || fields.inverse_mass[node] > 0.)
+        {
+          if (fields.runs.empty() || fields.runs.back().end != node ||
+              fields.runs.back().is_inner == is_outer[node])
+            fields.runs.push_back({node, node, !is_outer[node]});
+          ++fields.runs.back().end;
+        }
   }
 
 

@@ -209,17 +209,20 @@ namespace Keyblock
     kick = starts_at_rest ? 0.5 * dt : 0.5 * (previous_dt + dt);
     compute_internal_force();
     // energies are measured before anything moves
-    const bool moves_inner = !sample;
-    predict_nodes(moves_inner);
+    predict_nodes(!sample);
     resolve_contact();
+    numbering.interpolate_hanging(fields.velocity);
     if (keeps_ledger)
-      book_work(moves_inner);
+      book_supports();
     if (sample)
       {
+        for (const NodeRun &run : fields.runs)
+          if (keeps_ledger)
+            book_work(run);
         sample_energies();
         sample_unbalanced_force();
       }
-    move_nodes(moves_inner);
+    move_nodes(sample);
     starts_at_rest    = false;
     is_first          = false;
     is_stress_current = false;
@@ -271,18 +274,16 @@ namespace Keyblock
   ExplicitStep<dim>::predict_nodes(const bool moves_inner)
   {
     conditions.set_load(time);
-    for_each_range(!moves_inner,
-                   [&](const unsigned int begin, const unsigned int end) {
-                     std::copy(fields.velocity.begin() + dim * begin,
-                               fields.velocity.begin() + dim * end,
-                               fields.old_velocity.begin() + dim * begin);
-                   });
-    predict(stage, kick, fields.outer_nodes, fields);
-    if (moves_inner)
-      inner_work = advance_inner_nodes(
-        stage, kick, dt, scene.time_stepping.is_large(), fields);
-    else
-      predict(stage, kick, fields.inner_nodes, fields);
+    // those of nodes that move are kept on the way
+    std::copy(fields.velocity.begin() +
+                (moves_inner ? dim * numbering.n_owned() : 0),
+              fields.velocity.end(),
+              fields.old_velocity.begin() +
+                (moves_inner ? dim * numbering.n_owned() : 0));
+    const NodeWork work = predict(
+      stage, kick, dt, moves_inner, scene.time_stepping.is_large(), fields);
+    if (keeps_ledger)
+      sums.add(work);
     conditions.apply_supports(time, dt);
     numbering.update_ghosts(fields.velocity);
   }
@@ -309,19 +310,38 @@ namespace Keyblock
 
   template <int dim>
   void
-  ExplicitStep<dim>::move_nodes(const bool inner_has_moved)
+  ExplicitStep<dim>::move_nodes(const bool with_inner)
   {
-    numbering.interpolate_hanging(fields.velocity);
     const bool is_large = scene.time_stepping.is_large();
-    for_each_range(!inner_has_moved,
-                   [&](const unsigned int begin, const unsigned int end) {
-                     for (unsigned int i = dim * begin; i < dim * end; ++i)
-                       fields.displacement[i] += dt * fields.velocity[i];
-                     if (is_large)
-                       std::copy(fields.velocity.begin() + dim * begin,
-                                 fields.velocity.begin() + dim * end,
-                                 fields.rate.begin() + dim * begin);
-                   });
+    const NodeRun ghosts{numbering.n_owned(), numbering.n_local(), false};
+    const auto move = [&](const NodeRun &run) {
+      for (unsigned int i = dim * run.begin; i < dim * run.end; ++i)
+        fields.displacement[i] += dt * fields.velocity[i];
+      if (is_large)
+        std::copy(fields.velocity.begin() + dim * run.begin,
+                  fields.velocity.begin() + dim * run.end,
+                  fields.rate.begin() + dim * run.begin);
+    };
+    for (unsigned int r = 0; r < fields.runs.size(); ++r)
+      {
+        const NodeRun &run = fields.runs[r];
+        if (run.is_inner && !with_inner)
+          continue;
+        // outer nodes lie anywhere: fetch those a few runs on
+        const unsigned int next =
+          dim *
+          fields.runs[std::min<std::size_t>(r + 8, fields.runs.size() - 1)]
+            .begin;
+        for (const auto *values : {&fields.load,
+                                   &fields.velocity,
+                                   &fields.old_velocity,
+                                   &fields.displacement})
+          __builtin_prefetch(values->data() + next);
+        if (keeps_ledger && !with_inner)
+          book_work(run);
+        move(run);
+      }
+    move(ghosts);
     if (!is_large)
       return;
     for (const auto &[dof, shift] : fields.shifts)
@@ -332,28 +352,14 @@ namespace Keyblock
     fields.shifts.clear();
     numbering.interpolate_hanging(fields.rate);
     numbering.interpolate_hanging(fields.displacement);
-    for_each_range(!inner_has_moved,
-                   [&](const unsigned int begin, const unsigned int end) {
-                     for (unsigned int i = dim * begin; i < dim * end; ++i)
-                       fields.position[i] =
-                         fields.reference[i] + fields.displacement[i];
-                   });
-  }
-
-
-
-  template <int dim>
-  template <typename Action>
-  void
-  ExplicitStep<dim>::for_each_range(const bool with_inner,
-                                    const Action &action) const
-  {
-    if (with_inner)
-      for (const auto &[begin, end] : fields.inner_nodes)
-        action(begin, end);
-    for (const auto &[begin, end] : fields.outer_nodes)
-      action(begin, end);
-    action(numbering.n_owned(), numbering.n_local());
+    const auto place = [&](const NodeRun &run) {
+      for (unsigned int i = dim * run.begin; i < dim * run.end; ++i)
+        fields.position[i] = fields.reference[i] + fields.displacement[i];
+    };
+    for (const NodeRun &run : fields.runs)
+      if (with_inner || !run.is_inner)
+        place(run);
+    place(ghosts);
   }
 
   template class ExplicitStep<2>;

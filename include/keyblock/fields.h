@@ -28,8 +28,15 @@ namespace Keyblock
     }
   };
 
-  /** Nodes as ranges: first, one past the last. */
-  using NodeRanges = std::vector<std::pair<unsigned int, unsigned int>>;
+  /** Nodes one after the other. */
+  struct NodeRun
+  {
+    unsigned int begin, end;
+
+    /** Nothing but cells, loads and damping acts on them: no joint, support
+     * or hanging node. They are predicted and moved in one pass. */
+    bool is_inner;
+  };
 
   /**
    * The state of all local nodes: dim values per node, owned nodes first. A
@@ -53,12 +60,8 @@ namespace Keyblock
     std::vector<double> weighing_mass; ///< the true one [kg]
     std::vector<double> inverse_mass;  ///< one per node [1/kg]
 
-    /** Owned nodes that are free to move and that nothing but cells, loads and
-     * damping acts on: no joint, support or hanging node; they are predicted
-     * and moved in one pass. */
-    NodeRanges inner_nodes;
-    /** All other owned nodes that may move. */
-    NodeRanges outer_nodes;
+    /** Owned nodes that may move, in order. */
+    std::vector<NodeRun> runs;
 
     /** One per node: held by a cluster, whose solve applies the damping. */
     std::vector<unsigned char> is_in_cluster;

@@ -15,27 +15,22 @@ namespace Keyblock
   };
 
   /**
-   * Kick the owned nodes of @p ranges (first, one past the last): add to their
-   * velocities @p kick / mass times the forces of cells, loads and damping. The
-   * impulse of local damping is left in fields.local_damping, as the cap of a
-   * damped cluster needs it.
+   * Kick all nodes that may move (Fields::runs): add to their velocities
+   * @p kick / mass times the forces of cells, loads and damping, after the
+   * velocities were copied to fields.old_velocity. The impulse of local damping
+   * is left in fields.local_damping, as the cap of a damped cluster needs it.
+   *
+   * With @p moves_inner nodes of inner runs are moved over @p dt at once; their
+   * old velocities and impulses are not kept, and the work done on them is
+   * returned.
    */
   template <int dim>
-  void predict(const Stage &stage,
-               const double kick,
-               const NodeRanges &ranges,
-               Fields<dim> &fields);
-
-  /**
-   * Kick and move the inner nodes (Fields::inner_nodes) in one pass: nothing
-   * but cells, loads and damping acts on them. Returns the work done.
-   */
-  template <int dim>
-  NodeWork advance_inner_nodes(const Stage &stage,
-                               const double kick,
-                               const double dt,
-                               const bool is_large,
-                               Fields<dim> &fields);
+  NodeWork predict(const Stage &stage,
+                   const double kick,
+                   const double dt,
+                   const bool moves_inner,
+                   const bool is_large,
+                   Fields<dim> &fields);
 } // namespace Keyblock
 
 #endif

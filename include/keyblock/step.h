@@ -32,6 +32,15 @@ namespace Keyblock
     double excavated         = 0.; ///< elastic, left with the cells dug first
     double start = 0.; ///< kinetic and elastic at the start of the stage
 
+    void
+    add(const NodeWork &work)
+    {
+      external += work.external;
+      stiffness_damping += work.stiffness_damping;
+      mass_damping += work.mass_damping;
+      local_damping += work.local_damping;
+    }
+
     std::array<double, n_energy_terms> as_array() const;
     static Energies
     from_array(const std::array<double, n_energy_terms> &values);
@@ -176,14 +185,15 @@ namespace Keyblock
     /** Kick all nodes; with @p moves_inner the inner ones move as well. */
     void predict_nodes(const bool moves_inner);
     void resolve_contact();
-    void book_work(const bool inner_is_booked);
-    void sample_energies();
-    void move_nodes(const bool inner_has_moved);
 
-    /** Call action(first node, one past the last) for the outer nodes and the
-     * ghosts, and for the inner ones if asked to. */
-    template <typename Action>
-    void for_each_range(const bool with_inner, const Action &action) const;
+    /** Add the work done on a run of nodes in this step. */
+    void book_work(const NodeRun &run);
+    void book_supports();
+    void sample_energies();
+
+    /** Move the outer nodes and the ghosts, and book the work done on them;
+     * or all nodes, whose work has been booked. */
+    void move_nodes(const bool with_inner);
 
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
@@ -192,8 +202,6 @@ namespace Keyblock
     CellArrays<dim> &cells;
     Fields<dim> &fields;
     Contact<dim> *contact;
-
-    NodeWork inner_work; ///< of the inner nodes in this step
   };
 
 
