@@ -318,7 +318,13 @@ namespace Keyblock
           }
       }
     dealii::Utilities::MPI::sum(sums, world(), sums);
-    std::ostringstream text;
+    struct Mover
+    {
+      double way;
+      unsigned int id;
+      bool is_moving;
+    };
+    std::vector<Mover> movers;
     for (unsigned int b = 0; b < n_blocks; ++b)
       {
         const double *const sum = sums.data() + b * (1 + 2 * dim);
@@ -335,11 +341,22 @@ namespace Keyblock
         const bool is_moving =
           way > 1e-3 * blocks.blocks[b].size && along > 0. && !is_converged;
         if (is_moving || way > 0.05 * blocks.blocks[b].size)
-          text << (text.str().empty() ? "" : "; ") << "block "
-               << blocks.blocks[b].id
-               << (is_moving ? " is moving off (" : " moved off (")
-               << std::setprecision(3) << way << " m)";
+          movers.push_back({way, blocks.blocks[b].id, is_moving});
       }
+    // those that went farthest
+    std::stable_sort(movers.begin(),
+                     movers.end(),
+                     [](const Mover &a, const Mover &b) {
+                       return a.way > b.way;
+                     });
+    constexpr unsigned int n_named = 8;
+    std::ostringstream text;
+    for (unsigned int i = 0; i < movers.size() && i < n_named; ++i)
+      text << (i == 0 ? "" : "; ") << "block " << movers[i].id
+           << (movers[i].is_moving ? " is moving off (" : " moved off (")
+           << std::setprecision(3) << movers[i].way << " m)";
+    if (movers.size() > n_named)
+      text << "; and " << movers.size() - n_named << " more";
     return text.str();
   }
 

@@ -39,11 +39,13 @@ namespace Keyblock
      * Displacement [m] of all local degrees of freedom under the nodal forces
      * @p force (local degrees of freedom, owned ones count) [N].
      *
-     * Throws ComputationError if the iteration does not converge, as for a body
-     * that nothing holds.
+     * The residual falls to @p tolerance of its first value [-]. Throws
+     * ComputationError if the iteration does not converge, as for a body that
+     * nothing holds.
      */
     std::vector<double> solve(const std::vector<double> &force,
-                              const Prescribed &prescribed);
+                              const Prescribed &prescribed,
+                              const double tolerance = 1e-13);
 
     /** Norm of what @p force (owned degrees of freedom) leaves unbalanced on
      * free nodes, ties summed, over the norm of internal forces [-]. */
@@ -67,7 +69,8 @@ namespace Keyblock
     TrilinosVector condense(const std::vector<double> &force) const;
     void condense_far_field();
     TrilinosVector solve_system(TrilinosVector &right_side,
-                                const dealii::AffineConstraints<double> &lines);
+                                const dealii::AffineConstraints<double> &lines,
+                                const double tolerance);
 
     const SplitMesh<dim> &split;
     const Numbering<dim> &numbering;
