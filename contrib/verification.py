@@ -150,7 +150,8 @@ def scene_table(out):
         done = subprocess.run(
             [sys.executable, f"{ROOT}/tests/compare.py", KEYBLOCK,
              f"{ROOT}/prm/{test.scene}.prm",
-             f"{ROOT}/tests/scenes/{test.name}.ref", "1", FOLDER] +
+             f"{ROOT}/tests/scenes/{test.name}.ref",
+             str(min(test.ranks, default=1)), FOLDER] +
             [f"--set={assignment}" for assignment in test.overrides],
             capture_output=True, text=True)
         lines = re.findall(r"(?m)^(ok|FAIL) +(.+?) (\S+)"

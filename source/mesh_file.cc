@@ -10,8 +10,6 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <numeric>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -458,32 +456,6 @@ namespace Keyblock
 
 
 
-  namespace
-  {
-    /** Number of parts of the mesh without a common vertex. */
-    template <int dim>
-    unsigned int
-    count_parts(const Mesh<dim> &mesh)
-    {
-      std::vector<unsigned int> parent(mesh.vertices.size());
-      std::iota(parent.begin(), parent.end(), 0);
-      const auto root_of = [&](unsigned int v) {
-        while (parent[v] != v)
-          v = parent[v] = parent[parent[v]];
-        return v;
-      };
-      for (const auto &cell : mesh.cells)
-        for (const unsigned int v : cell)
-          parent[root_of(v)] = root_of(cell[0]);
-      std::set<unsigned int> roots;
-      for (const auto &cell : mesh.cells)
-        roots.insert(root_of(cell[0]));
-      return roots.size();
-    }
-  } // namespace
-
-
-
   template <int dim>
   Mesh<dim>
   read_mesh(const Scene<dim> &scene)
@@ -510,18 +482,9 @@ namespace Keyblock
                            "cells were written to the file."));
     if (dim == 2)
       check_flat(mixed, origin);
-    const Mesh<dim> mesh =
-      cut_mesh<dim>(mixed,
-                    origin,
-                    "repair it in the program that made the mesh");
-    const unsigned int n_parts = count_parts(mesh);
-    AssertThrow(n_parts == 1,
-                InputError(origin + " has " + std::to_string(n_parts) +
-                           " parts that share no vertex, and so would never "
-                           "touch; contact is between the sides of 'Joints': "
-                           "let the cells on both sides of a joint share their "
-                           "vertices."));
-    return mesh;
+    return cut_mesh<dim>(mixed,
+                         origin,
+                         "repair it in the program that made the mesh");
   }
 
   template Mesh<2> read_mesh(const Scene<2> &);
