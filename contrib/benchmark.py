@@ -1,0 +1,287 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Measure speed against error and write doc/performance.md.
+
+usage: benchmark.py KEYBLOCK [SECTION...]
+
+Each section runs scenes and writes doc/benchmark/SECTION.csv; the report is made
+of all files that are there. Sections: rates, growth, ranks, accuracy,
+published, report.
+"""
+import csv
+import json
+import os
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+import benchmark_report
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TABLES = ROOT / "doc" / "benchmark"
+N_REPEATS = 3
+
+
+class Run:
+    """A run of prm/SCENE.prm with entries set otherwise."""
+
+    def __init__(self, keyblock, scene, *settings, ranks=1):
+        with tempfile.TemporaryDirectory() as folder:
+            command = [keyblock, str(ROOT / "prm" / f"{scene}.prm"),
+                       "--output", folder]
+            for setting in settings:
+                command += ["--set", setting]
+            if ranks > 1:
+                command = ["mpirun", "--allow-run-as-root", "--oversubscribe",
+                           "-n", str(ranks)] + command
+            elif os.cpu_count() > 1:
+                command = ["taskset", "-c", "1"] + command
+            start = time.monotonic()
+            done = subprocess.run(command, capture_output=True, text=True,
+                                  check=False)
+            self.seconds = time.monotonic() - start
+            self.failed = done.returncode != 0
+            self.summary = {}
+            if not self.failed:
+                with open(f"{folder}/summary.json", encoding="utf-8") as file:
+                    self.summary = json.load(file)
+
+    @property
+    def cells(self):
+        return self.summary["scene"]["cells"]
+
+    @property
+    def run(self):
+        return self.summary["run"]
+
+    def rate(self, seconds="loop_time"):
+        """Million cell-steps per second."""
+        return 1e-6 * self.cells * self.run["steps"] / self.run[seconds]
+
+    def factor(self, block=0):
+        """The last safety factor of a block that has one."""
+        found = [b["safety_factor"] for b in self.summary["blocks"]
+                 if b.get("safety_factor")]
+        return found[block][-1]
+
+
+def write_table(name, columns, rows):
+    """Write doc/benchmark/NAME.csv and show its last line."""
+    TABLES.mkdir(exist_ok=True)
+    with open(TABLES / f"{name}.csv", "w", encoding="utf-8",
+              newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        for row in rows:
+            writer.writerow([f"{x:.5g}" if isinstance(x, float) else x
+                             for x in row])
+    print(name, *rows[-1], flush=True)
+
+
+def yardstick(dimension):
+    """Rate of the best hand-written loop with full integration, or nan."""
+    folder = os.environ.get("YARDSTICK")
+    if not folder:
+        return float("nan")
+    command = ([f"{folder}/q4", "500", "500", "60", "row"] if dimension == 2
+               else [f"{folder}/h8", "64", "56", "56", "12", "row"])
+    done = subprocess.run(["taskset", "-c", "1"] + command, check=True,
+                          capture_output=True, text=True)
+    return max(float(rate) for rate in
+               re.findall(r"^full .*?([\d.]+) Mel", done.stdout, re.M))
+
+
+def rates(keyblock):
+    """Each kind of cell, with the yardstick between the runs."""
+    variants = {
+        "full integration": (),
+        "mean dilatation": ("Materials/rock/Integration=mean dilatation",),
+        "Mohr-Coulomb, elastic so far": ("Materials/rock/Model=mohr_coulomb",
+                                         "Materials/rock/Cohesion=1e12"),
+        "stiffness damping": ("Stages/run/Damping ratio=0.05",),
+        "large displacements": ("Time stepping/Kinematics=large",),
+    }
+    rows = []
+    for dimension in (2, 3):
+        scene = f"benchmark/elastic_{dimension}d"
+        cases = {name: (scene, settings)
+                 for name, settings in variants.items()}
+        cases["full integration, Gmsh mesh"] = (
+            scene, ("Mesh/Generator=gmsh", f"Mesh/Size={2.5 if dimension == 2 else 2}"))
+        if dimension == 2:
+            contact = "benchmark/contact_2d"
+            cases["10,020 pairs in contact"] = (contact, ())
+            cases["the same, tied"] = (contact, ("Contact/Tie all joints=true",))
+            cases["the same, no joints"] = (contact, ("Contact/Method=none",))
+        measured = {name: [] for name in cases}
+        for _ in range(N_REPEATS):
+            hand = yardstick(dimension)
+            for name, (file, settings) in cases.items():
+                run = Run(keyblock, file, *settings)
+                measured[name].append((run.rate("force_time"), run.rate(),
+                                       hand, run.cells,
+                                       run.run["peak_memory_bytes"]
+                                       / run.cells))
+        for name, values in measured.items():
+            force, step, hand, cells, memory = (
+                statistics.median(column) for column in zip(*values))
+            rows.append((f"{dimension}D", name, cells, force, step, hand,
+                         statistics.median(v[0] / v[2] for v in values),
+                         statistics.median(v[1] / v[2] for v in values),
+                         memory))
+    write_table("rates", ("dimension", "variant", "cells", "cell loop [M/s]",
+                          "whole step [M/s]", "yardstick [M/s]",
+                          "loop / yardstick", "step / yardstick",
+                          "peak memory [B/cell]"), rows)
+
+
+def growth(keyblock):
+    """Time and memory per cell from 1e4 to 4e6 cells."""
+    rows = []
+    for dimension, sizes in ((2, (100, 200, 500, 1000, 2000)),
+                             (3, (22, 46, 74, 100, 159))):
+        for n in sizes:
+            cells = n ** dimension
+            steps = max(20, int((1e8 if dimension == 2 else 2e7) / cells))
+            runs = [Run(keyblock, f"benchmark/elastic_{dimension}d",
+                        "Mesh/Cells=" + ", ".join([str(n)] * dimension),
+                        "Domain/Size=" + ", ".join([str(n)] * dimension),
+                        f"Stages/run/Maximum steps={steps}",
+                        f"Output/History interval={steps}")
+                    for _ in range(N_REPEATS if cells < 5e5 else 1)]
+            rows.append((f"{dimension}D", cells, steps,
+                         statistics.median(1e3 / r.rate() for r in runs),
+                         statistics.median(1e3 / r.rate("force_time")
+                                           for r in runs),
+                         runs[0].run["peak_memory_bytes"] / cells,
+                         statistics.median(r.run["wall_time"]
+                                           - r.run["loop_time"]
+                                           for r in runs)))
+            write_table("growth", ("dimension", "cells", "steps",
+                                   "step [ns/cell]", "cell loop [ns/cell]",
+                                   "peak memory [B/cell]", "set-up [s]"), rows)
+
+
+def ranks(keyblock):
+    """The same scenes on one rank and on two, in turn."""
+    rows = []
+    for scene in ("elastic_2d", "elastic_3d", "contact_2d"):
+        measured = {1: [], 2: []}
+        for _ in range(N_REPEATS):
+            for n in measured:
+                measured[n].append(
+                    Run(keyblock, f"benchmark/{scene}", ranks=n).rate())
+        one, two = (statistics.median(measured[n]) for n in (1, 2))
+        rows.append((scene, one, two, statistics.median(
+            b / a for a, b in zip(measured[1], measured[2]))))
+    write_table("ranks", ("scene", "one rank [M/s]", "two ranks [M/s]",
+                          "ratio"), rows)
+
+
+def accuracy(keyblock):
+    """Run time and error over meshes, steps, elements and contact."""
+    rows = []
+
+    def add(case, variant, error_of, scene, *settings):
+        run = Run(keyblock, f"verification/{scene}", *settings)
+        error = float("nan") if run.failed else abs(error_of(run))
+        rows.append((case, variant, 0 if run.failed else run.cells,
+                     0 if run.failed else run.run["steps"],
+                     float("nan") if run.failed else run.run["loop_time"],
+                     error))
+
+    def check(name):
+        return lambda run: run.summary["checks"][name]
+
+    for method in ("exact", "paper"):
+        for n in (20, 40, 80):
+            add("incline, acceleration", f"{method} contact",
+                check("acceleration_relative_error"), "incline_30",
+                f"Mesh/Cells={n}, {max(2, n // 4)}",
+                f"Contact/Method={method}")
+    for safety in (0.9, 0.45, 0.225):
+        add("incline, acceleration", "time step",
+            check("acceleration_relative_error"), "incline_30",
+            f"Time stepping/Safety={safety}")
+    for method in ("exact", "paper"):
+        for n in (80, 160, 320, 640):
+            add("bar impact, energy lost", f"{method} contact",
+                lambda run: 1. - run.summary["checks"][
+                    "final_energy_over_start"],
+                "bar_impact", f"Mesh/Cells={n}, 1",
+                f"Contact/Method={method}")
+    for variant, scene, settings in (
+            ("full", "kirsch", ("Materials/rock/Integration=full",)),
+            ("mean dilatation", "kirsch",
+             ("Materials/rock/Integration=mean dilatation",)),
+            ("far field at 10 radii", "kirsch_far_field", ()),
+            ("far field at 4 radii", "kirsch_far_field",
+             ("Domain/Corner=-4, -4", "Domain/Size=8, 8"))):
+        for h in (0.1, 0.05, 0.025):
+            add("hole, stress", variant, check("stress_error"), scene,
+                "Stages/dig/Kind=quasi-static",
+                f"Mesh/Size at excavation={h}", f"Mesh/Size={10 * h}",
+                *settings)
+    for limit in (1., 5e-3, 1e-3, 3e-4):
+        add("plastic tunnel, closure", "pace of the ramp",
+            check("wall_closure_relative_error"), "salencon",
+            f"Stages/dig/Ramp unbalance={limit}")
+    for n in (5, 10, 20):
+        add("footing, collapse load", "mean dilatation",
+            check("collapse_pressure_relative_error"), "footing",
+            "Domain/Size=3, 2", "Domain/Corner=0, -2",
+            f"Mesh/Cells={6 * n}, {4 * n}", f"Check/Length={0.5 + 0.25 / n}",
+            f"Stages/push/Maximum steps={1000 * n}",
+            "Materials/ground/Friction angle=0",
+            "Materials/ground/Dilation angle=0")
+    for cells in ("9, 14, 5",):
+        add("3D wedge, safety factor", "mesh",
+            lambda run: run.factor()["value"] / 0.8770217778 - 1., "wedge_3d",
+            f"Mesh/Cells={cells}")
+    write_table("accuracy", ("case", "variant", "cells", "steps",
+                             "time loop [s]", "error"), rows)
+
+
+def published(keyblock):
+    """A factor the published way, and here: time and error."""
+    exact = 0.6881246
+    rows = []
+    for name, settings in (
+            ("bisection, exact contact, moves what reacts", ()),
+            ("published: sweep of 0.01, one uncoupled pass, all cells move",
+             ("Safety factor/Method=sweep", "Contact/Method=paper",
+              "Safety factor/Reach=0", "Safety factor/Warm start=false"))):
+        runs = [Run(keyblock, "verification/factor_incline", *settings)
+                for _ in range(N_REPEATS)]
+        seconds = statistics.median(r.run["wall_time"] for r in runs)
+        factor = runs[0].factor()
+        rows.append((name, seconds, len(factor["trials"]),
+                     factor["value"], factor["value"] / exact - 1.))
+    write_table("published", ("way", "seconds", "trials", "factor", "error"),
+                rows)
+
+
+SECTIONS = {"rates": rates, "growth": growth, "ranks": ranks,
+            "accuracy": accuracy, "published": published}
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    names = sys.argv[2:] or list(SECTIONS)
+    for name in names:
+        if name != "report" and name not in SECTIONS:
+            sys.exit(f"benchmark.py: there is no section '{name}'; name some "
+                     f"of {', '.join(SECTIONS)}, report.")
+    for name in names:
+        if name != "report":
+            SECTIONS[name](sys.argv[1])
+    benchmark_report.write(TABLES, ROOT / "doc")
+
+
+if __name__ == "__main__":
+    main()
