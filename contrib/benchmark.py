@@ -17,7 +17,6 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
 import benchmark_report
 
@@ -40,10 +39,8 @@ class Run:
                            "-n", str(ranks)] + command
             elif os.cpu_count() > 1:
                 command = ["taskset", "-c", "1"] + command
-            start = time.monotonic()
             done = subprocess.run(command, capture_output=True, text=True,
                                   check=False)
-            self.seconds = time.monotonic() - start
             self.failed = done.returncode != 0
             self.summary = {}
             if not self.failed:

@@ -33,8 +33,7 @@ Both cores share a memory bandwidth that one core nearly fills in 2D.
 """,
     "accuracy": """## Run time against error
 
-Errors are relative, against closed forms. Where a line ends early the variant
-failed (published contact on fine meshes).
+Errors are relative, against closed forms. A run that failed has no numbers.
 """,
     "published": """## Against the published way
 
@@ -48,29 +47,26 @@ trial when it is decided.
 
 CLOSING = """## A billion cells
 
-What a step exchanges between ranks are the velocities and forces of the nodes
-on the rims of their parts. A rank with n cells of a 3D mesh in Hilbert chunks
-has about 6 n^(2/3) rim nodes, each sent once as force and once as velocity: 48 B.
-At n = 4e6 that is 7 MB per step and rank; at 12 M cell-steps/s the step takes
-0.33 s, at a link of 10 GB/s the exchange 0.7 ms, and an all-reduce over 250
-ranks some 50 us (one per step with kinetic-energy stops, mobile contact or a
-far field). So 1e9 cells on 250 such ranks should lose less than 1 % to
-communication. What does not scale is the set-up: every rank holds the whole
-mesh (some 300 B per 3D cell), which ends at about 5e7 cells per node of 16 GB.
+A model of what is not measured here. What a step exchanges between ranks are
+the velocities and forces of the nodes on the rims of their parts. A rank with
+n cells of a 3D mesh in Hilbert chunks has about 6 n^(2/3) rim nodes, each sent
+once as force and once as velocity: 48 B. At n = 4e6 that is 7 MB per step and
+rank; at 12 M cell-steps/s the step takes 0.33 s, at a link of 10 GB/s the
+exchange 0.7 ms, and an all-reduce over 250 ranks some 50 us (one per step with
+kinetic-energy stops, mobile contact or a far field). By this count 1e9 cells on
+250 such ranks lose less than 1 % to communication. What does not scale is the
+set-up: every rank holds the whole mesh, so the memory of one machine (its peak
+per cell is in the table of growth) ends the size of a model, not its speed.
 
 ## Choices that these numbers made
 
 - Full integration for elastic cells up to nu = 0.4, mean dilatation above and in
-  rock that yields. One-point integration with hourglass control is not built:
-  its yardstick is 1.5 (2D) to 1.7 (3D) times as fast as that with full
-  integration, less than what fewer, better cells give in the table above.
-- Cells are swept front by front inside each rank's part (`cell_order.h`):
-  12 % in 2D, 5 % in 3D against the Hilbert order of the parts.
-- Stresses are prefetched two batches ahead: 12 and 20 %. Elastic cells in 2D
-  leave the out-of-plane stress alone: 15 %.
+  rock that yields (theory, section 5).
+- Cells are swept front by front inside each rank's part (`cell_order.h`).
+- Stresses are prefetched two batches ahead. Elastic cells in 2D leave the
+  out-of-plane stress alone.
 - Nodes without joint or support are predicted and moved in one pass; the nodes
-  of joints are prefetched: the step with 10,020 pairs went from 0.48 to 0.59 of
-  the rate of its cell loop.
+  of joints are prefetched.
 """
 
 

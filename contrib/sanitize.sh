@@ -6,10 +6,8 @@
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${BUILD:-$root/build-sanitized}
-flags="-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer"
-export CXXFLAGS="$flags" LDFLAGS="$flags"
 # MPI and PETSc keep what they allocate until the end
-export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
+export SANITIZE=ON ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
 "$root/contrib/setup.sh" "$build"
 cd "$build"
 exec ctest --output-on-failure --timeout 3000 "$@"

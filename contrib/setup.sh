@@ -2,7 +2,8 @@
 # Installs what building, testing and plotting need (Debian 12 or Ubuntu 22.04
 # and later), unless it is there already, then configures and builds.
 # usage: contrib/setup.sh [BUILD_FOLDER]      (default: build)
-# environment: BUILD_TYPE (Release), WARNINGS_AS_ERRORS (OFF), JOBS (all cores)
+# environment: BUILD_TYPE (Release), WARNINGS_AS_ERRORS (OFF), SANITIZE (OFF),
+# JOBS (all cores)
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${1:-$root/build}
@@ -25,7 +26,8 @@ if [ -n "$missing" ]; then
 fi
 
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE="${BUILD_TYPE:-Release}" \
-  -DWARNINGS_AS_ERRORS="${WARNINGS_AS_ERRORS:-OFF}" >"$root/cmake.log" 2>&1 ||
+  -DWARNINGS_AS_ERRORS="${WARNINGS_AS_ERRORS:-OFF}" \
+  -DSANITIZE="${SANITIZE:-OFF}" >"$root/cmake.log" 2>&1 ||
   { cat "$root/cmake.log"; exit 1; }
 mv "$root/cmake.log" "$build/cmake.log"
 cmake --build "$build" -j "${JOBS:-$(nproc)}"

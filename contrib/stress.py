@@ -369,7 +369,7 @@ def fuzz(keyblock, kind, n_files, folder):
             for suffix in (".prm", ".ucd"):
                 path.with_suffix(suffix).unlink(missing_ok=True)
         else:
-            kept = ROOT / f"mutant_{kind}_{index}.txt"
+            kept = pathlib.Path(f"mutant_{kind}_{index}.txt").resolve()
             kept.write_bytes(text)
             print(f"{kept}: {result.code} {result.message}", flush=True)
         return result.code

@@ -152,9 +152,10 @@ namespace Keyblock
         for (int k = 0; k < n_stress<dim>; ++k)
           {
             rate[k]   = Number();
-            stress[k] = is_kept<dim, kind>(k)
-                          ? Number()
-                          : load<Number>(batch.stress_at(q, k));
+            stress[k] = Number();
+            if (is_kept<dim, kind>(k))
+              continue;
+            stress[k] = load<Number>(batch.stress_at(q, k));
             if (n_lanes < Number >> 1)
               batch.prefetch(q, k);
           }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/cell_geometry.h>
 #include <keyblock/cell_kernels.h>
 #include <keyblock/internal_force.h>
 

@@ -99,14 +99,13 @@ namespace Keyblock
     template <int dim, typename Damping>
     inline void
     advance_node(const Stage &stage,
-                 const double kick,
-                 const double dt,
+                 const NodePass &pass,
                  const unsigned int node,
                  Fields<dim> &fields,
                  ComponentWork<dim> &work)
     {
-      const auto kicked =
-        kick_node<dim, Damping>(stage, kick, stage.local_damping, node, fields);
+      const auto kicked = kick_node<dim, Damping>(
+        stage, pass.kick, stage.local_damping, node, fields);
       for (int d = 0; d < dim; ++d)
         {
           const unsigned int i  = dim * node + d;
@@ -120,36 +119,31 @@ namespace Keyblock
           if (Damping::has_drag)
             work.momentum[d] += fields.mass[node] * kicked.old[d] * both;
           fields.velocity[i] = velocity;
-          fields.displacement[i] += dt * velocity;
+          fields.displacement[i] += pass.dt * velocity;
         }
     }
 
     template <int dim, typename Damping>
     NodeWork
-    predict_runs(const Stage &stage,
-                 const double kick,
-                 const double dt,
-                 const bool moves_inner,
-                 const bool is_large,
-                 Fields<dim> &fields)
+    predict_runs(const Stage &stage, const NodePass &pass, Fields<dim> &fields)
     {
       constexpr unsigned int n_sums = 4;
       ComponentWork<dim> sums[n_sums];
       for (const NodeRun &run : fields.runs)
         {
-          if (!run.is_inner || !moves_inner)
+          if (!run.is_inner || !pass.moves_inner)
             {
-              predict_run<dim, Damping>(stage, kick, run, fields);
+              predict_run<dim, Damping>(stage, pass.kick, run, fields);
               continue;
             }
           unsigned int node = run.begin;
           for (; node + n_sums <= run.end; node += n_sums)
             for (unsigned int k = 0; k < n_sums; ++k)
               advance_node<dim, Damping>(
-                stage, kick, dt, node + k, fields, sums[k]);
+                stage, pass, node + k, fields, sums[k]);
           for (; node < run.end; ++node)
-            advance_node<dim, Damping>(stage, kick, dt, node, fields, sums[0]);
-          if (is_large)
+            advance_node<dim, Damping>(stage, pass, node, fields, sums[0]);
+          if (pass.is_large)
             for (unsigned int i = dim * run.begin; i < dim * run.end; ++i)
               {
                 fields.rate[i] = fields.velocity[i];
@@ -161,10 +155,10 @@ namespace Keyblock
       for (const ComponentWork<dim> &sum : sums)
         for (int d = 0; d < dim; ++d)
           {
-            work.external += 0.5 * kick * sum.external[d];
-            work.stiffness_damping += 0.5 * kick * sum.viscous[d];
+            work.external += 0.5 * pass.kick * sum.external[d];
+            work.stiffness_damping += 0.5 * pass.kick * sum.viscous[d];
             work.mass_damping +=
-              0.5 * kick * stage.mass_damping * sum.momentum[d];
+              0.5 * pass.kick * stage.mass_damping * sum.momentum[d];
             work.local_damping -= 0.5 * sum.local[d];
           }
       return work;
@@ -175,18 +169,13 @@ namespace Keyblock
 
   template <int dim>
   NodeWork
-  predict(const Stage &stage,
-          const double kick,
-          const double dt,
-          const bool moves_inner,
-          const bool is_large,
-          Fields<dim> &fields)
+  predict(const Stage &stage, const NodePass &pass, Fields<dim> &fields)
   {
     const auto run = [&](const auto viscous,
                          const auto local,
                          const auto drag) {
       return predict_runs<dim, Damping<viscous.value, local.value, drag.value>>(
-        stage, kick, dt, moves_inner, is_large, fields);
+        stage, pass, fields);
     };
     const auto with_drag = [&](const auto viscous, const auto local) {
       return stage.mass_damping > 0. ? run(viscous, local, std::true_type())
@@ -200,16 +189,6 @@ namespace Keyblock
                                     : with_local(std::false_type());
   }
 
-  template NodeWork predict(const Stage &,
-                            const double,
-                            const double,
-                            const bool,
-                            const bool,
-                            Fields<2> &);
-  template NodeWork predict(const Stage &,
-                            const double,
-                            const double,
-                            const bool,
-                            const bool,
-                            Fields<3> &);
+  template NodeWork predict(const Stage &, const NodePass &, Fields<2> &);
+  template NodeWork predict(const Stage &, const NodePass &, Fields<3> &);
 } // namespace Keyblock

@@ -280,8 +280,10 @@ namespace Keyblock
               fields.velocity.end(),
               fields.old_velocity.begin() +
                 (moves_inner ? dim * numbering.n_owned() : 0));
-    const NodeWork work = predict(
-      stage, kick, dt, moves_inner, scene.time_stepping.is_large(), fields);
+    const NodeWork work =
+      predict(stage,
+              {kick, dt, moves_inner, scene.time_stepping.is_large()},
+              fields);
     if (keeps_ledger)
       sums.add(work);
     conditions.apply_supports(time, dt);

@@ -7,6 +7,15 @@
 
 namespace Keyblock
 {
+  /** What one call of predict() does with the nodes. */
+  struct NodePass
+  {
+    double kick;      ///< force times this over mass is the kick [s]
+    double dt;        ///< step [s]
+    bool moves_inner; ///< move the nodes of inner runs at once
+    bool is_large;    ///< cells follow their nodes: positions are kept
+  };
+
   /** Work of nodal forces in one step, losses positive [J]. */
   struct NodeWork
   {
@@ -16,21 +25,17 @@ namespace Keyblock
 
   /**
    * Kick all nodes that may move (Fields::runs): add to their velocities
-   * @p kick / mass times the forces of cells, loads and damping, after the
+   * pass.kick / mass times the forces of cells, loads and damping, after the
    * velocities were copied to fields.old_velocity. The impulse of local damping
    * is left in fields.local_damping, as the cap of a damped cluster needs it.
    *
-   * With @p moves_inner nodes of inner runs are moved over @p dt at once; their
-   * old velocities and impulses are not kept, and the work done on them is
+   * With pass.moves_inner nodes of inner runs are moved at once; their old
+   * velocities and impulses are not kept, and the work done on them is
    * returned.
    */
   template <int dim>
-  NodeWork predict(const Stage &stage,
-                   const double kick,
-                   const double dt,
-                   const bool moves_inner,
-                   const bool is_large,
-                   Fields<dim> &fields);
+  NodeWork
+  predict(const Stage &stage, const NodePass &pass, Fields<dim> &fields);
 } // namespace Keyblock
 
 #endif
