@@ -6,7 +6,7 @@ usage: benchmark.py KEYBLOCK [SECTION...]
 
 Each section runs scenes and writes doc/benchmark/SECTION.csv; the report is made
 of all files that are there. Sections: rates, growth, ranks, accuracy,
-published, report.
+published, factors, skips, report.
 """
 import csv
 import json
@@ -64,6 +64,11 @@ class Run:
         found = [b["safety_factor"] for b in self.summary["blocks"]
                  if b.get("safety_factor")]
         return found[block][-1]
+
+
+def check_of(name):
+    """Reads a number of the scene's own checks."""
+    return lambda run: run.summary["checks"][name]
 
 
 def write_table(name, columns, rows):
@@ -191,18 +196,15 @@ def accuracy(keyblock):
                      float("nan") if run.failed else run.run["loop_time"],
                      error))
 
-    def check(name):
-        return lambda run: run.summary["checks"][name]
-
     for method in ("exact", "paper"):
         for n in (20, 40, 80):
             add("incline, acceleration", f"{method} contact",
-                check("acceleration_relative_error"), "incline_30",
+                check_of("acceleration_relative_error"), "incline_30",
                 f"Mesh/Cells={n}, {max(2, n // 4)}",
                 f"Contact/Method={method}")
     for safety in (0.9, 0.45, 0.225):
         add("incline, acceleration", "time step",
-            check("acceleration_relative_error"), "incline_30",
+            check_of("acceleration_relative_error"), "incline_30",
             f"Time stepping/Safety={safety}")
     for method in ("exact", "paper"):
         for n in (80, 160, 320, 640):
@@ -219,17 +221,17 @@ def accuracy(keyblock):
             ("far field at 4 radii", "kirsch_far_field",
              ("Domain/Corner=-4, -4", "Domain/Size=8, 8"))):
         for h in (0.1, 0.05, 0.025):
-            add("hole, stress", variant, check("stress_error"), scene,
+            add("hole, stress", variant, check_of("stress_error"), scene,
                 "Stages/dig/Kind=quasi-static",
                 f"Mesh/Size at excavation={h}", f"Mesh/Size={10 * h}",
                 *settings)
     for limit in (1., 5e-3, 1e-3, 3e-4):
         add("plastic tunnel, closure", "pace of the ramp",
-            check("wall_closure_relative_error"), "salencon",
+            check_of("wall_closure_relative_error"), "salencon",
             f"Stages/dig/Ramp unbalance={limit}")
     for n in (5, 10, 20):
         add("footing, collapse load", "mean dilatation",
-            check("collapse_pressure_relative_error"), "footing",
+            check_of("collapse_pressure_relative_error"), "footing",
             "Domain/Size=3, 2", "Domain/Corner=0, -2",
             f"Mesh/Cells={6 * n}, {4 * n}", f"Check/Length={0.5 + 0.25 / n}",
             f"Stages/push/Maximum steps={1000 * n}",
@@ -244,26 +246,128 @@ def accuracy(keyblock):
 
 
 def published(keyblock):
-    """A factor the published way, and here: time and error."""
-    exact = 0.6881246
+    """Factors the published way, and here: time and error."""
+    ours = "bisection, exact contact, moves what reacts"
+    theirs = "published: sweep of 0.01, one uncoupled pass, all cells move"
+    sweep = ("Safety factor/Method=sweep", "Contact/Method=paper",
+             "Safety factor/Reach=0", "Safety factor/Warm start=false")
     rows = []
-    for name, settings in (
-            ("bisection, exact contact, moves what reacts", ()),
-            ("published: sweep of 0.01, one uncoupled pass, all cells move",
-             ("Safety factor/Method=sweep", "Contact/Method=paper",
-              "Safety factor/Reach=0", "Safety factor/Warm start=false"))):
-        runs = [Run(keyblock, "verification/factor_incline", *settings)
-                for _ in range(N_REPEATS)]
-        seconds = statistics.median(r.run["wall_time"] for r in runs)
+
+    def add(case, way, scene, exact, n_repeats, *settings):
+        runs = [Run(keyblock, scene, *settings) for _ in range(n_repeats)]
+        if runs[0].failed:
+            rows.append((case, way, "failed", "", "", ""))
+            return
         factor = runs[0].factor()
-        rows.append((name, seconds, len(factor["trials"]),
-                     factor["value"], factor["value"] / exact - 1.))
-    write_table("published", ("way", "seconds", "trials", "factor", "error"),
-                rows)
+        rows.append((case, way,
+                     statistics.median(r.run["wall_time"] for r in runs),
+                     len(factor["trials"]), factor["value"],
+                     factor["value"] / exact - 1. if exact else ""))
+
+    for way, settings in ((ours, ()), (theirs, sweep)):
+        add("incline", way, "verification/factor_incline", 0.6881246,
+            N_REPEATS, *settings)
+    first = ("Stages/Names=stage_1", "Output/Write VTU=false")
+    crown = (*first, "Safety factor/Blocks=4")
+    add("powerhouse, block 4 after stage 1", ours, "study/powerhouse", None, 1,
+        *crown)
+    add("powerhouse, block 4 after stage 1", theirs, "study/powerhouse", None,
+        1, *crown, *sweep)
+    write_table("published", ("case", "way", "seconds", "trials", "factor",
+                              "error"), rows)
+
+
+def factors(keyblock):
+    """All safety factors of the powerhouse over meshes, on two teams."""
+    with open(ROOT / "prm/study/powerhouse.prm", encoding="utf-8") as file:
+        sizes = re.findall(
+            r"set (Size|Size at excavation|Size at joints)\s*= ([\d.]+)$",
+            file.read(), re.M)
+    rows = []
+    for scale in (1.5, 1., 0.7):
+        run = Run(keyblock, "study/powerhouse", "Safety factor/Teams=2",
+                  "Output/Write VTU=false",
+                  *(f"Mesh/{name}={scale * float(value)}"
+                    for name, value in sizes), ranks=2)
+        if run.failed:
+            rows.append((scale, "failed", "", "", "", ""))
+            continue
+        found = [b for b in run.summary["blocks"] if b.get("safety_factor")]
+        rows.append((scale, run.cells, run.run["wall_time"],
+                     sum(len(b["safety_factor"]) for b in found),
+                     sum(len(f["trials"]) for b in found
+                         for f in b["safety_factor"]),
+                     "; ".join(f"{b['id']}: " + ", ".join(
+                         f"{f['value']:.3g}" for f in b["safety_factor"])
+                               for b in found)))
+    write_table("factors", ("mesh size over the study's", "cells",
+                            "wall time [s]", "factors", "trials",
+                            "by block and stage"), rows)
+
+
+def skips(keyblock):
+    """What each shortcut saves, and what it changes."""
+    quasi_static = "Stages/dig/Kind=quasi-static"
+    first = ("Stages/Names=stage_1", "Output/Write VTU=false",
+             "Safety factor/Blocks=3")
+
+    def factor(run):
+        return run.factor()["value"]
+
+    def closure(run):
+        return run.summary["checks"]["wall_closure"]
+
+    def motion(run):
+        return run.summary["stages"][-1]["max_displacement"]
+
+    cases = (
+        ("trials move the block's surroundings only", "study/powerhouse",
+         first, ("Safety factor/Reach=0",), factor),
+        ("trials start from the last one that held", "study/powerhouse",
+         first, ("Safety factor/Warm start=false",), factor),
+        ("scaled masses in a trial's second phase", "study/powerhouse",
+         first, ("Safety factor/True masses=true",), factor),
+        ("bisection instead of a sweep", "verification/factor_incline",
+         (), ("Safety factor/Method=sweep",), factor),
+        ("density scaling", "verification/kirsch_far_field", (quasi_static,),
+         ("Stages/dig/Density scaling=false",), closure),
+        ("far field by its stiffness: 4 radii instead of 30",
+         "verification/kirsch_far_field",
+         (quasi_static, "Domain/Corner=-4, -4", "Domain/Size=8, 8"),
+         ("Domain/Corner=-30, -30", "Domain/Size=60, 60"), closure),
+        ("fixed bodies without motion", "verification/incline_30", (),
+         ("Materials/bed/Model=elastic", "Supports/Names=bottom",
+          "Supports/bottom/Boundaries=bottom"), check_of("acceleration")),
+        ("no energy ledger", "benchmark/elastic_2d",
+         ("Time stepping/Energy ledger=false",),
+         ("Time stepping/Energy ledger=true",), motion),
+        ("no plastic state where rock is elastic", "benchmark/elastic_3d", (),
+         ("Materials/rock/Model=mohr_coulomb", "Materials/rock/Cohesion=1e12",
+          "Materials/rock/Tensile strength=1e12"), motion),
+    )
+    rows = []
+    for name, scene, always, without, value_of in cases:
+        measured = {True: [], False: []}
+        for _ in range(N_REPEATS):
+            for is_on, settings in ((True, always), (False, always + without)):
+                measured[is_on].append(Run(keyblock, scene, *settings))
+        if any(run.failed for runs in measured.values() for run in runs):
+            rows.append((name, scene, " ".join(without), "failed", "", "", ""))
+            continue
+        seconds = {is_on: statistics.median(r.run["wall_time"] for r in runs)
+                   for is_on, runs in measured.items()}
+        rows.append((name, scene, " ".join(without), seconds[True],
+                     seconds[False], seconds[False] / seconds[True],
+                     value_of(measured[True][0]) / value_of(measured[False][0])
+                     - 1.))
+        write_table("skips", ("shortcut", "scene", "switched off by",
+                              "seconds with", "seconds without", "ratio",
+                              "change of the result"), rows)
 
 
 SECTIONS = {"rates": rates, "growth": growth, "ranks": ranks,
-            "accuracy": accuracy, "published": published}
+            "accuracy": accuracy, "published": published, "factors": factors,
+            "skips": skips}
 
 
 def main():

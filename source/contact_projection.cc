@@ -226,6 +226,25 @@ namespace Keyblock
 
 
   template <int dim>
+  bool
+  ContactSearch<dim>::hides(const std::vector<double> &position,
+                            const Projection &a,
+                            const Projection &b) const
+  {
+    const double slack   = 1e-6 * a.size;
+    const Vector<dim> on = at<dim>(position, face_slots[a.face][0]);
+    if (is_coplanar(a, b) || a.gap < -slack)
+      return false;
+    for (const unsigned int slot : face_slots[b.face])
+      if (dot<dim>(difference<dim>(at<dim>(position, slot), on), a.normal) >
+          slack)
+        return false;
+    return true;
+  }
+
+
+
+  template <int dim>
   void
   ContactSearch<dim>::add_contacts(
     const std::vector<double> &position,
@@ -284,7 +303,7 @@ namespace Keyblock
 
     // over faces: the nearest of those with nearly one normal, and of those of
     // a convex edge the one that the slave is least deep below; else one per
-    // face
+    // face, but for those behind another, as the sides of a joint in a bed
     std::sort(inside.begin(), inside.end(), [](const auto &a, const auto &b) {
       return std::abs(a.gap) < std::abs(b.gap) ||
              (std::abs(a.gap) == std::abs(b.gap) && a.face < b.face);
@@ -300,10 +319,15 @@ namespace Keyblock
         for (const Projection &other : kept)
           is_covered = is_covered || is_coplanar(other, inside[i]);
         for (unsigned int j = 0; j < inside.size() && !is_covered; ++j)
-          is_covered = (is_opposed[j] || inside[j].gap > 0.) &&
-                       (inside[j].gap > inside[i].gap ||
-                        (inside[j].gap == inside[i].gap && j < i)) &&
-                       is_convex(position, inside[j], inside[i]);
+          {
+            const bool is_before = inside[j].gap > inside[i].gap ||
+                                   (inside[j].gap == inside[i].gap && j < i);
+            is_covered =
+              ((is_opposed[j] || inside[j].gap > 0.) && is_before &&
+               is_convex(position, inside[j], inside[i])) ||
+              (is_opposed[j] && hides(position, inside[j], inside[i]) &&
+               (is_before || !hides(position, inside[i], inside[j])));
+          }
         if (!is_covered)
           {
             kept.push_back(inside[i]);

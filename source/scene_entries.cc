@@ -419,8 +419,8 @@ namespace Keyblock
                       friction_range);
     prm.add_parameter("Tolerance",
                       tolerance,
-                      "Change of an impulse per iteration, relative to the "
-                      "largest of its group [-].",
+                      "Change of a node's momentum per iteration, relative "
+                      "to the largest impulse of its group [-].",
                       Double(1e-15, 1e-2));
     prm.add_parameter("Maximum iterations",
                       maximum_iterations,

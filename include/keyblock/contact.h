@@ -228,6 +228,26 @@ namespace Keyblock
     bool try_cluster(CornerGroup &corner, const ContactStep &step);
     void recover_impulses(const CornerGroup &corner, const double *needed);
     void solve_mobile(const ContactStep &step);
+
+    /** Surface contacts nearer than @p reach [m], with their strengths and the
+     * impulses of the step before. */
+    void find_surface_contacts(const ContactStep &step, const double reach);
+    PointStrength surface_strength(const SurfaceContact<dim> &contact,
+                                   const double kick) const;
+
+    /** Mobile pairs that surface contacts may push; corners that none touches
+     * are solved by themselves. */
+    std::vector<unsigned int> list_mobile_pairs(const ContactStep &step);
+
+    /** Whether node @p k of a point has a share in it and may move. */
+    bool can_move(const ContactPoint<dim> &point, const int k) const;
+
+    /** Numbers of the points that share nodes which can move. */
+    std::vector<std::vector<unsigned int>>
+    group_points(const std::vector<ContactPoint<dim>> &points) const;
+
+    /** A converted pair shows the surface contact of its nodes. */
+    void show_on_converted_pairs();
     void update_mobility(const ContactStep &step);
 
     /** Search at searched_position. */

@@ -157,6 +157,12 @@ namespace Keyblock
                    const Projection &a,
                    const Projection &b) const;
 
+    /** Whether face @p b, of whatever block, lies behind the plane of @p a
+     * with the node in front of it: the node cannot get to @p b past @p a. */
+    bool hides(const std::vector<double> &position,
+               const Projection &a,
+               const Projection &b) const;
+
     void add_contacts(const std::vector<double> &position,
                       const double reach,
                       const Candidate &candidate,
