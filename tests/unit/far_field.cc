@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Kelvin's fields: gradients are derivatives of the displacements, stresses are
-// in equilibrium, and a single force is carried by any surface around it.
+// in equilibrium, and a single force is carried by any surface around it. The
+// boundary's stiffness carries them through.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/far_field.h>
+#include <keyblock/mpi.h>
+#include <keyblock/simulation.h>
+
+#include <fstream>
 
 using namespace Keyblock;
 
@@ -68,4 +72,94 @@ BOOST_AUTO_TEST_CASE(kelvin_force)
       carried[j] -= 16. * pi * fields.mu * (1. - fields.poisson_ratio());
       BOOST_TEST(carried.norm() < 0.05); // of 105.6, the rule 0.011
     }
+}
+
+namespace
+{
+  /** A box of n cells a side around the origin, two wide. */
+  template <int dim>
+  std::unique_ptr<Simulation<dim>>
+  make_box(const unsigned int n)
+  {
+    const std::string name = "far_field_" + std::to_string(dim) + "_" +
+                             std::to_string(n_ranks()),
+                      side = std::to_string(n);
+    if (is_root())
+      std::ofstream(name + ".prm")
+        << "set Dimension = " << dim << "\nsubsection Domain\n set Corner = -1"
+        << (dim == 2 ? ", -1" : ", -1, -1") << "\n set Size = 2"
+        << (dim == 2 ? ", 2" : ", 2, 2")
+        << "\nend\nsubsection Mesh\n set Cells = " << side << ", " << side
+        << (dim == 2 ? "" : ", " + side)
+        << "\nend\nsubsection Materials\n set Names = rock\nend\n"
+           "subsection Stages\n set Names = none\n subsection none\n  set "
+           "Maximum steps = 1\n end\nend\n";
+    MPI_Barrier(world());
+    auto simulation =
+      std::make_unique<Simulation<dim>>(name + ".prm",
+                                        std::vector<std::string>(),
+                                        name);
+    simulation->validate();
+    return simulation;
+  }
+
+  /** Compare the force of the far field under each of Kelvin's fields with the
+   * nodal forces of their tractions, one point per face. */
+  template <int dim>
+  void
+  check_stiffness(const unsigned int n, const double tolerance)
+  {
+    const auto simulation = make_box<dim>(n);
+    const auto &numbering = simulation->node_numbering();
+    const auto &mesh      = simulation->geometry().mesh;
+    const KelvinFields<dim> kelvin{2., 3.};
+    std::vector<typename FarField<dim>::Face> faces;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+        if (mesh.neighbor[c][f] == none)
+          faces.push_back({mesh.face_vertices(c, f),
+                           mesh.face_center(c, f),
+                           mesh.face_area_vector(c, f),
+                           Point<dim>(),
+                           kelvin.lambda,
+                           kelvin.mu});
+    const FarField<dim> far_field(faces, simulation->geometry(), numbering);
+    BOOST_TEST(far_field.is_coupled());
+    for (unsigned int m = 0; m < KelvinFields<dim>::n; ++m)
+      {
+        std::vector<double> displacement(dim * numbering.n_local(), 0.),
+          force(displacement), expected(displacement);
+        for (const auto &face : faces)
+          for (const unsigned int v : face.vertices)
+            {
+              const unsigned int node = numbering.local_node(v);
+              if (node == none)
+                continue;
+              const auto u    = kelvin.displacement(m, mesh.vertices[v]);
+              const auto load = kelvin.stress(m, face.place) * face.area;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  displacement[dim * node + d] = u[d];
+                  expected[dim * node + d] -=
+                    load[d] / Mesh<dim>::n_face_vertices;
+                }
+            }
+        far_field.add_force(displacement, force);
+        double error = 0., square = 0.;
+        for (unsigned int i = 0; i < dim * numbering.n_owned(); ++i)
+          {
+            error += std::pow(force[i] - expected[i], 2);
+            square += std::pow(expected[i], 2);
+          }
+        error  = dealii::Utilities::MPI::sum(error, world());
+        square = dealii::Utilities::MPI::sum(square, world());
+        BOOST_TEST(std::sqrt(error / square) < tolerance);
+      }
+  }
+} // namespace
+
+BOOST_AUTO_TEST_CASE(far_field_stiffness)
+{
+  check_stiffness<2>(32, 0.01);
+  check_stiffness<3>(12, 0.06);
 }
