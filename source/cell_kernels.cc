@@ -66,46 +66,63 @@ namespace Keyblock
         }
       };
 
-      /** Points of the batch that might yield go to the yield surface one by
-       * one. */
-      template <int dim, typename Number>
-      KEYBLOCK_ALWAYS_INLINE void
-      yield(const Batch<dim, Number> &batch,
-            const int q,
-            const Number volume,
-            const Number *before,
-            Number *stress)
+      /** ElasticBound of each cell. */
+      template <typename Number>
+      struct Bounds
       {
-        constexpr int width       = n_lanes<Number>;
+        Number slope, factor, uniaxial, tension;
+      };
+
+      template <int dim, typename Number>
+      KEYBLOCK_ALWAYS_INLINE Bounds<Number>
+      bounds_of(const Batch<dim, Number> &batch)
+      {
         const CellPass<dim> &pass = batch.pass;
         const unsigned short *strength =
           pass.strength + (batch.first - pass.first_plastic);
-        const auto of_strength = [&](double ElasticBound::*const member)
+        const auto all = [&](double ElasticBound::*const member)
           __attribute__((always_inline))
         {
           return make_lanes<Number>(
             [&](const std::size_t l) __attribute__((always_inline)) {
               return pass.bounds[strength[l]].*member;
             },
-            std::make_index_sequence<width>());
+            std::make_index_sequence<n_lanes<Number>>());
         };
-        const Number p = (stress[0] + stress[1] + stress[2]) * (1. / 3.);
-        Number j2      = Number();
+        return {all(&ElasticBound::slope),
+                all(&ElasticBound::factor),
+                all(&ElasticBound::uniaxial),
+                all(&ElasticBound::tension)};
+      }
+
+      /** Points of the batch that might yield go to the yield surface one by
+       * one. */
+      template <int dim, typename Number>
+      KEYBLOCK_ALWAYS_INLINE void
+      yield(const Batch<dim, Number> &batch,
+            const Bounds<Number> &bounds,
+            const int q,
+            const Number volume,
+            const Number *before,
+            Number *stress)
+      {
+        constexpr int width = n_lanes<Number>;
+        const Number p      = (stress[0] + stress[1] + stress[2]) * (1. / 3.);
+        Number j2           = Number();
         for (int k = 0; k < 3; ++k)
           j2 += 0.5 * (stress[k] - p) * (stress[k] - p);
         for (int k = 3; k < n_stress<dim>; ++k)
           j2 += stress[k] * stress[k];
-        const Number shear = of_strength(&ElasticBound::uniaxial) -
-                             of_strength(&ElasticBound::slope) * p;
-        const Number pull = of_strength(&ElasticBound::tension) - p;
-        double room[4][width];
-        store(shear, room[0]);
-        store(pull, room[1]);
-        store(shear * shear - of_strength(&ElasticBound::factor) * j2, room[2]);
-        store(pull * pull - (4. / 3.) * j2, room[3]);
+        const Number shear = bounds.uniaxial - bounds.slope * p;
+        const Number pull  = bounds.tension - p;
+        const auto is_elastic =
+          is_positive(shear) & is_positive(pull) &
+          is_positive(shear * shear - bounds.factor * j2) &
+          is_positive(pull * pull - (4. / 3.) * j2);
+        if (is_true<width>(is_elastic))
+          return;
         for (int l = 0; l < width; ++l)
-          if (!(room[0][l] >= 0. && room[1][l] >= 0. && room[2][l] >= 0. &&
-                room[3][l] >= 0.))
+          if (!is_true<width>(is_elastic, l))
             {
               double values[3][n_stress<dim>][width], old[n_stress<dim>],
                 trial[n_stress<dim>], volumes[width];
@@ -117,8 +134,8 @@ namespace Keyblock
                   old[k]   = values[0][k][l];
                   trial[k] = values[1][k][l];
                 }
-              pass.yield(
-                pass.owner, batch.first + l, q, volumes[l], old, trial);
+              batch.pass.yield(
+                batch.pass.owner, batch.first + l, q, volumes[l], old, trial);
               for (int k = 0; k < n_stress<dim>; ++k)
                 {
                   values[1][k][l] = trial[k];
@@ -141,6 +158,7 @@ namespace Keyblock
       template <int dim, bool is_large, Kind kind, typename Number>
       KEYBLOCK_ALWAYS_INLINE void
       advance_stress(const Batch<dim, Number> &batch,
+                     const Bounds<Number> &bounds,
                      const int q,
                      Gradient<dim, Number> g,
                      const Number third,
@@ -177,7 +195,7 @@ namespace Keyblock
             viscous[k] = batch.beta * rate[k];
           }
         if constexpr (kind == Kind::plastic)
-          yield<dim, Number>(batch, q, volume, before, stress);
+          yield<dim, Number>(batch, bounds, q, volume, before, stress);
         for (int k = 0; k < n_stress<dim>; ++k)
           if (!is_kept<dim, kind>(k))
             store(stress[k], batch.stress_at(q, k));
@@ -207,6 +225,7 @@ namespace Keyblock
             Number stress[n_stress<dim>], viscous[n_stress<dim>];
             advance_stress<dim, is_large, Kind::elastic, Number>(
               batch,
+              Bounds<Number>(),
               q,
               gradient_at<dim>(q, rate, jacobian),
               Number(),
@@ -267,16 +286,19 @@ namespace Keyblock
           {
             jacobian[q] = jacobian_at<dim>(q, middle);
             volume += jacobian[q].determinant;
-            change += jacobian[q].determinant *
-                      trace<dim>(gradient_at<dim>(q, rate, jacobian[q]));
+            change += dilatation_at<dim>(q, rate, jacobian[q]);
           }
         const Number mean = change / volume;
+        Bounds<Number> bounds{};
+        if constexpr (kind == Kind::plastic)
+          bounds = bounds_of<dim, Number>(batch);
         Number stress[n][n_stress<dim>], viscous[n][n_stress<dim>];
         for (int q = 0; q < n; ++q)
           {
             const auto g = gradient_at<dim>(q, rate, jacobian[q]);
             advance_stress<dim, is_large, kind, Number>(
               batch,
+              bounds,
               q,
               g,
               (mean - trace<dim>(g)) * (1. / 3.),

@@ -161,6 +161,21 @@ namespace Keyblock
         return g;
       }
 
+      /** Divergence of the field with derivatives @p v, times the determinant.
+       */
+      template <int dim, typename Number>
+      KEYBLOCK_ALWAYS_INLINE Number
+      dilatation_at(const int q,
+                    const AlongEdges<dim, Number> &v,
+                    const Jacobian<dim, Number> &jacobian)
+      {
+        Number sum = Number();
+        for (int i = 0; i < dim; ++i)
+          for (int d = 0; d < dim; ++d)
+            sum += v.value[d][i][without_bit(q, d)] * jacobian.cofactor[d][i];
+        return sum;
+      }
+
       /** Add stress . cofactors at a point to the fluxes. */
       template <int dim, typename Number>
       KEYBLOCK_ALWAYS_INLINE void

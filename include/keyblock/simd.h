@@ -35,6 +35,36 @@ namespace Keyblock
   {
     __builtin_memcpy(to, &value, sizeof(Number));
   }
+
+  /** Mask of the lanes that are not negative (nor NaN). */
+  template <typename Number>
+  KEYBLOCK_ALWAYS_INLINE auto
+  is_positive(const Number value)
+  {
+    return value >= 0.;
+  }
+
+  /** Whether a mask of @p width lanes is true in one of them. */
+  template <unsigned int width, typename Mask>
+  KEYBLOCK_ALWAYS_INLINE bool
+  is_true(const Mask mask, const unsigned int lane)
+  {
+    if constexpr (width == 1)
+      return mask;
+    else
+      return mask[lane] != 0;
+  }
+
+  /** Whether a mask is true in all lanes. */
+  template <unsigned int width, typename Mask>
+  KEYBLOCK_ALWAYS_INLINE bool
+  is_true(const Mask mask)
+  {
+    bool all = true;
+    for (unsigned int l = 0; l < width; ++l)
+      all = all & is_true<width>(mask, l);
+    return all;
+  }
 } // namespace Keyblock
 
 #endif
