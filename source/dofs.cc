@@ -13,6 +13,7 @@
 #include <keyblock/mpi.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 namespace Keyblock
@@ -25,6 +26,7 @@ namespace Keyblock
     create_triangulation(scene, split.mesh);
     dof_handler.reinit(*triangulation);
     dof_handler.distribute_dofs(fe);
+    put_interface_last(split);
     create_numbering(scene, split);
   }
 
@@ -86,6 +88,42 @@ namespace Keyblock
         world());
     distributed->create_triangulation(description);
     triangulation = std::move(distributed);
+  }
+
+
+
+  template <int dim>
+  void
+  Numbering<dim>::put_interface_last(const SplitMesh<dim> &split)
+  {
+    const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+    std::vector<unsigned int> owned_node(split.mesh.vertices.size(), none);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
+          {
+            const auto dof = cell->vertex_dof_index(v, 0);
+            if (owned.is_element(dof))
+              owned_node[split.mesh.cells[mesh_cell_of(cell)][v]] =
+                owned.index_within_set(dof) / dim;
+          }
+    const unsigned int n_nodes = owned.n_elements() / dim;
+    std::vector<bool> is_on_joint(n_nodes, false);
+    for (const unsigned int v : split.interface.group_vertices)
+      if (owned_node[v] != none)
+        is_on_joint[owned_node[v]] = true;
+    std::vector<unsigned int> order(n_nodes);
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_partition(order.begin(),
+                          order.end(),
+                          [&](const unsigned int node) {
+                            return !is_on_joint[node];
+                          });
+    std::vector<dealii::types::global_dof_index> number(owned.n_elements());
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        number[dim * order[i] + d] = owned.nth_index_in_set(dim * i + d);
+    dof_handler.renumber_dofs(number);
   }
 
 

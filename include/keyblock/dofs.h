@@ -107,6 +107,11 @@ namespace Keyblock
   private:
     void create_triangulation(const Scene<dim> &scene, const Mesh<dim> &mesh);
 
+    /** Nodes of joints get the last numbers of their rank, in the order of the
+     * loop over cells like the others: what contact works on stands together,
+     * and so do the nodes that only cells move. */
+    void put_interface_last(const SplitMesh<dim> &split);
+
     void create_numbering(const Scene<dim> &scene, const SplitMesh<dim> &split);
 
     void list_hanging_nodes(const SplitMesh<dim> &split);
