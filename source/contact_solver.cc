@@ -160,10 +160,13 @@ namespace Keyblock
                                      point.strength);
     }
 
-    // the change of a sweep, over the largest impulse, that may be creep, and
-    // the sweeps in which it must halve to be taken for convergence
+    // creep: momentum changes by at most this, over the largest impulse, and by
+    // at most this share of what the impulses change, as they cancel; or as
+    // much as some sweeps before
     constexpr double creep_tolerance      = 1e-6;
-    constexpr unsigned int creep_interval = 16;
+    constexpr double creep_share          = 1e-3;
+    constexpr double creep_shrinkage      = 0.99;
+    constexpr unsigned int creep_interval = 32;
 
     // a point is visited again when a node of it has changed by this share of
     // what ends the sweeps
@@ -263,7 +266,9 @@ namespace Keyblock
      * the nodes, not the impulses: where two points do the same, as two nodes
      * that lie on each other's faces, impulse creeps from one to the other for
      * long and nothing moves. If their normals differ a little the nodes creep
-     * along: a small change that does not shrink ends the sweeps as well.
+     * along, and where points contradict each other by rounding they drift:
+     * small changes that are the difference of large ones, or do not shrink,
+     * end the sweeps as well.
      */
     template <int dim>
     SolverReport
@@ -271,16 +276,17 @@ namespace Keyblock
             const ContactNodes<dim> &nodes,
             const SolverSettings &settings)
     {
-      double largest   = 0.;
+      double largest = 0., impulse_change = 0.;
       const auto visit = [&](ContactPoint<dim> &point) {
         const PointResponse<dim> response =
           respond<dim>(point, nodes, settings.step);
-        apply_impulse<dim>(point,
-                           add<dim>(response.impulse, -1., point.impulse),
-                           nodes);
-        point.impulse = response.impulse;
-        point.status  = response.status;
-        largest       = std::max(largest, norm<dim>(response.impulse));
+        const Vector<dim> difference =
+          add<dim>(response.impulse, -1., point.impulse);
+        apply_impulse<dim>(point, difference, nodes);
+        point.impulse  = response.impulse;
+        point.status   = response.status;
+        impulse_change = std::max(impulse_change, norm<dim>(difference));
+        largest        = std::max(largest, norm<dim>(response.impulse));
       };
       SolverReport report;
       if (points.size() == 1)
@@ -294,6 +300,7 @@ namespace Keyblock
       while (report.n_iterations < settings.maximum_iterations)
         {
           ++report.n_iterations;
+          impulse_change = 0.;
           for (unsigned int p = 0; p < points.size(); ++p)
             if (group.is_due(points[p], p))
               {
@@ -302,12 +309,13 @@ namespace Keyblock
               }
           const double change =
             group.end_sweep(stale_share * settings.tolerance * largest);
-          if (change <= settings.tolerance * largest)
+          const bool is_small = change <= creep_tolerance * largest;
+          if (change <= settings.tolerance * largest ||
+              (is_small && change <= creep_share * impulse_change))
             return report;
           if (report.n_iterations % creep_interval == 0)
             {
-              if (change <= creep_tolerance * largest &&
-                  change > 0.5 * earlier_change)
+              if (is_small && change > creep_shrinkage * earlier_change)
                 return report;
               earlier_change = change;
             }

@@ -20,6 +20,7 @@ foreach(case stays_friction slides_friction stays_slender topples_slender
   keyblock_scene(verification/toppling_${case})
 endforeach()
 keyblock_scene(verification/crossing)
+keyblock_scene(verification/pile)
 keyblock_scene(verification/bond_break)
 keyblock_scene(verification/bond_break_fast)
 keyblock_scene(verification/gravity_column)
