@@ -77,7 +77,11 @@ per cell is in the table of growth) ends the size of a model, not its speed.
 - Stresses are prefetched two batches ahead. Elastic cells in 2D leave the
   out-of-plane stress alone.
 - Nodes without joint or support are predicted and moved in one pass; the nodes
-  of joints are prefetched.
+  of joints are numbered last, so that this pass is not broken up, and
+  prefetched.
+- Mohr-Coulomb cells test all points of a batch at once, and only those that may
+  yield are returned one by one.
+- Contact sweeps end when the momentum of the nodes rests (theory, section 7).
 """
 
 
