@@ -39,10 +39,9 @@ Errors are relative, against closed forms. A run that failed has no numbers.
 
 The article raises the reduction factor in steps of 0.01, each time from the
 start, moves the whole model, and treats contact points in one uncoupled pass.
-Time and steps are those of the trials alone. The article's trials take a fixed
-number of steps (5000 a stage); here all ways end a trial when it is decided,
-which makes the published way faster than it was. "none": no factor, as the
-stage itself ended wrong (uncoupled points at the corners of blocks diverge).
+Its trials take 5000 steps. Time and steps are those of the trials alone; the
+error is that of the farther end of the bracket. "none": no factor, as the stage
+itself ended wrong (uncoupled points at the corners of blocks diverge).
 """,
     "factors": """## Factors of the powerhouse
 

@@ -411,6 +411,19 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<unsigned int>
+  Contact<dim>::list_mobile_nodes() const
+  {
+    std::vector<unsigned int> nodes;
+    for (const unsigned int slot : mobile_slots)
+      if (node_of_slot[slot] != none)
+        nodes.push_back(node_of_slot[slot]);
+    return nodes;
+  }
+
+
+
+  template <int dim>
   std::array<unsigned int, 2>
   Contact<dim>::blocks_of_pair(const unsigned int pair) const
   {

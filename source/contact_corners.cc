@@ -112,9 +112,6 @@ namespace Keyblock
   Contact<dim>::set_up_traction_weights()
   {
     traction_weights.clear();
-    std::map<unsigned int, unsigned int> local_cell;
-    for (unsigned int c = 0; c < cells.mesh_cell.size(); ++c)
-      local_cell[cells.mesh_cell[c]] = c;
     std::map<std::array<unsigned int, 3>, unsigned int> pair_at;
     for (const unsigned int p : corner_pairs)
       pair_at[{{interface.pairs[p].minus,
@@ -122,7 +119,10 @@ namespace Keyblock
                 interface.pairs[p].joint}}] = p;
     if (pair_at.empty())
       return;
-    const Mesh<dim> &mesh    = split.mesh;
+    const Mesh<dim> &mesh = split.mesh;
+    std::vector<unsigned int> local_cell(mesh.n_cells(), none);
+    for (unsigned int c = 0; c < cells.mesh_cell.size(); ++c)
+      local_cell[cells.mesh_cell[c]] = c;
     constexpr unsigned int n = Mesh<dim>::n_face_vertices;
     const auto is_rigid      = [&](const unsigned int cell) {
       return scene.materials[mesh.material[cell]]->is_rigid();
@@ -134,8 +134,7 @@ namespace Keyblock
                               const unsigned int cell,
                               const unsigned int cell_face,
                               const double share) {
-      const auto found = local_cell.find(cell);
-      if (found == local_cell.end())
+      if (local_cell[cell] == none)
         return;
       const auto minus = mesh.face_vertices(face.minus_cell, face.minus_face);
       const auto plus  = mesh.face_vertices(face.plus_cell, face.plus_face);
@@ -189,7 +188,7 @@ namespace Keyblock
                       }
                     weight += value * extrapolation / n;
                   }
-                TractionWeight entry{pair->second, found->second, q, {}};
+                TractionWeight entry{pair->second, local_cell[cell], q, {}};
                 for (int d = 0; d < dim; ++d)
                   entry.weight[d] = -share * weight * n_area[d];
                 traction_weights.push_back(entry);

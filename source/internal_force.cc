@@ -150,6 +150,28 @@ namespace Keyblock
          : kind == CellKind::mean_dilatation ? k.averaged_3d
                                              : k.plastic_3d)(pass);
     }
+
+    /** The same for the cells of @p pass that are in @p ranges, if given. */
+    template <int dim>
+    void
+    run_kernel_on(const std::vector<CellRange> *const ranges,
+                  const CellKind kind,
+                  const CellPass<dim> &pass)
+    {
+      if (ranges == nullptr)
+        {
+          run_kernel<dim>(kind, pass);
+          return;
+        }
+      CellPass<dim> part = pass;
+      for (const CellRange &range : *ranges)
+        {
+          part.begin = std::max(pass.begin, range.begin);
+          part.end   = std::min(pass.end, range.end);
+          if (part.begin < part.end)
+            run_kernel<dim>(kind, part);
+        }
+    }
   } // namespace
 
 
@@ -203,7 +225,7 @@ namespace Keyblock
         pass.mu            = is_uniform ? mu.data() : cells.mu.data();
         pass.moduli_stride = is_uniform ? 0 : 1;
         if (kind != CellKind::plastic)
-          run_kernel<dim>(kind, pass);
+          run_kernel_on<dim>(settings.cells, kind, pass);
       }
     cells.n_yielding = 0;
     if (pass.begin == pass.end)
@@ -216,7 +238,7 @@ namespace Keyblock
     pass.first_plastic = cells.first_plastic();
     pass.yield         = yield<dim>;
     pass.owner         = &cells;
-    run_kernel<dim>(CellKind::plastic, pass);
+    run_kernel_on<dim>(settings.cells, CellKind::plastic, pass);
   }
 
 

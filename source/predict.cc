@@ -129,7 +129,7 @@ namespace Keyblock
     {
       constexpr unsigned int n_sums = 4;
       ComponentWork<dim> sums[n_sums];
-      for (const NodeRun &run : fields.runs)
+      for (const NodeRun &run : pass.runs)
         {
           if (!run.is_inner || !pass.moves_inner)
             {

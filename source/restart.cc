@@ -218,6 +218,7 @@ namespace Keyblock
     file.exchange("run/element_steps", report.element_steps);
     file.exchange("run/contact_time", step->contact_seconds);
     file.exchange("run/force_time", step->force_seconds);
+    file.exchange_shares("run/skipped_steps", {&step->n_skipped});
     if (!contact)
       return;
     double n_capped = contact->n_capped;

@@ -458,6 +458,15 @@ namespace Keyblock
     prm.add_parameter("Energy ledger",
                       ledger,
                       "Keep every energy term, each step.");
+    prm.add_parameter("Skip cells at rest",
+                      skips_resting,
+                      "Leave out of the steps the cells that are far from all "
+                      "that moves.");
+    prm.add_parameter("Rest speed",
+                      rest_speed,
+                      "Speed of nodes at rest, at most, as a share of that of "
+                      "the fastest node [-].",
+                      Double(0., 1.));
   }
 
   void
@@ -623,6 +632,10 @@ namespace Keyblock
                       maximum_periods,
                       "Length of each phase, at most [-].",
                       positive);
+    prm.add_parameter("Trial steps",
+                      trial_steps,
+                      "Steps that every trial goes on for, though it is "
+                      "decided (the published way: 5000); 0: none.");
     prm.add_parameter("Warm start",
                       warm_start,
                       "Start a trial from the highest factor at which the "

@@ -312,6 +312,10 @@ namespace Keyblock
     cells.strengths                = old.strengths;
     cells.plastic_work             = old.plastic_work;
     std::vector<unsigned int> new_place(cell_of_local.size(), none);
+    cells.nodes.reserve(new_place.size());
+    cells.mesh_cell.reserve(new_place.size());
+    cells.lambda.reserve(new_place.size());
+    cells.mu.reserve(new_place.size());
     for (unsigned int kind = 0; kind < n_cell_kinds; ++kind)
       {
         cells.kind_begin[kind] = cells.nodes.size();
@@ -351,7 +355,6 @@ namespace Keyblock
                                    cells.lambda[c] == cells.lambda[first] &&
                                    cells.mu[c] == cells.mu[first];
       }
-    cells.beta.assign(cells.nodes.size(), 0.);
     cells.stress.reinit(cells.nodes.size());
     for (unsigned int i = 0; i < new_place.size(); ++i)
       if (new_place[i] != none && cell_of_local[i] != none)
@@ -551,10 +554,12 @@ namespace Keyblock
   void
   Conditions<dim>::set_damping(const double damping_ratio)
   {
-    for (unsigned int c = 0; c < frequency.size(); ++c)
-      cells.beta[c] = 2. * damping_ratio / frequency[c];
-    if (damping_ratio > 0.)
-      fields.damping_force.assign(fields.velocity.size(), 0.);
+    cells.beta.clear();
+    if (damping_ratio == 0.)
+      return;
+    for (const double omega : frequency)
+      cells.beta.push_back(2. * damping_ratio / omega);
+    fields.damping_force.assign(fields.velocity.size(), 0.);
   }
 
 

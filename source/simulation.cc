@@ -323,7 +323,9 @@ namespace Keyblock
     report.wall_time      = MPI_Wtime() - wall_start;
     report.contact_time   = step->contact_seconds;
     report.force_time     = step->force_seconds;
-    report.capped_groups  = contact ? contact->n_capped : 0;
+    report.skipped_steps =
+      dealii::Utilities::MPI::sum(step->n_skipped, world());
+    report.capped_groups = contact ? contact->n_capped : 0;
     wait_for_all_teams();
     if (this_team() > 0)
       return;

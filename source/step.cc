@@ -18,6 +18,7 @@ namespace Keyblock
                                   Fields<dim> &fields,
                                   Contact<dim> *contact)
     : keeps_ledger(scene.time_stepping.ledger)
+    , skips_resting(scene.time_stepping.skips_resting)
     , scene(scene)
     , split(split)
     , numbering(numbering)
@@ -25,6 +26,7 @@ namespace Keyblock
     , cells(cells)
     , fields(fields)
     , contact(contact)
+    , resting(split, numbering, cells, fields)
   {}
 
 
@@ -69,6 +71,8 @@ namespace Keyblock
     conditions.scale_density(stage.is_quasi_static() && stage.scales_density);
     if (contact)
       contact->begin_stage(number);
+    resting.forget();
+    n_searches_seen = contact ? contact->n_searches : 0;
   }
 
 
@@ -92,6 +96,8 @@ namespace Keyblock
   {
     if (contact)
       contact->begin_stage(number);
+    resting.forget();
+    n_searches_seen = none; // contact searches in the first step
     dt = scene.time_stepping.safety * conditions.stable_step.limit(stage);
     if (scene.time_stepping.maximum_step > 0. && !stage.is_quasi_static())
       dt = std::min(dt, scene.time_stepping.maximum_step);
@@ -140,6 +146,7 @@ namespace Keyblock
     update_forces();
     const double before = elastic_energy<dim>(cells, positions());
     conditions.dig(number);
+    conditions.set_damping(stage.damping_ratio);
     excavated_energy = before - elastic_energy<dim>(cells, positions());
     update_forces();
     std::vector<double> carried(dim * numbering.n_owned(), 0.);
@@ -206,8 +213,16 @@ namespace Keyblock
   double
   ExplicitStep<dim>::advance(const bool sample)
   {
-    kick = starts_at_rest ? 0.5 * dt : 0.5 * (previous_dt + dt);
-    compute_internal_force();
+    kick             = starts_at_rest ? 0.5 * dt : 0.5 * (previous_dt + dt);
+    const bool rests = may_rest();
+    if (!rests)
+      resting.wake();
+    const bool needs_all = sample || resting.is_due();
+    n_skipped += needs_all ? 0. : cells.nodes.size() - resting.n_awake();
+    compute_internal_force(needs_all);
+    if (rests && resting.is_due())
+      look_for_rest();
+    resting.advance();
     // energies are measured before anything moves
     predict_nodes(!sample);
     resolve_contact();
@@ -216,13 +231,14 @@ namespace Keyblock
       book_supports();
     if (sample)
       {
-        for (const NodeRun &run : fields.runs)
+        for (const NodeRun &run : resting.moving_nodes())
           if (keeps_ledger)
             book_work(run);
         sample_energies();
         sample_unbalanced_force();
       }
     move_nodes(sample);
+    n_searches_seen   = contact ? contact->n_searches : 0;
     starts_at_rest    = false;
     is_first          = false;
     is_stress_current = false;
@@ -236,8 +252,46 @@ namespace Keyblock
 
 
   template <int dim>
+  bool
+  ExplicitStep<dim>::may_rest() const
+  {
+    return skips_resting && !conditions.is_load_changing() &&
+           (contact == nullptr || contact->n_searches == n_searches_seen);
+  }
+
+
+
+  template <int dim>
   void
-  ExplicitStep<dim>::compute_internal_force()
+  ExplicitStep<dim>::look_for_rest()
+  {
+    conditions.set_load(time);
+    double square = 0.;
+    for (unsigned int i = 0; i < dim * numbering.n_owned(); i += dim)
+      {
+        double sum = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          sum += fields.velocity[i + d] * fields.velocity[i + d];
+        square = std::max(square, sum);
+      }
+    const double fastest =
+      std::sqrt(dealii::Utilities::MPI::max(square, world()));
+    const double stopped =
+      resting.look({kick,
+                    scene.time_stepping.rest_speed * fastest,
+                    stage.damping_ratio > 0.},
+                   contact ? contact->list_mobile_nodes()
+                           : std::vector<unsigned int>());
+    // the energy that a stage starts with is measured behind the look
+    if (!is_first)
+      sums.local_damping += stopped;
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::compute_internal_force(const bool with_resting)
   {
     const double start = MPI_Wtime();
     std::fill(fields.internal_force.begin(), fields.internal_force.end(), 0.);
@@ -245,6 +299,7 @@ namespace Keyblock
     pass.step        = is_stress_current ? 0. : previous_dt;
     pass.is_large    = scene.time_stepping.is_large();
     pass.has_damping = stage.damping_ratio > 0.;
+    pass.cells       = with_resting ? nullptr : resting.awake_cells();
     if (pass.has_damping)
       std::fill(fields.damping_force.begin(), fields.damping_force.end(), 0.);
     add_internal_force<dim>(pass,
@@ -280,10 +335,13 @@ namespace Keyblock
               fields.velocity.end(),
               fields.old_velocity.begin() +
                 (moves_inner ? dim * numbering.n_owned() : 0));
-    const NodeWork work =
-      predict(stage,
-              {kick, dt, moves_inner, scene.time_stepping.is_large()},
-              fields);
+    const NodeWork work = predict(stage,
+                                  {kick,
+                                   dt,
+                                   moves_inner,
+                                   scene.time_stepping.is_large(),
+                                   resting.moving_nodes()},
+                                  fields);
     if (keeps_ledger)
       sums.add(work);
     conditions.apply_supports(time, dt);
@@ -324,16 +382,15 @@ namespace Keyblock
                   fields.velocity.begin() + dim * run.end,
                   fields.rate.begin() + dim * run.begin);
     };
-    for (unsigned int r = 0; r < fields.runs.size(); ++r)
+    const std::vector<NodeRun> &runs = resting.moving_nodes();
+    for (unsigned int r = 0; r < runs.size(); ++r)
       {
-        const NodeRun &run = fields.runs[r];
+        const NodeRun &run = runs[r];
         if (run.is_inner && !with_inner)
           continue;
         // outer nodes lie anywhere: fetch those a few runs on
         const unsigned int next =
-          dim *
-          fields.runs[std::min<std::size_t>(r + 8, fields.runs.size() - 1)]
-            .begin;
+          dim * runs[std::min<std::size_t>(r + 8, runs.size() - 1)].begin;
         for (const auto *values : {&fields.load,
                                    &fields.velocity,
                                    &fields.old_velocity,
@@ -358,7 +415,7 @@ namespace Keyblock
       for (unsigned int i = dim * run.begin; i < dim * run.end; ++i)
         fields.position[i] = fields.reference[i] + fields.displacement[i];
     };
-    for (const NodeRun &run : fields.runs)
+    for (const NodeRun &run : runs)
       if (with_inner || !run.is_inner)
         place(run);
     place(ghosts);

@@ -417,11 +417,17 @@ namespace Keyblock
     trial.start  = start;
     reduce(block, start);
     run.conditions.scale_density(false);
-    const double true_mass  = mass_in_use(block);
-    const bool keeps_ledger = run.step.keeps_ledger;
-    run.step.keeps_ledger   = false;
+    const double true_mass = mass_in_use(block);
+    // forces on the block are measured at any step
+    const bool keeps_ledger  = run.step.keeps_ledger;
+    const bool skips_resting = run.step.skips_resting;
+    run.step.keeps_ledger    = false;
+    run.step.skips_resting   = false;
     trial.is_stable = decide(block, number, first, trial) == Verdict::holds;
-    run.step.keeps_ledger = keeps_ledger;
+    for (; trial.n_steps < scene.safety.trial_steps; ++trial.n_steps)
+      run.step.advance(false);
+    run.step.keeps_ledger  = keeps_ledger;
+    run.step.skips_resting = skips_resting;
     if (!trial.is_stable)
       last_failure = name_failure(block);
     // of the true masses

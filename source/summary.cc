@@ -227,6 +227,7 @@ namespace Keyblock
     put(run_tree, "loop_time", run.loop_time);
     put(run_tree, "contact_time", run.contact_time);
     put(run_tree, "force_time", run.force_time);
+    put(run_tree, "skipped_element_steps", run.skipped_steps);
     put(run_tree,
         "million_element_steps_per_second",
         run.loop_time > 0. ? 1e-6 * run.element_steps / run.loop_time : 0.);

@@ -35,3 +35,6 @@ keyblock_restart(roof_block verification/roof_block_falls
 keyblock_restart(factor_incline verification/factor_incline)
 keyblock_restart(factor_incline_stopped verification/factor_incline
   ARGUMENTS --by stop --breaks 2)
+# cells at rest
+keyblock_restart(pulse verification/pulse RANKS 2
+  ARGUMENTS --ranks 2 --set "Time stepping/Rest speed=1e-3")

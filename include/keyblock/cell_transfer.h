@@ -42,50 +42,56 @@ namespace Keyblock
         store(load<Lanes2>(to) + pair, to);
       }
 
-      // pairs (x, y) of even and odd lanes, transposed into lanes of x and y
+      // The first two components of nodes, (x, y) of one lane after the other,
+      // transposed into lanes of x and y.
 #if KEYBLOCK_LANES == 2
+      template <int dim>
       KEYBLOCK_ALWAYS_INLINE void
-      gather_pairs(const Nodes<2> *nodes,
+      gather_pairs(const Nodes<dim> *nodes,
                    const int a,
                    const double *field,
                    Lanes2 &x,
                    Lanes2 &y)
       {
-        const Lanes2 p = load<Lanes2>(field + 2 * nodes[0][a]);
-        const Lanes2 r = load<Lanes2>(field + 2 * nodes[1][a]);
+        const Lanes2 p = load<Lanes2>(field + dim * nodes[0][a]);
+        const Lanes2 r = load<Lanes2>(field + dim * nodes[1][a]);
         x              = __builtin_shufflevector(p, r, 0, 2);
         y              = __builtin_shufflevector(p, r, 1, 3);
       }
 
+      template <int dim>
       KEYBLOCK_ALWAYS_INLINE void
-      scatter_pairs(const Nodes<2> *nodes,
+      scatter_pairs(const Nodes<dim> *nodes,
                     const int a,
                     const Lanes2 x,
                     const Lanes2 y,
                     double *field)
       {
-        add_pair(__builtin_shufflevector(x, y, 0, 2), field + 2 * nodes[0][a]);
-        add_pair(__builtin_shufflevector(x, y, 1, 3), field + 2 * nodes[1][a]);
+        add_pair(__builtin_shufflevector(x, y, 0, 2),
+                 field + dim * nodes[0][a]);
+        add_pair(__builtin_shufflevector(x, y, 1, 3),
+                 field + dim * nodes[1][a]);
       }
 
 #elif KEYBLOCK_LANES == 4
+      template <int dim>
       KEYBLOCK_ALWAYS_INLINE void
-      gather_pairs(const Nodes<2> *nodes,
+      gather_pairs(const Nodes<dim> *nodes,
                    const int a,
                    const double *field,
                    Lanes4 &x,
                    Lanes4 &y)
       {
         const Lanes4 p =
-          __builtin_shufflevector(load<Lanes2>(field + 2 * nodes[0][a]),
-                                  load<Lanes2>(field + 2 * nodes[2][a]),
+          __builtin_shufflevector(load<Lanes2>(field + dim * nodes[0][a]),
+                                  load<Lanes2>(field + dim * nodes[2][a]),
                                   0,
                                   1,
                                   2,
                                   3);
         const Lanes4 r =
-          __builtin_shufflevector(load<Lanes2>(field + 2 * nodes[1][a]),
-                                  load<Lanes2>(field + 2 * nodes[3][a]),
+          __builtin_shufflevector(load<Lanes2>(field + dim * nodes[1][a]),
+                                  load<Lanes2>(field + dim * nodes[3][a]),
                                   0,
                                   1,
                                   2,
@@ -94,8 +100,9 @@ namespace Keyblock
         y = __builtin_shufflevector(p, r, 1, 5, 3, 7);
       }
 
+      template <int dim>
       KEYBLOCK_ALWAYS_INLINE void
-      scatter_pairs(const Nodes<2> *nodes,
+      scatter_pairs(const Nodes<dim> *nodes,
                     const int a,
                     const Lanes4 x,
                     const Lanes4 y,
@@ -104,86 +111,93 @@ namespace Keyblock
         const Lanes4 even = __builtin_shufflevector(x, y, 0, 4, 2, 6);
         const Lanes4 odd  = __builtin_shufflevector(x, y, 1, 5, 3, 7);
         add_pair(__builtin_shufflevector(even, even, 0, 1),
-                 field + 2 * nodes[0][a]);
+                 field + dim * nodes[0][a]);
         add_pair(__builtin_shufflevector(odd, odd, 0, 1),
-                 field + 2 * nodes[1][a]);
+                 field + dim * nodes[1][a]);
         add_pair(__builtin_shufflevector(even, even, 2, 3),
-                 field + 2 * nodes[2][a]);
+                 field + dim * nodes[2][a]);
         add_pair(__builtin_shufflevector(odd, odd, 2, 3),
-                 field + 2 * nodes[3][a]);
+                 field + dim * nodes[3][a]);
       }
 
 #else
+      template <int dim>
       KEYBLOCK_ALWAYS_INLINE Lanes8
-      join_four(const Nodes<2> *nodes,
+      join_four(const Nodes<dim> *nodes,
                 const int first,
                 const int a,
                 const double *field)
       {
         const Lanes4 low =
-          __builtin_shufflevector(load<Lanes2>(field + 2 * nodes[first][a]),
-                                  load<Lanes2>(field + 2 * nodes[first + 2][a]),
+          __builtin_shufflevector(load<Lanes2>(field + dim * nodes[first][a]),
+                                  load<Lanes2>(field +
+                                               dim * nodes[first + 2][a]),
                                   0,
                                   1,
                                   2,
                                   3);
-        const Lanes4 high =
-          __builtin_shufflevector(load<Lanes2>(field + 2 * nodes[first + 4][a]),
-                                  load<Lanes2>(field + 2 * nodes[first + 6][a]),
-                                  0,
-                                  1,
-                                  2,
-                                  3);
+        const Lanes4 high = __builtin_shufflevector(
+          load<Lanes2>(field + dim * nodes[first + 4][a]),
+          load<Lanes2>(field + dim * nodes[first + 6][a]),
+          0,
+          1,
+          2,
+          3);
         return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
       }
 
+      template <int dim>
       KEYBLOCK_ALWAYS_INLINE void
-      gather_pairs(const Nodes<2> *nodes,
+      gather_pairs(const Nodes<dim> *nodes,
                    const int a,
                    const double *field,
                    Lanes8 &x,
                    Lanes8 &y)
       {
-        const Lanes8 p = join_four(nodes, 0, a, field);
-        const Lanes8 r = join_four(nodes, 1, a, field);
+        const Lanes8 p = join_four<dim>(nodes, 0, a, field);
+        const Lanes8 r = join_four<dim>(nodes, 1, a, field);
         x = __builtin_shufflevector(p, r, 0, 8, 2, 10, 4, 12, 6, 14);
         y = __builtin_shufflevector(p, r, 1, 9, 3, 11, 5, 13, 7, 15);
       }
 
+      template <int dim>
       KEYBLOCK_ALWAYS_INLINE void
-      scatter_four(const Nodes<2> *nodes,
+      scatter_four(const Nodes<dim> *nodes,
                    const int first,
                    const int a,
                    const Lanes8 pairs,
                    double *field)
       {
         add_pair(__builtin_shufflevector(pairs, pairs, 0, 1),
-                 field + 2 * nodes[first][a]);
+                 field + dim * nodes[first][a]);
         add_pair(__builtin_shufflevector(pairs, pairs, 2, 3),
-                 field + 2 * nodes[first + 2][a]);
+                 field + dim * nodes[first + 2][a]);
         add_pair(__builtin_shufflevector(pairs, pairs, 4, 5),
-                 field + 2 * nodes[first + 4][a]);
+                 field + dim * nodes[first + 4][a]);
         add_pair(__builtin_shufflevector(pairs, pairs, 6, 7),
-                 field + 2 * nodes[first + 6][a]);
+                 field + dim * nodes[first + 6][a]);
       }
 
+      template <int dim>
       KEYBLOCK_ALWAYS_INLINE void
-      scatter_pairs(const Nodes<2> *nodes,
+      scatter_pairs(const Nodes<dim> *nodes,
                     const int a,
                     const Lanes8 x,
                     const Lanes8 y,
                     double *field)
       {
-        scatter_four(nodes,
-                     0,
-                     a,
-                     __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14),
-                     field);
-        scatter_four(nodes,
-                     1,
-                     a,
-                     __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15),
-                     field);
+        scatter_four<dim>(
+          nodes,
+          0,
+          a,
+          __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14),
+          field);
+        scatter_four<dim>(
+          nodes,
+          1,
+          a,
+          __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15),
+          field);
       }
 
 #endif
@@ -196,16 +210,18 @@ namespace Keyblock
              AtVertices<dim, Number> &x)
       {
         constexpr int width = n_lanes<Number>;
+        constexpr int begin = width > 1 ? 2 : 0; // of components one by one
         for (int a = 0; a < (1 << dim); ++a)
-          if constexpr (dim == 2 && width > 1)
-            gather_pairs(nodes, a, field, x.value[a][0], x.value[a][1]);
-          else
-            for (int d = 0; d < dim; ++d)
+          {
+            if constexpr (width > 1)
+              gather_pairs<dim>(nodes, a, field, x.value[a][0], x.value[a][1]);
+            for (int d = begin; d < dim; ++d)
               x.value[a][d] = make_lanes<Number>(
                 [&](const std::size_t l) __attribute__((always_inline)) {
                   return field[dim * nodes[l][a] + d];
                 },
                 std::make_index_sequence<width>());
+          }
       }
 
       /** Add @p force to @p field at the vertices. */
@@ -216,19 +232,20 @@ namespace Keyblock
               double *field)
       {
         constexpr int width = n_lanes<Number>;
+        constexpr int begin = width > 1 ? 2 : 0;
         for (int a = 0; a < (1 << dim); ++a)
-          if constexpr (dim == 2 && width > 1)
-            scatter_pairs(
-              nodes, a, force.value[a][0], force.value[a][1], field);
-          else
-            {
-              double lane[dim][width];
-              for (int d = 0; d < dim; ++d)
-                store(force.value[a][d], lane[d]);
-              for (int l = 0; l < width; ++l)
-                for (int d = 0; d < dim; ++d)
-                  field[dim * nodes[l][a] + d] += lane[d][l];
-            }
+          {
+            if constexpr (width > 1)
+              scatter_pairs<dim>(
+                nodes, a, force.value[a][0], force.value[a][1], field);
+            for (int d = begin; d < dim; ++d)
+              {
+                double lane[width];
+                store(force.value[a][d], lane);
+                for (int l = 0; l < width; ++l)
+                  field[dim * nodes[l][a] + d] += lane[l];
+              }
+          }
       }
     } // namespace
   }   // namespace KEYBLOCK_KERNELS

@@ -175,6 +175,11 @@ namespace Keyblock
       return last_kick > 0. ? last_kick : 1.;
     }
 
+    /** Local nodes of the slots that are solved on all ranks: those that have
+     * slid, and those that may meet a face. They change when n_searches does.
+     */
+    std::vector<unsigned int> list_mobile_nodes() const;
+
     ContactWork work;              ///< sum since the start, this rank's share
     unsigned int n_capped     = 0; ///< groups that reached the cap
     unsigned int n_iterations = 0; ///< largest of the last step

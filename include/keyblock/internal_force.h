@@ -88,7 +88,7 @@ namespace Keyblock
     std::array<unsigned int, n_cell_kinds + 1> kind_begin{};
 
     std::vector<double> lambda, mu; ///< [Pa]
-    std::vector<double> beta;       ///< stiffness damping time [s]
+    std::vector<double> beta;       ///< stiffness damping time, if any [s]
 
     /**
      * In 2D elastic cells (not those with mean dilatation) the stress across
@@ -153,12 +153,22 @@ namespace Keyblock
     }
   };
 
+  /** Cells one after the other. */
+  struct CellRange
+  {
+    unsigned int begin, end;
+  };
+
   /** Settings of one pass over the cells. */
   struct ForcePass
   {
     double step      = 0.;    ///< length of the strain increment [s]
     bool is_large    = false; ///< current geometry, rotated stress
     bool has_damping = false;
+
+    /** Cells to work on, in order; null: all. Ranges that begin at multiples
+     * of batch_size are fastest. */
+    const std::vector<CellRange> *cells = nullptr;
   };
 
   /**

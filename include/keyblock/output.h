@@ -44,6 +44,7 @@ namespace Keyblock
     double loop_time           = 0.;
     double contact_time        = 0.;
     double force_time          = 0.;
+    double skipped_steps       = 0.; ///< of element_steps: cells at rest
     double element_steps       = 0.;
     unsigned int capped_groups = 0;
     std::string stable_step_place;

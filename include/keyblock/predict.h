@@ -14,6 +14,7 @@ namespace Keyblock
     double dt;        ///< step [s]
     bool moves_inner; ///< move the nodes of inner runs at once
     bool is_large;    ///< cells follow their nodes: positions are kept
+    const std::vector<NodeRun> &runs; ///< nodes to work on
   };
 
   /** Work of nodal forces in one step, losses positive [J]. */
@@ -24,7 +25,7 @@ namespace Keyblock
   };
 
   /**
-   * Kick all nodes that may move (Fields::runs): add to their velocities
+   * Kick the nodes of pass.runs: add to their velocities
    * pass.kick / mass times the forces of cells, loads and damping, after the
    * velocities were copied to fields.old_velocity. The impulse of local damping
    * is left in fields.local_damping, as the cap of a damped cluster needs it.

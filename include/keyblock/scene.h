@@ -262,6 +262,8 @@ namespace Keyblock
     double safety          = 0.9;
     double maximum_step    = 0.;
     bool ledger            = true;
+    bool skips_resting     = true;
+    double rest_speed      = 1e-12;
 
     bool
     is_large() const
@@ -327,6 +329,7 @@ namespace Keyblock
     double damping_ratio       = 1.;
     double window              = 1.;
     double maximum_periods     = 20.;
+    unsigned int trial_steps   = 0;
     bool warm_start            = true;
     bool true_masses           = false;
     double reach               = 3.;

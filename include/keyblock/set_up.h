@@ -129,6 +129,13 @@ namespace Keyblock
       ramp_pace = pace;
     }
 
+    /** Whether set_load sets other values from step to step. */
+    bool
+    is_load_changing() const
+    {
+      return !is_load_constant || is_ramping();
+    }
+
     bool
     is_ramping() const
     {

@@ -4,6 +4,7 @@
 
 #include <keyblock/contact.h>
 #include <keyblock/predict.h>
+#include <keyblock/resting_cells.h>
 #include <keyblock/set_up.h>
 
 #include <algorithm>
@@ -174,6 +175,13 @@ namespace Keyblock
     /** Whether the work of all forces is added up. */
     bool keeps_ledger;
 
+    /** Whether cells where nothing moves may be left out of steps; forces are
+     * then complete after sampled steps only. */
+    bool skips_resting;
+
+    /** Steps of cells left out so far, on this rank. */
+    double n_skipped = 0.;
+
     double contact_seconds = 0.; ///< wall time spent in contact
     double force_seconds   = 0.; ///< wall time spent in cell forces
 
@@ -181,7 +189,12 @@ namespace Keyblock
     /** Take friction and damping from @p stage. */
     void apply_settings(const Stage &stage);
     const double *positions() const;
-    void compute_internal_force();
+    /** @param with_resting all cells, also those at rest */
+    void compute_internal_force(const bool with_resting = true);
+    /** Whether cells at rest stay so until the next look, and can be told. */
+    bool may_rest() const;
+    /** Choose the cells to leave out until the next look. */
+    void look_for_rest();
     /** Kick all nodes; with @p moves_inner the inner ones move as well. */
     void predict_nodes(const bool moves_inner);
     void resolve_contact();
@@ -202,6 +215,8 @@ namespace Keyblock
     CellArrays<dim> &cells;
     Fields<dim> &fields;
     Contact<dim> *contact;
+    RestingCells<dim> resting;
+    unsigned int n_searches_seen = none; ///< of contact
   };
 
 

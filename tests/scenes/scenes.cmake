@@ -21,6 +21,15 @@ foreach(case stays_friction slides_friction stays_slender topples_slender
 endforeach()
 keyblock_scene(verification/crossing)
 keyblock_scene(verification/pile)
+# cells at rest: left out or not, with a tolerance, in large displacements; the
+# values of "regression" are those without skips
+keyblock_scene(verification/pulse RANKS 1 2)
+keyblock_scene(verification/pulse REFERENCES pulse_awake RANKS 1
+  SET "Time stepping/Skip cells at rest=false")
+keyblock_scene(verification/pulse REFERENCES pulse_tolerance
+  RANKS 1 2 SET "Time stepping/Rest speed=1e-3")
+keyblock_scene(verification/pulse REFERENCES pulse_large RANKS 1
+  SET "Time stepping/Kinematics=large")
 keyblock_scene(verification/bond_break)
 keyblock_scene(verification/bond_break_fast)
 keyblock_scene(verification/gravity_column)
