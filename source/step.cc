@@ -213,16 +213,8 @@ namespace Keyblock
   double
   ExplicitStep<dim>::advance(const bool sample)
   {
-    kick             = starts_at_rest ? 0.5 * dt : 0.5 * (previous_dt + dt);
-    const bool rests = may_rest();
-    if (!rests)
-      resting.wake();
-    const bool needs_all = sample || resting.is_due();
-    n_skipped += needs_all ? 0. : cells.nodes.size() - resting.n_awake();
-    compute_internal_force(needs_all);
-    if (rests && resting.is_due())
-      look_for_rest();
-    resting.advance();
+    kick = starts_at_rest ? 0.5 * dt : 0.5 * (previous_dt + dt);
+    update_internal_force(sample);
     // energies are measured before anything moves
     predict_nodes(!sample);
     resolve_contact();
@@ -247,6 +239,23 @@ namespace Keyblock
     time += dt;
     ++n_steps;
     return dt;
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::update_internal_force(const bool of_all)
+  {
+    const bool rests = may_rest();
+    if (!rests)
+      resting.wake();
+    const bool with_resting = of_all || resting.is_due();
+    n_skipped += with_resting ? 0. : cells.nodes.size() - resting.n_awake();
+    compute_internal_force(with_resting);
+    if (rests && resting.is_due())
+      look_for_rest();
+    resting.advance();
   }
 
 

@@ -189,7 +189,9 @@ namespace Keyblock
     /** Take friction and damping from @p stage. */
     void apply_settings(const Stage &stage);
     const double *positions() const;
-    /** @param with_resting all cells, also those at rest */
+    /** The force verb of a step: of all cells, or those that do not rest; what
+     * rests is chosen anew from time to time. */
+    void update_internal_force(const bool of_all);
     void compute_internal_force(const bool with_resting = true);
     /** Whether cells at rest stay so until the next look, and can be told. */
     bool may_rest() const;
