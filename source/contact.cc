@@ -35,7 +35,6 @@ namespace Keyblock
     , numbering(numbering)
     , cells(cells)
     , fields(fields)
-    , state(interface.pairs.size())
     , default_tangent(tangent_of(scene.contact.default_friction_angle))
     , traction(interface.pairs.size())
     , search(split, blocks)
@@ -48,6 +47,7 @@ namespace Keyblock
             ? static_tangent.back()
             : tangent_of(joint->kinetic_friction_angle));
       }
+    state.resize(interface.pairs.size());
     for (unsigned int p = 0; p < interface.pairs.size(); ++p)
       {
         const Joint<dim> &joint = *scene.joints[interface.pairs[p].joint];

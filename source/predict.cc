@@ -2,6 +2,7 @@
 // The passes over the nodes between the cells' forces and contact.
 #include <keyblock/damping.h>
 #include <keyblock/predict.h>
+#include <keyblock/simd.h>
 
 #include <type_traits>
 
@@ -9,20 +10,45 @@ namespace Keyblock
 {
   namespace
   {
-    /** Velocity of a node before the kick, and what changes it [m/s]. */
-    template <int dim>
+    /** Value number @p value of an array of one entry per node, as if it had
+     * one per component. */
+    template <int dim, typename Number>
+    KEYBLOCK_ALWAYS_INLINE Number
+    load_per_node(const double *from, const int value)
+    {
+      if constexpr (n_lanes<Number> == 1)
+        return from[value / dim];
+      else
+        return Number{from[2 * value / dim], from[(2 * value + 1) / dim]};
+    }
+
+    /** Change of velocity by local damping (damping.h), lane by lane. */
+    template <typename Number>
+    KEYBLOCK_ALWAYS_INLINE Number
+    damp(const Number velocity, const Number total, const double alpha)
+    {
+      if constexpr (n_lanes<Number> == 1)
+        return local_damping_change(velocity, total, alpha);
+      else
+        return Number{local_damping_change(velocity[0], total[0], alpha),
+                      local_damping_change(velocity[1], total[1], alpha)};
+    }
+
+    /** Velocities of one node, or two, before the kick, and what changes them
+     * [m/s]. */
+    template <int dim, typename Number>
     struct Kicked
     {
-      double old[dim], change[dim];
-      double damping[dim]; ///< part of the change: local damping
+      Number old[dim], change[dim];
+      Number damping[dim]; ///< part of the change: local damping
     };
 
     /** Twice the work per unit of kick, of each component: kept apart, so that
      * sums do not wait for each other. */
-    template <int dim>
+    template <int dim, typename Number>
     struct ComponentWork
     {
-      double external[dim]{}, viscous[dim]{}, momentum[dim]{}, local[dim]{};
+      Number external[dim]{}, viscous[dim]{}, momentum[dim]{}, local[dim]{};
     };
 
     /** What acts on nodes besides cells and loads. */
@@ -33,37 +59,43 @@ namespace Keyblock
                             has_drag = drag;
     };
 
-    template <int dim, typename Damping>
-    inline Kicked<dim>
-    kick_node(const Stage &stage,
-              const double kick,
-              const double alpha,
-              const unsigned int node,
-              const Fields<dim> &fields)
+    /** Kick the node @p first, or two nodes from there on. */
+    template <int dim, typename Damping, typename Number>
+    KEYBLOCK_ALWAYS_INLINE Kicked<dim, Number>
+    kick_nodes(const Stage &stage,
+               const double kick,
+               const double alpha,
+               const std::size_t first,
+               const Fields<dim> &fields)
     {
-      const double *const load     = fields.load.data() + dim * node;
-      const double *const internal = fields.internal_force.data() + dim * node;
-      const double *const viscous  = fields.damping_force.data() + dim * node;
-      const double *const contact  = fields.contact_force.data() + dim * node;
-      const double *const velocity = fields.velocity.data() + dim * node;
-      const double factor          = kick * fields.inverse_mass[node];
-      const double contact_share   = stage.damps_contact_force ? 1. : 0.;
-      Kicked<dim> result;
-      for (int d = 0; d < dim; ++d)
+      const double contact_share = stage.damps_contact_force ? 1. : 0.;
+      const auto component       = [first](const std::vector<double> &field,
+                                     const int value) {
+        return load<Number>(field.data() + dim * first +
+                            n_lanes<Number> * value);
+      };
+      Kicked<dim, Number> result;
+      for (int k = 0; k < dim; ++k)
         {
-          result.old[d] = velocity[d];
-          double force  = load[d] - internal[d];
+          const Number factor =
+            kick *
+            load_per_node<dim, Number>(fields.inverse_mass.data() + first, k);
+          const Number velocity = component(fields.velocity, k);
+          Number force =
+            component(fields.load, k) - component(fields.internal_force, k);
           if (Damping::has_drag)
-            force -= stage.mass_damping * fields.mass[node] * velocity[d];
+            force -= stage.mass_damping *
+                     load_per_node<dim, Number>(fields.mass.data() + first, k) *
+                     velocity;
           if (Damping::has_viscous)
-            force -= viscous[d];
-          result.change[d] = factor * force;
+            force -= component(fields.damping_force, k);
+          result.old[k]    = velocity;
+          result.change[k] = factor * force;
           if (Damping::has_local)
             {
-              force += contact_share * contact[d];
-              result.damping[d] =
-                local_damping_change(velocity[d], factor * force, alpha);
-              result.change[d] += result.damping[d];
+              force += contact_share * component(fields.contact_force, k);
+              result.damping[k] = damp<Number>(velocity, factor * force, alpha);
+              result.change[k] += result.damping[k];
             }
         }
       return result;
@@ -76,7 +108,7 @@ namespace Keyblock
                 const NodeRun &run,
                 Fields<dim> &fields)
     {
-      for (unsigned int node = run.begin; node < run.end; ++node)
+      for (std::size_t node = run.begin; node < run.end; ++node)
         {
           // the contact step damps clusters itself
           const double alpha =
@@ -84,10 +116,10 @@ namespace Keyblock
               ? 0.
               : stage.local_damping;
           const auto kicked =
-            kick_node<dim, Damping>(stage, kick, alpha, node, fields);
+            kick_nodes<dim, Damping, double>(stage, kick, alpha, node, fields);
           for (int d = 0; d < dim; ++d)
             {
-              const unsigned int i   = dim * node + d;
+              const std::size_t i    = dim * node + d;
               fields.old_velocity[i] = kicked.old[d];
               fields.velocity[i]     = kicked.old[d] + kicked.change[d];
               if (Damping::has_local)
@@ -96,30 +128,65 @@ namespace Keyblock
         }
     }
 
-    template <int dim, typename Damping>
-    inline void
-    advance_node(const Stage &stage,
-                 const NodePass &pass,
-                 const unsigned int node,
-                 Fields<dim> &fields,
-                 ComponentWork<dim> &work)
+    /** Kick and move the node @p first, or two nodes from there on. */
+    template <int dim, typename Damping, typename Number>
+    KEYBLOCK_ALWAYS_INLINE void
+    advance_nodes(const Stage &stage,
+                  const NodePass &pass,
+                  const std::size_t first,
+                  Fields<dim> &fields,
+                  ComponentWork<dim, Number> &work)
     {
-      const auto kicked = kick_node<dim, Damping>(
-        stage, pass.kick, stage.local_damping, node, fields);
-      for (int d = 0; d < dim; ++d)
+      const auto kicked = kick_nodes<dim, Damping, Number>(
+        stage, pass.kick, stage.local_damping, first, fields);
+      for (int k = 0; k < dim; ++k)
         {
-          const unsigned int i  = dim * node + d;
-          const double velocity = kicked.old[d] + kicked.change[d];
-          const double both     = kicked.old[d] + velocity;
-          work.external[d] += fields.load[i] * both;
+          const std::size_t i   = dim * first + n_lanes<Number> * k;
+          const Number velocity = kicked.old[k] + kicked.change[k];
+          const Number both     = kicked.old[k] + velocity;
+          work.external[k] += load<Number>(fields.load.data() + i) * both;
           if (Damping::has_viscous)
-            work.viscous[d] += fields.damping_force[i] * both;
-          if (Damping::has_local)
-            work.local[d] += fields.mass[node] * kicked.damping[d] * both;
-          if (Damping::has_drag)
-            work.momentum[d] += fields.mass[node] * kicked.old[d] * both;
-          fields.velocity[i] = velocity;
-          fields.displacement[i] += pass.dt * velocity;
+            work.viscous[k] +=
+              load<Number>(fields.damping_force.data() + i) * both;
+          if (Damping::has_local || Damping::has_drag)
+            {
+              const Number momentum =
+                load_per_node<dim, Number>(fields.mass.data() + first, k) *
+                both;
+              if (Damping::has_local)
+                work.local[k] += kicked.damping[k] * momentum;
+              if (Damping::has_drag)
+                work.momentum[k] += kicked.old[k] * momentum;
+            }
+          store(velocity, fields.velocity.data() + i);
+          double *const displacement = fields.displacement.data() + i;
+          store(load<Number>(displacement) + pass.dt * velocity, displacement);
+        }
+    }
+
+    /** The sum of the lanes of one component's work [J]. */
+    template <int dim, typename Number>
+    void
+    add_work(const ComponentWork<dim, Number> &sum,
+             const Stage &stage,
+             const double kick,
+             NodeWork &work)
+    {
+      const auto add =
+        [](const Number &value, const double factor, double &to) {
+          double lanes[n_lanes<Number>];
+          store(value, lanes);
+          for (const double lane : lanes)
+            to += factor * lane;
+        };
+      for (int k = 0; k < dim; ++k)
+        {
+          add(sum.external[k], 0.5 * kick, work.external);
+          add(sum.viscous[k], 0.5 * kick, work.stiffness_damping);
+          add(sum.momentum[k],
+              0.5 * kick * stage.mass_damping,
+              work.mass_damping);
+          add(sum.local[k], -0.5, work.local_damping);
         }
     }
 
@@ -127,8 +194,8 @@ namespace Keyblock
     NodeWork
     predict_runs(const Stage &stage, const NodePass &pass, Fields<dim> &fields)
     {
-      constexpr unsigned int n_sums = 4;
-      ComponentWork<dim> sums[n_sums];
+      ComponentWork<dim, Lanes2> pairs;
+      ComponentWork<dim, double> single;
       for (const NodeRun &run : pass.runs)
         {
           if (!run.is_inner || !pass.moves_inner)
@@ -136,15 +203,13 @@ namespace Keyblock
               predict_run<dim, Damping>(stage, pass.kick, run, fields);
               continue;
             }
-          unsigned int node = run.begin;
-          for (; node + n_sums <= run.end; node += n_sums)
-            for (unsigned int k = 0; k < n_sums; ++k)
-              advance_node<dim, Damping>(
-                stage, pass, node + k, fields, sums[k]);
-          for (; node < run.end; ++node)
-            advance_node<dim, Damping>(stage, pass, node, fields, sums[0]);
+          std::size_t node = run.begin;
+          for (; node + 2 <= run.end; node += 2)
+            advance_nodes<dim, Damping>(stage, pass, node, fields, pairs);
+          if (node < run.end)
+            advance_nodes<dim, Damping>(stage, pass, node, fields, single);
           if (pass.is_large)
-            for (unsigned int i = dim * run.begin; i < dim * run.end; ++i)
+            for (std::size_t i = dim * run.begin; i < dim * run.end; ++i)
               {
                 fields.rate[i] = fields.velocity[i];
                 fields.position[i] =
@@ -152,15 +217,8 @@ namespace Keyblock
               }
         }
       NodeWork work;
-      for (const ComponentWork<dim> &sum : sums)
-        for (int d = 0; d < dim; ++d)
-          {
-            work.external += 0.5 * pass.kick * sum.external[d];
-            work.stiffness_damping += 0.5 * pass.kick * sum.viscous[d];
-            work.mass_damping +=
-              0.5 * pass.kick * stage.mass_damping * sum.momentum[d];
-            work.local_damping -= 0.5 * sum.local[d];
-          }
+      add_work(pairs, stage, pass.kick, work);
+      add_work(single, stage, pass.kick, work);
       return work;
     }
   } // namespace

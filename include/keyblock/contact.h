@@ -52,17 +52,18 @@ namespace Keyblock
   struct ContactMemory
   {
     std::vector<PairState<dim>> state;
-    std::vector<Vector<dim>> normal;
+    std::vector<Vector<dim>> normal; ///< of each pair, present
     std::vector<bool> is_removed_block, is_mobile_group, is_mobile_slot;
-    std::vector<unsigned int> mobile_slots, mobile_corners;
-    std::vector<SurfaceContact<dim>> contacts;
+    std::vector<unsigned int> mobile_slots;
+    std::vector<unsigned int> mobile_corners;  ///< of the list of corners
+    std::vector<SurfaceContact<dim>> contacts; ///< of the last step
     unsigned int n_steps = 0;
-    double last_kick     = 0.;
+    double last_kick     = 0.; ///< [s]
 
     // when surface contacts were searched, and when they are to be again
     std::vector<double> searched_position;
     bool is_search_due     = true;
-    unsigned int next_look = 0;
+    unsigned int next_look = 0; ///< step at which motion is measured
   };
 
   /** Sums over the contact points of one joint. */
@@ -108,7 +109,7 @@ namespace Keyblock
    * paired with, are solved together on all ranks (`mobile`).
    */
   template <int dim>
-  class Contact
+  class Contact : private ContactMemory<dim>
   {
   public:
     Contact(const Scene<dim> &scene,
@@ -131,7 +132,11 @@ namespace Keyblock
     /** Let go of a block that is taken away, with the forces on it. */
     void remove_block(const unsigned int block);
 
-    ContactMemory<dim> remember() const;
+    ContactMemory<dim>
+    remember() const
+    {
+      return *this;
+    }
 
     /** Go back to a state; surface contacts are searched anew. */
     void recall(const ContactMemory<dim> &memory);
@@ -299,15 +304,27 @@ namespace Keyblock
     const CellArrays<dim> &cells;
     Fields<dim> &fields;
 
-    std::vector<PairState<dim>> state;
-    std::vector<Vector<dim>> normal; ///< of each pair, present
+    using Memory = ContactMemory<dim>;
+    using Memory::contacts;
+    using Memory::is_mobile_group;
+    using Memory::is_mobile_slot;
+    using Memory::is_removed_block;
+    using Memory::is_search_due;
+    using Memory::last_kick;
+    using Memory::mobile_corners;
+    using Memory::mobile_slots;
+    using Memory::n_steps;
+    using Memory::next_look;
+    using Memory::normal;
+    using Memory::searched_position;
+    using Memory::state;
+
     std::vector<unsigned int> group_of_pair, group_of_slot;
     std::vector<double> static_tangent, kinetic_tangent; ///< by joint
     double default_tangent;
     double override_tangent = -1.;
     double weld_share       = 0.; ///< as in ContactStep
     StrengthReduction reduction;
-    std::vector<bool> is_removed_block;
 
     std::vector<SinglePair> single_pairs;
     std::vector<CornerGroup> corners;
@@ -316,21 +333,10 @@ namespace Keyblock
     std::vector<unsigned int> corner_pairs;
 
     ContactSearch<dim> search;
-    std::vector<bool> is_mobile_group;
-    std::vector<bool> is_mobile_slot;
-    std::vector<unsigned int> mobile_slots;
-    std::vector<unsigned int> mobile_corners; ///< indices into corners
-    std::vector<unsigned int> active_slots;   ///< mobile and corner slots here
-    std::vector<double> searched_position;
-    bool is_search_due     = true;
-    unsigned int n_steps   = 0;
-    unsigned int next_look = 0; ///< step at which motion is measured
-    double last_kick       = 0.;
+    std::vector<unsigned int> active_slots; ///< mobile and corner slots here
 
     /** Area of a slave on a joint, for residual cohesion [m^(dim-1)]. */
     std::map<std::array<unsigned int, 2>, double> slave_area;
-
-    std::vector<SurfaceContact<dim>> contacts; ///< of the last step
 
     // dim values per slot
     std::vector<double> slot_velocity, slot_old_velocity, slot_displacement,
