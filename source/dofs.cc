@@ -193,13 +193,8 @@ namespace Keyblock
       if (cell->is_locally_owned())
         {
           const unsigned int c = mesh_cell_of(cell);
-          if (scene.materials[mesh.material[c]]->is_rigid())
-            continue;
-          CellNodes nodes;
-          for (unsigned int v = 0; v < nodes.size(); ++v)
-            nodes[v] = local_node(mesh.cells[c][v]);
-          cell_nodes.push_back(nodes);
-          mesh_cell.push_back(c);
+          if (!scene.materials[mesh.material[c]]->is_rigid())
+            mesh_cell.push_back(c);
         }
     list_hanging_nodes(split);
   }

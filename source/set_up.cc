@@ -119,7 +119,7 @@ namespace Keyblock
         fields.reference[dim * node + d] =
           split.mesh.vertices[numbering.vertex_of_node[node]][d];
     fields.is_in_cluster.assign(numbering.n_local(), 0);
-    cell_of_local.assign(numbering.cell_nodes.size(), none);
+    cell_of_local.assign(numbering.mesh_cell.size(), none);
     reduce_strength(1.);
     read_formulas();
     dig(1);
@@ -319,7 +319,7 @@ namespace Keyblock
     for (unsigned int kind = 0; kind < n_cell_kinds; ++kind)
       {
         cells.kind_begin[kind] = cells.nodes.size();
-        for (unsigned int i = 0; i < numbering.cell_nodes.size(); ++i)
+        for (unsigned int i = 0; i < numbering.mesh_cell.size(); ++i)
           {
             const unsigned int mesh_cell  = numbering.mesh_cell[i];
             const unsigned int m          = material_of(mesh_cell);
@@ -329,7 +329,8 @@ namespace Keyblock
                 unsigned(kind_of(material)) != kind)
               continue;
             new_place[i] = cells.nodes.size();
-            cells.nodes.push_back(numbering.cell_nodes[i]);
+            cells.nodes.push_back(
+              numbering.nodes_of_cell(split.mesh, mesh_cell));
             cells.mesh_cell.push_back(mesh_cell);
             cells.lambda.push_back(material.lame_lambda());
             cells.mu.push_back(material.shear_modulus());

@@ -30,8 +30,6 @@ namespace Keyblock
   public:
     Numbering(const Scene<dim> &scene, const SplitMesh<dim> &split);
 
-    using CellNodes = std::array<unsigned int, Mesh<dim>::n_cell_vertices>;
-
     unsigned int
     n_owned() const
     {
@@ -59,6 +57,16 @@ namespace Keyblock
     /** Local index of a vertex of the split mesh, or `none` if not here. */
     unsigned int local_node(const unsigned int vertex) const;
 
+    /** Local nodes of a cell of this rank, in the order of its vertices. */
+    std::array<unsigned int, Mesh<dim>::n_cell_vertices>
+    nodes_of_cell(const Mesh<dim> &mesh, const unsigned int cell) const
+    {
+      auto nodes = mesh.cells[cell];
+      for (unsigned int &node : nodes)
+        node = local_node(node);
+      return nodes;
+    }
+
     bool
     is_owned(const unsigned int vertex) const
     {
@@ -80,9 +88,7 @@ namespace Keyblock
     /** Copy the owners' values of @p field (dim per node) to the ghosts. */
     void update_ghosts(std::vector<double> &field) const;
 
-    /** Nodes of the deformable cells of this rank, and their indices in the
-     * split mesh. */
-    std::vector<CellNodes> cell_nodes;
+    /** Deformable cells of this rank, as indices in the split mesh. */
     std::vector<unsigned int> mesh_cell;
 
     /** Vertex of the split mesh of each local node. */
