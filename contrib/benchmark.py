@@ -9,6 +9,7 @@ of all files that are there. Sections: rates, growth, ranks, accuracy,
 published, factors, skips, report.
 """
 import csv
+import datetime
 import json
 import os
 import pathlib
@@ -95,6 +96,24 @@ def write_table(name, columns, rows):
             writer.writerow([f"{x:.5g}" if isinstance(x, float) else x
                              for x in row])
     print(name, *rows[-1], flush=True)
+
+
+def note_machine(section):
+    """Keep on which processor, and when, a section was last measured."""
+    processor = "unknown"
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("model name"):
+                processor = line.partition(":")[2].strip()
+    path = TABLES / "machines.csv"
+    known = {}
+    if path.exists():
+        with open(path, encoding="utf-8", newline="") as file:
+            known = {row[0]: row for row in list(csv.reader(file))[1:]}
+    known[section] = [section, f"{processor}, {os.cpu_count()} cores",
+                      datetime.date.today().isoformat()]
+    write_table("machines", ("section", "processor", "day"),
+                [known[name] for name in SECTIONS if name in known])
 
 
 def yardstick(dimension):
@@ -418,6 +437,7 @@ def main():
     for name in names:
         if name != "report":
             SECTIONS[name](sys.argv[1])
+            note_machine(name)
     benchmark_report.write(TABLES, ROOT / "doc")
 
 

@@ -53,6 +53,10 @@ Each shortcut on (as by default) and off, in turn, medians of three runs
 (of the powerhouse one): of the trials' time for safety factors, else of the
 whole run's.
 """,
+    "machines": """## Machines
+
+Numbers of sections that different processors ran cannot be compared.
+""",
 }
 
 CLOSING = """## A billion cells
@@ -76,15 +80,14 @@ per cell is in the table of growth) ends the size of a model, not its speed.
 - Stresses are prefetched two batches ahead. Elastic cells in 2D leave the
   out-of-plane stress alone.
 - Nodes without joint or support are predicted and moved in one pass, two at a
-  time; the nodes
-  of joints are numbered last, so that this pass is not broken up, and
-  prefetched.
+  time; the nodes of joints are numbered last, so that this pass is not broken
+  up, and prefetched.
 - Mohr-Coulomb cells test all points of a batch at once, and only those that may
   yield are returned one by one.
 - Contact sweeps end when the momentum of the nodes rests (theory, section 7).
 - Tried and left out: nodes moved inside the loop over cells, as soon as no later
   cell of a part of 1,024 reads them. The step ran at 0.96 to 1.02 of its speed
-  (40,000 to 1,000,000 cells in 2D, 160,000 and 405,000 in 3D, medians of 3 to 7
+  (40,000 to 1,000,000 cells in 2D, 200,000 and 405,000 in 3D, medians of 3 to 7
   alternating runs): what the nodes gain the cells lose.
 """
 
@@ -168,7 +171,8 @@ def write(tables, folder):
         out.write("# Performance\n\nWritten by `contrib/benchmark.sh` from "
                   "the tables in `doc/benchmark`; do not edit. Two cores of a "
                   "shared machine: rates drift by 20 to 30 %, so compare "
-                  "ratios, which are those of runs made in turn.\n\n")
+                  "ratios, which are those of runs made in turn. Where each "
+                  "section was measured stands at the end.\n\n")
         for name, text in TEXT.items():
             path = tables / f"{name}.csv"
             if not path.exists():
