@@ -130,8 +130,7 @@ namespace Keyblock
                                      const unsigned int n_values,
                                      const unsigned int n_nodes)
   {
-    const auto is_empty =
-      dealii::Utilities::MPI::max<unsigned int>(field.size(), world()) == 0;
+    const auto is_empty = max_over_ranks<unsigned int>(field.size()) == 0;
     std::vector<double> list;
     if (!file.is_read() && !is_empty)
       {

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What came out of a run so far, as it stands in a checkpoint.
+#include <deal.II/base/mpi.h>
+
 #include <keyblock/checkpoint.h>
 #include <keyblock/state_rows.h>
 #include <keyblock/teams.h>
+
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
 
 #include <algorithm>
 #include <utility>

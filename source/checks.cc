@@ -33,13 +33,13 @@ namespace Keyblock
           }
         value[n_stress<dim> + 1] = 1.;
       }
-    dealii::Utilities::MPI::sum(by_cell, world(), by_cell);
+    sum_lists(by_cell);
     std::vector<double> by_vertex(dim * mesh.vertices.size(), 0.);
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       for (unsigned int d = 0; d < dim; ++d)
         by_vertex[dim * numbering.vertex_of_node[node] + d] =
           fields.displacement[dim * node + d];
-    dealii::Utilities::MPI::sum(by_vertex, world(), by_vertex);
+    sum_lists(by_vertex);
 
     RockState<dim> rock;
     rock.vertices = mesh.vertices;

@@ -93,8 +93,8 @@ namespace Keyblock
               square = std::max(square, moved);
               speed  = std::max(speed, fast);
             }
-        square = dealii::Utilities::MPI::max(square, world());
-        speed  = std::sqrt(dealii::Utilities::MPI::max(speed, world()));
+        square = max_over_ranks(square);
+        speed  = std::sqrt(max_over_ranks(speed));
         is_search_due =
           is_search_due || square > 0.25 * search.skin() * search.skin();
         const double eighth = 0.125 * search.skin();
@@ -103,8 +103,7 @@ namespace Keyblock
           next_look += 19;
       }
     if (n_ranks() > 1)
-      is_search_due =
-        dealii::Utilities::MPI::max(is_search_due ? 1 : 0, world()) > 0;
+      is_search_due = on_any_rank(is_search_due);
     if (!is_search_due)
       return;
 
@@ -116,7 +115,7 @@ namespace Keyblock
     for (unsigned int p = 0; p < state.size(); ++p)
       converted[p] = state[p].is_converted;
     std::vector<PairState<dim>> all = gather_pair_states();
-    dealii::Utilities::MPI::max(converted, world(), converted);
+    max_lists(converted);
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         if (!is_mobile_group[group_of_pair[p]])

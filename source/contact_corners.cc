@@ -226,7 +226,7 @@ namespace Keyblock
       for (int d = 0; d < dim; ++d)
         buffer.push_back(sums[dim * p + d]);
     if (n_ranks() > 1)
-      dealii::Utilities::MPI::sum(buffer, world(), buffer);
+      sum_lists(buffer);
     for (unsigned int i = 0; i < corner_pairs.size(); ++i)
       for (int d = 0; d < dim; ++d)
         traction[corner_pairs[i]][d] = buffer[dim * i + d];

@@ -34,9 +34,9 @@ namespace Keyblock
                   fields.supports[support].directions[k][d] *
                   fields.supports[support].directions[k][e];
       }
-    dealii::Utilities::MPI::sum(slot_inverse_mass, world(), slot_inverse_mass);
-    dealii::Utilities::MPI::sum(slot_mass, world(), slot_mass);
-    dealii::Utilities::MPI::sum(held, world(), held);
+    sum_lists(slot_inverse_mass);
+    sum_lists(slot_mass);
+    sum_lists(held);
 
     projection_storage.resize(search.n_slots());
     for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
@@ -92,7 +92,7 @@ namespace Keyblock
         if (node_of_slot[mobile_slots[i]] < numbering.n_owned())
           for (int d = 0; d < dim; ++d)
             buffer[dim * i + d] = from[dim * node_of_slot[mobile_slots[i]] + d];
-      dealii::Utilities::MPI::sum(buffer, world(), buffer);
+      sum_lists(buffer);
       for (unsigned int i = 0; i < mobile_slots.size(); ++i)
         for (int d = 0; d < dim; ++d)
           to[dim * mobile_slots[i] + d] = buffer[dim * i + d];
@@ -149,7 +149,7 @@ namespace Keyblock
             fields.reference[dim * node_of_slot[slot] + d] +
             fields.displacement[dim * node_of_slot[slot] + d];
     if (n_ranks() > 1)
-      dealii::Utilities::MPI::sum(position, world(), position);
+      sum_lists(position);
     return position;
   }
 

@@ -22,7 +22,7 @@ namespace Keyblock
           packed[n * p + dim + 1] = state[p].is_intact;
           packed[n * p + dim + 2] = state[p].is_converted;
         }
-    dealii::Utilities::MPI::sum(packed, world(), packed);
+    sum_lists(packed);
     std::vector<PairState<dim>> result(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
       {
@@ -77,7 +77,7 @@ namespace Keyblock
                                     double(sums.n_intact)};
       values.insert(values.end(), sums.force.begin(), sums.force.end());
       values.insert(values.end(), moment.begin(), moment.end());
-      dealii::Utilities::MPI::sum(values, world(), values);
+      sum_lists(values);
       JointSums<dim> total;
       total.normal     = values[0];
       total.n_open     = std::lround(values[1]);
@@ -249,7 +249,7 @@ namespace Keyblock
                              fields.displacement[dim * minus + d]);
         sums[dim] += interface.pairs[p].area;
       }
-    dealii::Utilities::MPI::sum(sums, world(), sums);
+    sum_lists(sums);
     Vector<dim> slip{};
     if (sums[dim] > 0.)
       for (int d = 0; d < dim; ++d)

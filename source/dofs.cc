@@ -2,11 +2,14 @@
 #include <keyblock/cell_order.h>
 #include <keyblock/dofs.h>
 
+#include <deal.II/base/partitioner.h>
+
 #include <deal.II/distributed/fully_distributed_tria.h>
 
-#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/dofs/dof_handler.h>
 
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
 
 #include <deal.II/grid/tria_description.h>
 
@@ -21,14 +24,19 @@ namespace Keyblock
   template <int dim>
   Numbering<dim>::Numbering(const Scene<dim> &scene,
                             const SplitMesh<dim> &split)
-    : fe(dealii::FE_Q<dim>(1), dim)
   {
     create_triangulation(scene, split.mesh);
-    dof_handler.reinit(*triangulation);
-    dof_handler.distribute_dofs(fe);
+    dof_handler = std::make_unique<dealii::DoFHandler<dim>>(*triangulation);
+    dof_handler->distribute_dofs(
+      dealii::FESystem<dim>(dealii::FE_Q<dim>(1), dim));
     put_interface_last(split);
     create_numbering(scene, split);
   }
+
+
+
+  template <int dim>
+  Numbering<dim>::~Numbering() = default;
 
 
 
@@ -96,9 +104,9 @@ namespace Keyblock
   void
   Numbering<dim>::put_interface_last(const SplitMesh<dim> &split)
   {
-    const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+    const dealii::IndexSet &owned = dof_handler->locally_owned_dofs();
     std::vector<unsigned int> owned_node(split.mesh.vertices.size(), none);
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : dof_handler->active_cell_iterators())
       if (cell->is_locally_owned())
         for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
           {
@@ -123,7 +131,7 @@ namespace Keyblock
     for (unsigned int i = 0; i < n_nodes; ++i)
       for (unsigned int d = 0; d < dim; ++d)
         number[dim * order[i] + d] = owned.nth_index_in_set(dim * i + d);
-    dof_handler.renumber_dofs(number);
+    dof_handler->renumber_dofs(number);
   }
 
 
@@ -135,24 +143,24 @@ namespace Keyblock
   {
     const Mesh<dim> &mesh = split.mesh;
     std::vector<unsigned int> found(mesh.vertices.size(), 0);
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : dof_handler->active_cell_iterators())
       if (cell->is_locally_owned())
         {
           const unsigned int c = mesh_cell_of(cell);
           for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
             found[mesh.cells[c][v]] = cell->vertex_dof_index(v, 0) / dim + 1;
         }
-    node_of_vertex.resize(found.size());
-    dealii::Utilities::MPI::max(found, world(), node_of_vertex);
+    max_lists(found);
+    node_of_vertex = std::move(found);
     for (unsigned int &node : node_of_vertex)
       --node;
 
-    const dealii::IndexSet &owned = dof_handler.locally_owned_dofs();
+    const dealii::IndexSet &owned = dof_handler->locally_owned_dofs();
     std::set<unsigned int> ghosts;
     const auto is_ghost = [&owned](const unsigned int node) {
       return !owned.is_element(dim * node);
     };
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : dof_handler->active_cell_iterators())
       if (cell->is_locally_owned())
         for (const unsigned int v : mesh.cells[mesh_cell_of(cell)])
           split.for_each_carrier(v, [&](const unsigned int carrier, double) {
@@ -184,12 +192,15 @@ namespace Keyblock
       std::make_shared<dealii::Utilities::MPI::Partitioner>(owned,
                                                             ghost_dofs,
                                                             world());
+    n_owned_nodes  = partitioner->locally_owned_size() / dim;
+    n_local_nodes  = n_owned_nodes + partitioner->n_ghost_indices() / dim;
+    n_global_nodes = partitioner->size() / dim;
 
     vertex_of_node.assign(n_local(), none);
     for (unsigned int v = 0; v < node_of_vertex.size(); ++v)
       if (local_node(v) != none)
         vertex_of_node[local_node(v)] = v;
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : dof_handler->active_cell_iterators())
       if (cell->is_locally_owned())
         {
           const unsigned int c = mesh_cell_of(cell);

@@ -176,10 +176,7 @@ namespace Keyblock
           contact->work.penetration - contact_work_at_start.penetration;
       }
     std::array<double, n_energy_terms> values = mine.as_array();
-    dealii::Utilities::MPI::sum(
-      dealii::ArrayView<const double>(values.data(), values.size()),
-      world(),
-      dealii::ArrayView<double>(values.data(), values.size()));
+    sum_lists(values);
     energies = Energies::from_array(values);
   }
 
@@ -224,11 +221,8 @@ namespace Keyblock
       }
     std::array<double, 5> sums = {
       {unbalanced, n_free, loads, reactions, internal}};
-    dealii::Utilities::MPI::sum(
-      dealii::ArrayView<const double>(sums.data(), sums.size()),
-      world(),
-      dealii::ArrayView<double>(sums.data(), sums.size()));
-    largest      = dealii::Utilities::MPI::max(largest, world());
+    sum_lists(sums);
+    largest      = max_over_ranks(largest);
     double scale = carried_sum;
     if (scale == 0.)
       scale = sums[2] > 0. ? sums[2] : sums[3] > 0. ? sums[3] : sums[4];

@@ -230,14 +230,14 @@ namespace Keyblock
     double diagonal = 0.;
     for (const auto i : owned)
       diagonal = std::max(diagonal, std::abs(matrix.diag_element(i)));
-    diagonal = dealii::Utilities::MPI::max(diagonal, world());
+    diagonal = max_over_ranks(diagonal);
     for (const auto i : owned)
       if (matrix.diag_element(i) == 0.)
         matrix.set(i, i, diagonal);
     matrix.compress(dealii::VectorOperation::insert);
 
     dealii::TrilinosWrappers::PreconditionAMG::AdditionalData settings;
-    dealii::DoFTools::extract_constant_modes(numbering.dof_handler,
+    dealii::DoFTools::extract_constant_modes(*numbering.dof_handler,
                                              dealii::ComponentMask(),
                                              settings.constant_modes);
     settings.elliptic              = true;
@@ -312,7 +312,7 @@ namespace Keyblock
         try
           {
             const CoupledMatrix<TrilinosVector> coupled{
-              matrix, far_columns, fields.far_field.coupling};
+              matrix, far_columns, *fields.far_field.coupling};
             solver.solve(coupled, solution, right_side, preconditioner);
           }
         catch (const dealii::SolverControl::NoConvergence &failure)
@@ -362,7 +362,7 @@ namespace Keyblock
         }
     std::vector<double> total(force);
     std::fill(total.begin() + dim * numbering.n_owned(), total.end(), 0.);
-    if (dealii::Utilities::MPI::max(has_lift ? 1 : 0, world()))
+    if (on_any_rank(has_lift))
       {
         std::vector<double> lifted(lift.size(), 0.);
         for (unsigned int c = 0; c < cells.nodes.size(); ++c)
@@ -431,7 +431,7 @@ namespace Keyblock
     for (unsigned int i = 0; i < dim * numbering.n_owned(); ++i)
       scale += fields.internal_force[i] * fields.internal_force[i] +
                fields.load[i] * fields.load[i];
-    scale = std::sqrt(dealii::Utilities::MPI::sum(scale, world()));
+    scale = std::sqrt(sum_over_ranks(scale));
     return scale > 0. ? condense(force).l2_norm() / scale : 0.;
   }
 
@@ -461,8 +461,8 @@ namespace Keyblock
             yky += force[i] * y[i];
             ymy += fields.mass[i / dim] * y[i] * y[i];
           }
-        yky    = dealii::Utilities::MPI::sum(yky, world());
-        ymy    = dealii::Utilities::MPI::sum(ymy, world());
+        yky    = sum_over_ranks(yky);
+        ymy    = sum_over_ranks(ymy);
         period = 2. * dealii::numbers::PI * std::sqrt(ymy / yky);
         x      = y;
       }

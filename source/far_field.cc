@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include <keyblock/far_field.h>
 #include <keyblock/mpi.h>
@@ -227,20 +229,22 @@ namespace Keyblock
     if (!is_positive_definite(energy))
       return false;
     n_coupled = n;
-    inverse_energy.reinit(n, n);
-    inverse_energy.invert(energy);
+    FullMatrix<double> inverse(n, n);
+    inverse.invert(energy);
 
     // F A^-1 F^T + R^T S R - S with R = I - U A^-1 F^T, in terms of [F, S U]
     FullMatrix<double> first(n, n), second(n, n), third(n, n);
-    inverse_energy.mmult(first, spring_energy);
-    first.mmult(second, inverse_energy);
-    coupling.reinit(2 * n, 2 * n);
+    inverse.mmult(first, spring_energy);
+    first.mmult(second, inverse);
+    FullMatrix<double> couples(2 * n, 2 * n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         {
-          coupling(i, j)     = inverse_energy(i, j) + second(i, j);
-          coupling(i, n + j) = coupling(n + i, j) = -inverse_energy(i, j);
+          couples(i, j)     = inverse(i, j) + second(i, j);
+          couples(i, n + j) = couples(n + i, j) = -inverse(i, j);
         }
+    coupling       = std::make_shared<FullMatrix<double>>(couples);
+    inverse_energy = std::make_shared<FullMatrix<double>>(inverse);
     // of a projection and of what it leaves the norms are the same
     spring_work.mmult(third, second);
     projection_norm = std::max(1., largest_eigenvalue(third));
@@ -263,7 +267,7 @@ namespace Keyblock
           for (unsigned int m = 0; m < n; ++m)
             result[m] += row[m] * u;
         }
-    dealii::Utilities::MPI::sum(result, world(), result);
+    sum_lists(result);
     return dealii::Vector<double>(result.begin(), result.end());
   }
 
@@ -282,7 +286,7 @@ namespace Keyblock
       return;
     const unsigned int n = n_columns();
     dealii::Vector<double> strength(n);
-    coupling.vmult(strength, project(displacement));
+    coupling->vmult(strength, project(displacement));
     const double *row = columns.data();
     for (const Spring &spring : springs)
       for (unsigned int d = 0; d < dim; ++d, row += n)
@@ -307,7 +311,7 @@ namespace Keyblock
       {
         const dealii::Vector<double> work = project(displacement);
         if (is_root())
-          twice += coupling.matrix_norm_square(work);
+          twice += coupling->matrix_norm_square(work);
       }
     return 0.5 * twice;
   }
@@ -322,7 +326,7 @@ namespace Keyblock
     for (const Spring &spring : springs)
       of_springs =
         std::max(of_springs, spring.stiffness * inverse_mass[spring.node]);
-    of_springs = dealii::Utilities::MPI::max(of_springs, world());
+    of_springs = max_over_ranks(of_springs);
     if (!is_coupled())
       return of_springs;
 
@@ -333,8 +337,8 @@ namespace Keyblock
         for (unsigned int i = 0; i < n_coupled; ++i)
           for (unsigned int j = 0; j < n_coupled; ++j)
             mobility(i, j) += row[i] * row[j] * inverse_mass[spring.node];
-    dealii::Utilities::MPI::sum(mobility, world(), mobility);
-    inverse_energy.mmult(product, mobility);
+    sum_over_ranks(&mobility(0, 0), mobility.n_elements());
+    inverse_energy->mmult(product, mobility);
     return projection_norm * of_springs + largest_eigenvalue(product);
   }
 

@@ -3,6 +3,7 @@
 #include <keyblock/errors.h>
 #include <keyblock/geostress.h>
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>

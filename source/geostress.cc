@@ -371,7 +371,7 @@ namespace Keyblock
                   cells.stress_at(found->second,
                                   q,
                                   stresses[j])[measurements[i].component];
-        dealii::Utilities::MPI::sum(values, world(), values);
+        sum_lists(values);
         for (unsigned int i = 0; i < measurements.size(); ++i)
           matrix[i][j] = values[i];
       }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/mpi.h>
+
 #include <keyblock/command_line.h>
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>

@@ -129,8 +129,7 @@ namespace Keyblock
                            0.,
                            0) > 0.)
             nodes.push_back(i);
-        const unsigned int n_nodes =
-          dealii::Utilities::MPI::sum<unsigned int>(nodes.size(), world());
+        const unsigned int n_nodes = sum_over_ranks<unsigned int>(nodes.size());
         AssertThrow(n_nodes > 0,
                     InputError("The formula of the entry 'Monitors/" +
                                monitor.name +
@@ -233,7 +232,7 @@ namespace Keyblock
               sums[1 + 3 * dim + d] += m * fields.reference[i];
             }
         }
-    dealii::Utilities::MPI::sum(sums, world(), sums);
+    sum_lists(sums);
     if (sums[0] > 0.)
       for (unsigned int i = 1; i < sums.size(); ++i)
         sums[i] /= sums[0];
@@ -257,7 +256,7 @@ namespace Keyblock
           spin[1] += m * (X[0] * x[0] + X[1] * x[1]);
           spin[2] += m * (x[0] * v[1] - x[1] * v[0]);
         }
-    dealii::Utilities::MPI::sum(spin, world(), spin);
+    sum_lists(spin);
     for (unsigned int i = 1; i < 1 + 2 * dim; ++i)
       row.push_back(sums[i]);
     row.push_back(std::atan2(spin[0], spin[1]));
@@ -280,7 +279,7 @@ namespace Keyblock
         volume += cell_volume[mesh_cell];
       }
     std::vector<double> mean = {trace, volume};
-    dealii::Utilities::MPI::sum(mean, world(), mean);
+    sum_lists(mean);
     row.push_back(mean[1] > 0. ? mean[0] / mean[1] : 0.);
   }
 
@@ -323,7 +322,7 @@ namespace Keyblock
             sums[d] += fields.internal_force[dim * node + d] -
                        fields.load[dim * node + d] -
                        fields.contact_force[dim * node + d];
-    dealii::Utilities::MPI::sum(sums, world(), sums);
+    sum_lists(sums);
     row.insert(row.end(), sums.begin(), sums.end());
   }
 
@@ -347,7 +346,7 @@ namespace Keyblock
             sums[1 + dim + d] += m * fields.velocity[i];
           }
       }
-    dealii::Utilities::MPI::sum(sums, world(), sums);
+    sum_lists(sums);
     for (unsigned int i = 1; i < sums.size(); ++i)
       row.push_back(sums[i] / sums[0]);
   }

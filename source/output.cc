@@ -139,8 +139,8 @@ namespace Keyblock
     };
 
     dealii::DataOut<dim> rock;
-    rock.attach_dof_handler(numbering.dof_handler);
-    const dealii::IndexSet &owned = numbering.dof_handler.locally_owned_dofs();
+    rock.attach_dof_handler(*numbering.dof_handler);
+    const dealii::IndexSet &owned = numbering.dof_handler->locally_owned_dofs();
     using DofVector = dealii::LinearAlgebra::distributed::Vector<double>;
     DofVector displacement(numbering.partitioner),
       velocity(numbering.partitioner);

@@ -29,7 +29,7 @@ namespace Keyblock
     const bool is_due     = is_root() && !is_trial && interval > 0. &&
                         MPI_Wtime() - last_saved > interval;
     std::vector<int> wishes = {signal_received(), is_due};
-    dealii::Utilities::MPI::max(wishes, world(), wishes);
+    max_lists(wishes);
     if (wishes[0] > 0)
       throw StopRequest{wishes[0]};
     if (wishes[1] > 0)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/partitioner.h>
+
 #include <keyblock/contact_law.h>
 #include <keyblock/resting_cells.h>
 

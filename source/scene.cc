@@ -2,6 +2,7 @@
 #include <keyblock/scene.h>
 
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/errors.h>
 
@@ -426,8 +427,9 @@ namespace Keyblock
     make_items(tractions, read_names(names, "Tractions"));
     make_items(stages, read_names(names, "Stages"));
     make_items(monitors, read_names(names, "Monitors"));
-    declare(prm);
-    parse_all(prm, file_name, overrides, false);
+    prm = std::make_shared<ParameterHandler>();
+    declare(*prm);
+    parse_all(*prm, file_name, overrides, false);
     for (const auto &stage : stages)
       stage->complete();
     cross_check();
@@ -440,8 +442,9 @@ namespace Keyblock
   Scene<dim>::write_used(const std::string &file_name) const
   {
     std::ofstream out(file_name);
-    const_cast<ParameterHandler &>(prm).print_parameters(
-      out, ParameterHandler::Text | ParameterHandler::KeepDeclarationOrder);
+    prm->print_parameters(out,
+                          ParameterHandler::Text |
+                            ParameterHandler::KeepDeclarationOrder);
     AssertThrow(out.flush(),
                 InputError("The file '" + file_name +
                            "' cannot be written; check free space and "
@@ -455,8 +458,9 @@ namespace Keyblock
   Scene<dim>::used_entries() const
   {
     std::ostringstream out;
-    const_cast<ParameterHandler &>(prm).print_parameters(
-      out, ParameterHandler::ShortPRM | ParameterHandler::KeepDeclarationOrder);
+    prm->print_parameters(out,
+                          ParameterHandler::ShortPRM |
+                            ParameterHandler::KeepDeclarationOrder);
     return out.str();
   }
 

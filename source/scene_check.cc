@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Contradictions between the entries of a scene, found before anything else.
+#include <deal.II/base/utilities.h>
+
 #include <keyblock/errors.h>
 #include <keyblock/expression.h>
 #include <keyblock/scene.h>

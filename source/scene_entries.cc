@@ -2,6 +2,7 @@
 // Every entry of a scene file: its name, default, range, unit and meaning.
 #include <keyblock/scene.h>
 
+#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 
 namespace Keyblock

@@ -405,10 +405,10 @@ namespace Keyblock
             highest_cell = mesh_cell;
           }
       }
-    lowest_frequency        = dealii::Utilities::MPI::min(lowest, world());
-    true_step.frequency     = dealii::Utilities::MPI::max(highest, world());
-    const unsigned int cell = dealii::Utilities::MPI::min(
-      highest == true_step.frequency ? highest_cell : none, world());
+    lowest_frequency    = min_over_ranks(lowest);
+    true_step.frequency = max_over_ranks(highest);
+    const unsigned int cell =
+      min_over_ranks(highest == true_step.frequency ? highest_cell : none);
     if (cell != none)
       true_step.place = split.mesh.cell_center(cell);
     stable_step = true_step;

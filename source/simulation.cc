@@ -94,9 +94,7 @@ namespace Keyblock
   void
   Simulation<dim>::count_cells()
   {
-    n_cells_global =
-      dealii::Utilities::MPI::sum<unsigned long long>(cells.nodes.size(),
-                                                      world());
+    n_cells_global = sum_over_ranks<unsigned long long>(cells.nodes.size());
   }
 
 
@@ -240,7 +238,7 @@ namespace Keyblock
       for (unsigned int d = 0; d < dim; ++d)
         if (!std::isfinite(fields.velocity[dim * node + d]))
           bad = numbering->vertex_of_node[node];
-    bad = dealii::Utilities::MPI::min(bad, world());
+    bad = min_over_ranks(bad);
     if (bad == none)
       return;
     unsigned int block = none;
@@ -278,7 +276,7 @@ namespace Keyblock
     bool is_due = step->n_steps % 50 == 0 && time - last_progress > interval;
     if (step->n_steps % 50 != 0)
       return;
-    is_due = dealii::Utilities::MPI::max(is_due ? 1 : 0, world()) > 0;
+    is_due = on_any_rank(is_due);
     if (!is_due)
       return;
     last_progress = time;
@@ -323,9 +321,8 @@ namespace Keyblock
     report.wall_time      = MPI_Wtime() - wall_start;
     report.contact_time   = step->contact_seconds;
     report.force_time     = step->force_seconds;
-    report.skipped_steps =
-      dealii::Utilities::MPI::sum(step->n_skipped, world());
-    report.capped_groups = contact ? contact->n_capped : 0;
+    report.skipped_steps  = sum_over_ranks(step->n_skipped);
+    report.capped_groups  = contact ? contact->n_capped : 0;
     wait_for_all_teams();
     if (this_team() > 0)
       return;
@@ -356,7 +353,7 @@ namespace Keyblock
       for (unsigned int d = 0; d < dim; ++d)
         values[dim * numbering->vertex_of_node[node] + d] =
           field[dim * node + d];
-    dealii::Utilities::MPI::sum(values, world(), values);
+    sum_lists(values);
     return values;
   }
 

@@ -317,7 +317,7 @@ namespace Keyblock
               }
           }
       }
-    dealii::Utilities::MPI::sum(sums, world(), sums);
+    sum_lists(sums);
     struct Mover
     {
       double way;
@@ -375,10 +375,8 @@ namespace Keyblock
     result.energies            = step->energies;
     result.is_converged        = is_converged;
     result.cells               = n_cells_global;
-    result.plastic_cells =
-      dealii::Utilities::MPI::sum<unsigned int>(cells.strength.size(), world());
-    result.yielding_points =
-      dealii::Utilities::MPI::sum(cells.n_yielding, world());
+    result.plastic_cells = sum_over_ranks<unsigned int>(cells.strength.size());
+    result.yielding_points = sum_over_ranks(cells.n_yielding);
     if (contact)
       {
         const JointSums<dim> points = contact->count_points();
@@ -404,8 +402,7 @@ namespace Keyblock
         if (fields.mass[node] > 0.) // else its cells are gone
           largest = std::max(largest, square);
       }
-    result.max_displacement =
-      std::sqrt(dealii::Utilities::MPI::max(largest, world()));
+    result.max_displacement = std::sqrt(max_over_ranks(largest));
     stage_reports.push_back(result);
     if (!is_root())
       return;

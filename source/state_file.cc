@@ -323,6 +323,6 @@ namespace Keyblock
             unlink(part.c_str());
           }
       }
-    return dealii::Utilities::MPI::broadcast(world(), failure, 0);
+    return text_of_root(failure);
   }
 } // namespace Keyblock

@@ -160,8 +160,7 @@ namespace Keyblock
     for (const double force : carried)
       sum += std::abs(force);
     // a block that is taken away later in the stage carries less
-    carried_sum =
-      std::max(carried_sum, dealii::Utilities::MPI::sum(sum, world()));
+    carried_sum = std::max(carried_sum, sum_over_ranks(sum));
     return carried;
   }
 
@@ -283,8 +282,7 @@ namespace Keyblock
           sum += fields.velocity[i + d] * fields.velocity[i + d];
         square = std::max(square, sum);
       }
-    const double fastest =
-      std::sqrt(dealii::Utilities::MPI::max(square, world()));
+    const double fastest = std::sqrt(max_over_ranks(square));
     const double stopped =
       resting.look({kick,
                     scene.time_stepping.rest_speed * fastest,

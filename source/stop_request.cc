@@ -44,7 +44,7 @@ namespace Keyblock
   void
   stop_if_asked()
   {
-    const int signal = dealii::Utilities::MPI::max(signal_received(), world());
+    const int signal = max_over_ranks(signal_received());
     if (signal > 0)
       throw StopRequest{signal};
   }

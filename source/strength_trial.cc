@@ -112,7 +112,7 @@ namespace Keyblock
           sums[dim + d] += fields.load[i];
           sums[2 * dim] += std::abs(fields.contact_force[i]);
         }
-    dealii::Utilities::MPI::sum(sums, world(), sums);
+    sum_lists(sums);
     double resultant = 0., weight = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -176,7 +176,7 @@ namespace Keyblock
       for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
         energy += 0.5 * run.fields.mass[node] * run.fields.velocity[i] *
                   run.fields.velocity[i];
-    return dealii::Utilities::MPI::sum(energy, world());
+    return sum_over_ranks(energy);
   }
 
 
@@ -188,7 +188,7 @@ namespace Keyblock
     double mass = 0.;
     for (const unsigned int node : nodes_of_block[block])
       mass += run.fields.mass[node];
-    return dealii::Utilities::MPI::sum(mass, world());
+    return sum_over_ranks(mass);
   }
 
 
@@ -458,7 +458,7 @@ namespace Keyblock
             sums[2 + d] += m * way;
           }
       }
-    dealii::Utilities::MPI::sum(sums, world(), sums);
+    sum_lists(sums);
     double mean = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       mean += sums[2 + d] * sums[2 + d];

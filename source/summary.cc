@@ -197,7 +197,7 @@ namespace Keyblock
                              const std::vector<unsigned int> &removal_stage,
                              const Geostress *geostress) const
   {
-    const double memory = dealii::Utilities::MPI::sum(peak_memory(), world());
+    const double memory         = sum_over_ranks(peak_memory());
     const std::string file_name = folder + "summary.json";
     if (!is_root())
       return assert_written(true, file_name);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/teams.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <keyblock/mpi.h>
 #include <keyblock/stop_request.h>
 

@@ -4,6 +4,7 @@
 #define keyblock_check_tools_h
 
 #include <keyblock/checks.h>
+#include <keyblock/errors.h>
 #include <keyblock/expression.h>
 
 #include <algorithm>

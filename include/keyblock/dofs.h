@@ -2,17 +2,26 @@
 #ifndef keyblock_dofs_h
 #define keyblock_dofs_h
 
-#include <deal.II/base/partitioner.h>
-
-#include <deal.II/dofs/dof_handler.h>
-
-#include <deal.II/fe/fe_system.h>
-
-#include <deal.II/grid/tria.h>
-
 #include <keyblock/interface.h>
 
+#include <mpi.h>
+
 #include <memory>
+
+namespace dealii
+{
+  template <int, int>
+  class DoFHandler;
+  template <int, int>
+  class Triangulation;
+  namespace Utilities
+  {
+    namespace MPI
+    {
+      class Partitioner;
+    }
+  } // namespace Utilities
+} // namespace dealii
 
 namespace Keyblock
 {
@@ -29,27 +38,29 @@ namespace Keyblock
   {
   public:
     Numbering(const Scene<dim> &scene, const SplitMesh<dim> &split);
+    ~Numbering();
 
     unsigned int
     n_owned() const
     {
-      return partitioner->locally_owned_size() / dim;
+      return n_owned_nodes;
     }
     unsigned int
     n_local() const
     {
-      return n_owned() + partitioner->n_ghost_indices() / dim;
+      return n_local_nodes;
     }
     unsigned int
     n_global() const
     {
-      return partitioner->size() / dim;
+      return n_global_nodes;
     }
 
-    /** Cell of the split mesh that a cell of the triangulation is. */
+    /** Cell of the split mesh that @p cell, an iterator of the triangulation,
+     * points to. */
+    template <typename CellIterator>
     unsigned int
-    mesh_cell_of(
-      const typename dealii::Triangulation<dim>::cell_iterator &cell) const
+    mesh_cell_of(const CellIterator &cell) const
     {
       return mesh_cell_of_coarse[cell->id().get_coarse_cell_id()];
     }
@@ -104,9 +115,8 @@ namespace Keyblock
     std::vector<unsigned int> hanging_nodes, masters_begin;
     std::vector<Master> masters;
 
-    std::unique_ptr<dealii::Triangulation<dim>> triangulation;
-    dealii::FESystem<dim> fe;
-    dealii::DoFHandler<dim> dof_handler;
+    std::unique_ptr<dealii::Triangulation<dim, dim>> triangulation;
+    std::unique_ptr<dealii::DoFHandler<dim, dim>> dof_handler;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
@@ -122,6 +132,7 @@ namespace Keyblock
 
     void list_hanging_nodes(const SplitMesh<dim> &split);
 
+    unsigned int n_owned_nodes = 0, n_local_nodes = 0, n_global_nodes = 0;
     std::vector<unsigned int> node_of_vertex;      ///< global numbers
     std::vector<unsigned int> mesh_cell_of_coarse; ///< by coarse cell
 

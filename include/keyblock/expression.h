@@ -2,14 +2,16 @@
 #ifndef keyblock_expression_h
 #define keyblock_expression_h
 
-#include <deal.II/base/function_parser.h>
+#include <deal.II/base/point.h>
 
-#include <keyblock/errors.h>
-
-#include <algorithm>
-#include <iostream>
-#include <sstream>
+#include <memory>
 #include <string>
+
+namespace dealii
+{
+  template <int>
+  class FunctionParser;
+}
 
 namespace Keyblock
 {
@@ -24,64 +26,18 @@ namespace Keyblock
   public:
     Expression(const std::string &text,
                const unsigned int n_components,
-               const std::string &entry)
-      : function(n_components)
-      , n_components(n_components)
-    {
-      const unsigned int found = 1 + std::count(text.begin(), text.end(), ';');
-      AssertThrow(found == n_components,
-                  InputError("The formula '" + text + "' of the entry '" +
-                             entry + "' has " + std::to_string(found) +
-                             " component(s) where " +
-                             std::to_string(n_components) +
-                             " are needed; separate components by ';'."));
-      const std::string variables =
-        (dim == 2) ? std::string("x,y,t") : std::string("x,y,z,t");
-      // muParser's own complaint would stand beside our sentence
-      std::ostringstream complaint;
-      std::streambuf *const screen = std::cerr.rdbuf(complaint.rdbuf());
-      bool is_understood           = true;
-      try
-        {
-          function.initialize(variables,
-                              text,
-                              {{"pi", dealii::numbers::PI}},
-                              true);
-          value(dealii::Point<dim>(), 0., 0);
-        }
-      catch (const dealii::ExceptionBase &)
-        {
-          is_understood = false;
-        }
-      std::cerr.rdbuf(screen);
-      AssertThrow(is_understood,
-                  InputError(
-                    "The formula '" + text + "' of the entry '" + entry +
-                    "' cannot be understood; use the variables " + variables +
-                    ", numbers, + - * / ^ and functions such as sin, "
-                    "sqrt, if."));
-    }
+               const std::string &entry);
+    ~Expression();
 
-    double
-    value(const dealii::Point<dim> &p,
-          const double time,
-          const unsigned int component) const
-    {
-      function.set_time(time);
-      return function.value(p, component);
-    }
+    double value(const dealii::Point<dim> &p,
+                 const double time,
+                 const unsigned int component) const;
 
-    dealii::Tensor<1, dim>
-    vector(const dealii::Point<dim> &p, const double time) const
-    {
-      dealii::Tensor<1, dim> result;
-      for (unsigned int c = 0; c < n_components; ++c)
-        result[c] = value(p, time, c);
-      return result;
-    }
+    dealii::Tensor<1, dim> vector(const dealii::Point<dim> &p,
+                                  const double time) const;
 
   private:
-    mutable dealii::FunctionParser<dim> function;
+    std::unique_ptr<dealii::FunctionParser<dim>> function;
     unsigned int n_components;
   };
 } // namespace Keyblock

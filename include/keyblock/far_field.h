@@ -2,13 +2,18 @@
 #ifndef keyblock_far_field_h
 #define keyblock_far_field_h
 
-#include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/vector.h>
-
 #include <keyblock/dofs.h>
 
-#include <array>
+#include <memory>
 #include <vector>
+
+namespace dealii
+{
+  template <typename>
+  class FullMatrix;
+  template <typename>
+  class Vector;
+} // namespace dealii
 
 namespace Keyblock
 {
@@ -101,7 +106,8 @@ namespace Keyblock
     std::vector<Spring> springs; ///< S, of owned nodes
     /** W: per spring dim rows of n_columns() [N]. */
     std::vector<double> columns;
-    dealii::FullMatrix<double> coupling; ///< C [1/(N m)]
+    /** C, null without coupling [1/(N m)]. */
+    std::shared_ptr<const dealii::FullMatrix<double>> coupling;
 
     unsigned int
     n_columns() const
@@ -121,7 +127,7 @@ namespace Keyblock
                 const dealii::FullMatrix<double> &spring_work);
 
     unsigned int n_coupled = 0; ///< fields
-    dealii::FullMatrix<double> inverse_energy;
+    std::shared_ptr<const dealii::FullMatrix<double>> inverse_energy;
     /** Largest factor by which the projection can raise the energy of the
      * springs [-]. */
     double projection_norm = 1.;

@@ -2,9 +2,9 @@
 #ifndef keyblock_mpi_h
 #define keyblock_mpi_h
 
-#include <deal.II/base/mpi.h>
-
 #include <keyblock/errors.h>
+
+#include <mpi.h>
 
 #include <string>
 #include <type_traits>
@@ -16,23 +16,62 @@ namespace Keyblock
    * (teams.h). */
   MPI_Comm world();
 
+  unsigned int n_ranks();
+
+  unsigned int this_rank();
+
   inline bool
   is_root()
   {
-    return dealii::Utilities::MPI::this_mpi_process(world()) == 0;
+    return this_rank() == 0;
   }
 
-  inline unsigned int
-  n_ranks()
+  // What follows is collective over world(). Numbers: int, unsigned int,
+  // unsigned long long, double.
+
+  template <typename Number>
+  Number sum_over_ranks(const Number value);
+
+  template <typename Number>
+  Number max_over_ranks(const Number value);
+
+  template <typename Number>
+  Number min_over_ranks(const Number value);
+
+  inline bool
+  on_any_rank(const bool is_true)
   {
-    return dealii::Utilities::MPI::n_mpi_processes(world());
+    return max_over_ranks(is_true ? 1 : 0) > 0;
   }
 
-  inline unsigned int
-  this_rank()
+  /** Replace the @p n numbers from @p first on by their sums over the ranks. */
+  template <typename Number>
+  void sum_over_ranks(Number *first, const std::size_t n);
+
+  /** Replace the @p n numbers from @p first on by the ranks' largest. */
+  template <typename Number>
+  void max_over_ranks(Number *first, const std::size_t n);
+
+  /** Replace each number of @p list, a vector or array of the same length on
+   * all ranks, by its sum over the ranks. */
+  template <typename List>
+  void
+  sum_lists(List &list)
   {
-    return dealii::Utilities::MPI::this_mpi_process(world());
+    sum_over_ranks(list.data(), list.size());
   }
+
+  /** Replace each number of @p list, a vector or array of the same length on
+   * all ranks, by the ranks' largest. */
+  template <typename List>
+  void
+  max_lists(List &list)
+  {
+    max_over_ranks(list.data(), list.size());
+  }
+
+  /** Rank 0's @p text. */
+  std::string text_of_root(const std::string &text);
 
   /** Copy rank 0's @p list, plain data only, to all ranks. */
   template <typename T>
@@ -72,7 +111,7 @@ namespace Keyblock
             message = error.message;
           }
       }
-    message = dealii::Utilities::MPI::broadcast(world(), message, 0);
+    message = text_of_root(message);
     AssertThrow(message.empty(), InputError(message));
   }
 
@@ -81,9 +120,7 @@ namespace Keyblock
   inline void
   assert_written(const bool is_written, const std::string &file_name)
   {
-    const bool is_complete =
-      dealii::Utilities::MPI::min(is_written ? 1 : 0, world()) > 0;
-    AssertThrow(is_complete,
+    AssertThrow(!on_any_rank(!is_written),
                 ComputationError("The file '" + file_name +
                                  "' cannot be written; check free space."));
   }

@@ -2,13 +2,17 @@
 #ifndef keyblock_scene_h
 #define keyblock_scene_h
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
 #include <memory>
 #include <string>
 #include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
 
 namespace Keyblock
 {
@@ -475,7 +479,7 @@ namespace Keyblock
     std::string used_entries() const;
 
   private:
-    ParameterHandler prm;
+    std::shared_ptr<ParameterHandler> prm; ///< as read
   };
 
   /** The value of `Dimension` in the file: 2 or 3. Throws InputError. */

@@ -151,8 +151,8 @@ namespace
             error += std::pow(force[i] - expected[i], 2);
             square += std::pow(expected[i], 2);
           }
-        error  = dealii::Utilities::MPI::sum(error, world());
-        square = dealii::Utilities::MPI::sum(square, world());
+        error  = sum_over_ranks(error);
+        square = sum_over_ranks(square);
         BOOST_TEST(std::sqrt(error / square) < tolerance);
       }
   }

@@ -48,7 +48,7 @@ namespace Keyblock
             sums[0] += x[i] * y[i] * mass;
             sums[1] += x[i] * x[i] * mass;
           }
-        dealii::Utilities::MPI::sum(sums, world(), sums);
+        sum_lists(sums);
         eigenvalue = sums[0] / sums[1];
         for (unsigned int i = 0; i < x.size(); ++i)
           x[i] = y[i] / eigenvalue;

@@ -50,7 +50,7 @@ namespace
         largest =
           std::max(largest,
                    std::abs(cells.stress_at(c, i / 4)[i % 4] - exact[i % 4]));
-    return dealii::Utilities::MPI::max(largest, world()) / 1e6;
+    return max_over_ranks(largest) / 1e6;
   }
 
   /** Largest and root-mean-square deviation of the vertical stress from -1 MPa,
@@ -115,10 +115,9 @@ namespace
           square += error * error;
           n_points += 1.;
         }
-    square   = dealii::Utilities::MPI::sum(square, world());
-    n_points = dealii::Utilities::MPI::sum(n_points, world());
-    return {{dealii::Utilities::MPI::max(largest, world()),
-             std::sqrt(square / n_points)}};
+    square   = sum_over_ranks(square);
+    n_points = sum_over_ranks(n_points);
+    return {{max_over_ranks(largest), std::sqrt(square / n_points)}};
   }
 } // namespace
 
