@@ -631,7 +631,8 @@ namespace Keyblock
                       Double(0.1, 100.));
     prm.add_parameter("Maximum periods",
                       maximum_periods,
-                      "Length of each phase, at most [-].",
+                      "Length of the first phase, at most; the second ends "
+                      "after 20 besides [-].",
                       positive);
     prm.add_parameter("Trial steps",
                       trial_steps,

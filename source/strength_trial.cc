@@ -33,6 +33,10 @@ namespace Keyblock
      */
     constexpr unsigned int patience = 8;
 
+    /** Length of the second phase, at most, in periods of the block's lowest
+     * mode: what is open then goes back to the first one, which damps [-]. */
+    constexpr double watch_periods = 20.;
+
     /** Windows over which a resultant that moves the block must stay. */
     constexpr unsigned int n_steady = 6;
 
@@ -295,7 +299,8 @@ namespace Keyblock
     const double seconds = window * run.step.dt;
     const unsigned int n_windows =
       std::max(n_steady + 1.,
-               scene.safety.maximum_periods / scene.safety.window);
+               std::min(watch_periods, scene.safety.maximum_periods) /
+                 scene.safety.window);
     const Vector<dim> at_rest = run.contact->mean_slip(block);
     const double mass         = mass_in_use(block);
     displacement_before       = run.fields.displacement;

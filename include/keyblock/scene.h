@@ -328,11 +328,11 @@ namespace Keyblock
     double bracket             = 0.005;
     double lowest              = 0.1;
     double highest             = 100.;
-    double mass_damping        = 0.3;
+    double mass_damping        = 0.2;
     double local_damping       = 0.;
     double damping_ratio       = 1.;
     double window              = 1.;
-    double maximum_periods     = 20.;
+    double maximum_periods     = 100.;
     unsigned int trial_steps   = 0;
     bool warm_start            = true;
     bool true_masses           = false;

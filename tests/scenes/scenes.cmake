@@ -60,7 +60,7 @@ keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
 keyblock_scene(verification/factor_incline)
 keyblock_scene(verification/factor_incline REFERENCES factor_incline_teams
   RANKS 2 SET "Safety factor/Teams=2")
-foreach(case 10_40 68_40 25_50 60_40 50_25)
+foreach(case 10_40 68_40 25_50 60_40 50_25 75_68 77_76 80_75)
   string(REPLACE "_" ";" angles ${case})
   list(GET angles 0 friction)
   list(GET angles 1 dip)
