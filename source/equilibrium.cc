@@ -276,7 +276,7 @@ namespace Keyblock
     {
       const dealii::TrilinosWrappers::SparseMatrix &matrix;
       const std::vector<VectorType> &columns;
-      const dealii::FullMatrix<double> &coupling;
+      const dealii::FullMatrix<double> *coupling; ///< null: no columns
 
       void
       vmult(VectorType &result, const VectorType &x) const
@@ -286,7 +286,7 @@ namespace Keyblock
         for (unsigned int m = 0; m < columns.size(); ++m)
           work[m] = columns[m] * x;
         if (!columns.empty())
-          coupling.vmult(strength, work);
+          coupling->vmult(strength, work);
         for (unsigned int m = 0; m < columns.size(); ++m)
           result.add(strength[m], columns[m]);
       }
@@ -312,7 +312,7 @@ namespace Keyblock
         try
           {
             const CoupledMatrix<TrilinosVector> coupled{
-              matrix, far_columns, *fields.far_field.coupling};
+              matrix, far_columns, fields.far_field.coupling.get()};
             solver.solve(coupled, solution, right_side, preconditioner);
           }
         catch (const dealii::SolverControl::NoConvergence &failure)
