@@ -4,7 +4,6 @@
 
 #include <keyblock/checkpoint.h>
 #include <keyblock/state_rows.h>
-#include <keyblock/teams.h>
 
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
@@ -117,8 +116,6 @@ namespace Keyblock
   std::vector<SafetyFactor>
   gather_from_teams(const std::vector<SafetyFactor> &mine)
   {
-    if (n_teams() == 1)
-      return {};
     // numbers of factors and of their trials, and texts
     using Rows = std::vector<std::vector<double>>;
     std::pair<Rows, std::vector<std::string>> packed;
@@ -134,7 +131,7 @@ namespace Keyblock
           packed.second.push_back(text);
       }
     const std::size_t n = numbers_of(Trial()).size();
-    std::vector<SafetyFactor> theirs;
+    std::vector<SafetyFactor> found;
     for (const auto &[rows, texts] :
          dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, packed))
       for (std::size_t f = 0; 2 * f < rows.size(); ++f)
@@ -147,18 +144,17 @@ namespace Keyblock
           factor.failure_mode = texts[3 * f + 1];
           factor.limit_mode   = texts[3 * f + 2];
           const auto is_same  = [&](const SafetyFactor &other) {
-            return other.block == factor.block && other.stage == factor.stage;
+            return other.block == factor.block;
           };
-          if (std::none_of(mine.begin(), mine.end(), is_same) &&
-              std::none_of(theirs.begin(), theirs.end(), is_same))
-            theirs.push_back(factor);
+          if (std::none_of(found.begin(), found.end(), is_same))
+            found.push_back(factor);
         }
-    std::sort(theirs.begin(),
-              theirs.end(),
+    std::sort(found.begin(),
+              found.end(),
               [](const SafetyFactor &a, const SafetyFactor &b) {
                 return a.block < b.block;
               });
-    return theirs;
+    return found;
   }
 
 

@@ -4,7 +4,6 @@
 #include <keyblock/command_line.h>
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
-#include <keyblock/teams.h>
 
 #include <iostream>
 
@@ -47,7 +46,7 @@ main(int argc, char *argv[])
     }
   catch (const Keyblock::InputError &error)
     {
-      if (Keyblock::is_root() && Keyblock::this_team() == 0)
+      if (Keyblock::is_root())
         std::cerr << "Error: " << error.message << std::endl;
       exit_code = 1;
     }
@@ -56,8 +55,6 @@ main(int argc, char *argv[])
       if (Keyblock::is_root())
         std::cerr << "Failed: " << error.message << std::endl;
       exit_code = 2;
-      if (Keyblock::n_teams() > 1) // the others may be waiting
-        MPI_Abort(MPI_COMM_WORLD, exit_code);
     }
   catch (const Keyblock::StopRequest &request)
     {

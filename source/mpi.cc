@@ -80,6 +80,18 @@ namespace Keyblock
     return dealii::Utilities::MPI::broadcast(world(), text, 0);
   }
 
+
+
+  std::string
+  any_text(const std::string &text)
+  {
+    const unsigned int first =
+      min_over_ranks(text.empty() ? n_ranks() : this_rank());
+    return first == n_ranks()
+             ? ""
+             : dealii::Utilities::MPI::broadcast(world(), text, first);
+  }
+
 #define INSTANTIATE(Number)                                                    \
   template Number sum_over_ranks(const Number);                                \
   template Number max_over_ranks(const Number);                                \

@@ -2,7 +2,6 @@
 // When a run is saved, what a checkpoint contains, and how it is taken up.
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
-#include <keyblock/teams.h>
 
 #include <cstring>
 #include <iomanip>
@@ -43,21 +42,13 @@ namespace Keyblock
   Simulation<dim>::save()
   {
     check_finite();
-    if (this_team() > 0)
-      return;
     StateFile file;
     std::string program = written_by, entries = scene.used_entries(),
                 mesh_signature = signature(split);
     file.exchange("origin/written_by", program);
     file.exchange("origin/entries", entries);
     file.exchange("origin/mesh", mesh_signature);
-    exchange_progress(file);
-    exchange_results(file);
-    StateExchange<dim> state(file, split, *numbering);
-    Snapshot<dim> now = take_snapshot(parts());
-    state.save("state/", now);
-    if (present.wants_factors)
-      state.save("before/", present.before);
+    put_state(file);
     const std::string name    = folder + "checkpoint.h5";
     const std::string failure = file.write(name);
     last_saved                = MPI_Wtime();
@@ -71,6 +62,21 @@ namespace Keyblock
       std::cerr << "Warning: The checkpoint '" << name
                 << "' cannot be written (" << failure << ")."
                 << name_last_checkpoint() << std::endl;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::put_state(StateFile &file)
+  {
+    exchange_progress(file);
+    exchange_results(file);
+    StateExchange<dim> state(file, split, *numbering);
+    Snapshot<dim> now = take_snapshot(parts());
+    state.save("state/", now);
+    if (present.wants_factors)
+      state.save("before/", present.before);
   }
 
 
@@ -106,8 +112,6 @@ namespace Keyblock
   Simulation<dim>::save_and_stop(const StopRequest &request)
   {
     save();
-    if (this_team() > 0)
-      return;
     monitors->write_csv(folder + "history.csv");
     if (is_root())
       std::cout << "Stopped by a signal (" << strsignal(request.signal) << ")."
@@ -248,32 +252,6 @@ namespace Keyblock
     step->resume(*scene.stages[present.index], present.index + 2);
     count_cells();
     last_saved = MPI_Wtime();
-    note_checkpoint(checkpoint);
-    if (is_root())
-      std::cout << "Resumed " << last_checkpoint << std::endl;
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::find_remaining_factors()
-  {
-    const Snapshot<dim> after               = take_snapshot(parts());
-    const std::vector<unsigned int> removed = removal_stage;
-    const bool was_converged                = is_converged;
-    try
-      {
-        find_safety_factors(present.index, present.before, after);
-      }
-    catch (const StopRequest &)
-      {
-        // what is saved is the end of the stage, and the factors found
-        recall(after, parts());
-        removal_stage = removed;
-        is_converged  = was_converged;
-        throw;
-      }
   }
 
   template void Simulation<2>::save_if_due();
@@ -286,8 +264,10 @@ namespace Keyblock
   template void Simulation<3>::check_origin(StateFile &) const;
   template void Simulation<2>::check_mesh(StateFile &) const;
   template void Simulation<3>::check_mesh(StateFile &) const;
+  template void Simulation<2>::put_state(StateFile &);
+  template void Simulation<3>::put_state(StateFile &);
+  template void Simulation<2>::note_checkpoint(const std::string &);
+  template void Simulation<3>::note_checkpoint(const std::string &);
   template void Simulation<2>::restore(StateFile &);
   template void Simulation<3>::restore(StateFile &);
-  template void Simulation<2>::find_remaining_factors();
-  template void Simulation<3>::find_remaining_factors();
 } // namespace Keyblock

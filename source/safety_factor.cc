@@ -106,6 +106,14 @@ namespace Keyblock
       return factor > stable && (unstable == 0. || factor < unstable);
     }
 
+    /** Whether the bracket is as narrow as asked for. */
+    bool
+    is_done() const
+    {
+      return unstable > 0. &&
+             unstable - stable <= owner.scene.safety.bracket * unstable;
+    }
+
     double stable, unstable; ///< 0: none known
 
   private:
@@ -158,11 +166,10 @@ namespace Keyblock
     trials.forget_failure();
     {
       Search search(*this, block, number, known, result.trials);
-      result.outcome = scene.safety.method == "sweep"
-                         ? sweep(search)
-                         : bisect(search, known.hint, known.onset);
-      result.lower   = search.stable;
-      result.upper   = search.unstable;
+      result.outcome =
+        scene.safety.method == "sweep" ? sweep(search) : bisect(search, known);
+      result.lower = search.stable;
+      result.upper = search.unstable;
       search.finish();
     }
     if (result.outcome != SafetyFactor::Outcome::immovable)
@@ -196,25 +203,23 @@ namespace Keyblock
   template <int dim>
   SafetyFactor::Outcome
   StrengthReductionSearch<dim>::find_bracket(Search &search,
-                                             const double middle,
                                              double spread) const
   {
     using Outcome                  = SafetyFactor::Outcome;
     const SafetySettings &settings = scene.safety;
-    for (bool is_first = true;
-         is_first || search.stable == 0. || search.unstable == 0.;
-         spread *= 4., is_first = false)
+    for (const double middle = search.stable > 0. ? search.stable
+                                                  : search.unstable;
+         search.stable == 0. || search.unstable == 0.;
+         spread *= 4.)
       {
         if (search.stable >= settings.highest)
           return Outcome::immovable;
         if (search.unstable > 0. && search.unstable <= settings.lowest)
           return Outcome::falls_freely;
-        const double below = std::max(settings.lowest, middle / (1. + spread));
-        const double above = std::min(settings.highest, middle * (1. + spread));
-        if ((is_first || search.stable == 0.) && search.is_open(below))
-          search.holds_at(below);
-        if (search.unstable == 0. && search.is_open(above))
-          search.holds_at(above);
+        if (search.stable == 0.)
+          search.holds_at(std::max(settings.lowest, middle / (1. + spread)));
+        else
+          search.holds_at(std::min(settings.highest, middle * (1. + spread)));
       }
     return Outcome::bracketed;
   }
@@ -222,39 +227,55 @@ namespace Keyblock
 
 
   template <int dim>
-  SafetyFactor::Outcome
-  StrengthReductionSearch<dim>::bisect(Search &search,
-                                       double hint,
-                                       const double onset) const
+  void
+  StrengthReductionSearch<dim>::try_guess(Search &search,
+                                          double guess,
+                                          const double onset,
+                                          const double spread) const
   {
     const SafetySettings &settings = scene.safety;
-    double spread                  = 0.4 * settings.bracket;
+    guess                          = std::min(guess, settings.highest);
+    if (search.is_done() || !search.is_open(guess))
+      return;
     // a block that slips at the onset may be caught by its neighbour further
     // on: the guess must not jump over that
     if (onset > (1. + settings.bracket) * search.stable &&
-        onset < settings.highest &&
-        (hint == 0. || onset < hint / (1. + settings.bracket)) &&
+        onset < guess / (1. + settings.bracket) &&
         !search.holds_at(onset * (1. + spread)))
-      hint = onset;
-    if (hint == 0.)
-      {
-        // nothing to go by: most such blocks cannot move at all
-        hint   = std::max(1., search.stable);
-        spread = 0.5;
-        if (search.stable > 0. && search.unstable == 0.)
-          search.holds_at(settings.highest);
-      }
+      guess = onset;
+    const double below = std::max(settings.lowest, guess / (1. + spread));
+    const double above = std::min(settings.highest, guess * (1. + spread));
+    if (guess < settings.highest && search.is_open(below))
+      search.holds_at(below);
+    if (search.is_open(above))
+      search.holds_at(above);
+  }
+
+
+
+  template <int dim>
+  SafetyFactor::Outcome
+  StrengthReductionSearch<dim>::bisect(Search &search, const Known &known) const
+  {
+    const SafetySettings &settings = scene.safety;
+    // with nothing to go by, most blocks that hold cannot move at all
+    const bool has_hint = known.hint > 0.;
+    const double guess  = has_hint             ? known.hint
+                          : search.stable > 0. ? settings.highest
+                                               : 1.;
+    double spread       = 0.4 * settings.bracket;
+    for (const double middle : {guess, known.limit})
+      try_guess(search, middle, known.onset, spread);
+    spread = has_hint ? 4. * spread : 0.5;
     do
       {
-        const auto outcome = find_bracket(search, hint, spread);
+        const auto outcome = find_bracket(search, spread);
         if (outcome != SafetyFactor::Outcome::bracketed)
           return outcome;
-        while (search.unstable - search.stable >
-               settings.bracket * search.unstable)
+        while (!search.is_done())
           search.holds_at(search.unstable > 2. * search.stable
                             ? std::sqrt(search.stable * search.unstable)
                             : 0.5 * (search.stable + search.unstable));
-        hint   = search.unstable;
         spread = settings.bracket;
     } while (!search.confirm());
     return SafetyFactor::Outcome::bracketed;

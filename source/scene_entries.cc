@@ -586,7 +586,7 @@ namespace Keyblock
     prm.add_parameter("Teams",
                       teams,
                       "Teams of ranks that look for the factors of different "
-                      "blocks at the same time; each team computes all stages. "
+                      "blocks at the same time; all compute the stages. "
                       "A divisor of the number of ranks.",
                       Integer(1));
     prm.add_parameter("Method",
@@ -616,6 +616,10 @@ namespace Keyblock
       "Of the first phase, which looks for an equilibrium, over "
       "the critical one of the block's lowest mode [-].",
       Double(0., 10.));
+    prm.add_parameter("Adaptive damping",
+                      adaptive_damping,
+                      "Whether blocks that creep to rest by one slow mode are "
+                      "damped by the frequency of that mode.");
     prm.add_parameter("Local damping",
                       local_damping,
                       "Of the first phase besides [-].",

@@ -19,18 +19,13 @@ namespace Keyblock
                               const std::vector<std::string> &overrides,
                               const std::string &output_folder,
                               const std::string &checkpoint)
-    : checkpoint(checkpoint)
+    : scene_file(scene_file)
+    , overrides(overrides)
+    , checkpoint(checkpoint)
     , wall_start(MPI_Wtime())
     , last_saved(wall_start)
   {
     scene.read(scene_file, overrides);
-    form_teams(scene.safety.teams);
-    if (this_team() > 0)
-      {
-        std::cout.setstate(std::ios::failbit); // the first team prints
-        scene.output.write_vtu           = false;
-        scene.output.checkpoint_interval = 0.;
-      }
     folder  = !output_folder.empty() ? output_folder
               : !scene.output.folder.empty()
                 ? scene.output.folder
@@ -141,6 +136,7 @@ namespace Keyblock
   Simulation<dim>::run()
   {
     watch_signals();
+    form_teams(scene.safety.teams);
     std::unique_ptr<StateFile> file;
     if (!checkpoint.empty())
       {
@@ -155,7 +151,12 @@ namespace Keyblock
     try
       {
         if (file)
-          restore(*file);
+          {
+            restore(*file);
+            note_checkpoint(checkpoint);
+            if (is_root())
+              std::cout << "Resumed " << last_checkpoint << std::endl;
+          }
         file.reset();
         run_stages();
         finish();
@@ -180,8 +181,6 @@ namespace Keyblock
   void
   Simulation<dim>::open_output()
   {
-    if (this_team() > 0)
-      return;
     on_root([&]() {
       std::error_code error;
       std::filesystem::create_directories(folder, error);
@@ -322,10 +321,7 @@ namespace Keyblock
     report.contact_time   = step->contact_seconds;
     report.force_time     = step->force_seconds;
     report.skipped_steps  = sum_over_ranks(step->n_skipped);
-    report.capped_groups  = contact ? contact->n_capped : 0;
-    wait_for_all_teams();
-    if (this_team() > 0)
-      return;
+    report.capped_groups  = sum_over_ranks(contact ? contact->n_capped : 0);
     monitors->write_csv(folder + "history.csv");
     output->write_summary(quality,
                           report,

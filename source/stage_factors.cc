@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <map>
 
 namespace Keyblock
 {
@@ -35,7 +36,9 @@ namespace Keyblock
       }
     const std::vector<double> carried = step->dig(number);
     step->begin_stage(stage, number);
-    conditions->start_ramp(carried, ramp_duration_of(stage));
+    // a block that has come off carries nothing that a ramp would take away
+    const bool is_free = step->share_of_dug(carried) < stage.unbalanced_ratio;
+    conditions->start_ramp(carried, is_free ? 0. : ramp_duration_of(stage));
     count_cells();
     return true;
   }
@@ -83,79 +86,130 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<unsigned int>
+  Simulation<dim>::list_blocks_of_team(const unsigned int index) const
+  {
+    // a block costs what it did last time; one never tried, as much as any
+    const std::vector<unsigned int> wanted = list_wanted_blocks(index);
+    std::map<unsigned int, double> steps;
+    double most = 1.;
+    for (const SafetyFactor &earlier : safety_factors)
+      {
+        double &sum = steps[earlier.block];
+        sum         = 0.;
+        for (const Trial &trial : earlier.trials)
+          sum += trial.n_steps;
+        most = std::max(most, sum);
+      }
+    std::vector<double> costs;
+    for (const unsigned int b : wanted)
+      costs.push_back(steps.count(b) > 0 ? steps[b] : most);
+
+    const std::vector<unsigned int> team = share_out(costs, n_teams());
+    std::vector<unsigned int> mine;
+    for (unsigned int i = 0; i < wanted.size(); ++i)
+      if (team[i] == this_team())
+        mine.push_back(wanted[i]);
+    return mine;
+  }
+
+
+
+  template <int dim>
+  SafetyFactor
+  Simulation<dim>::factor_of_failed_block(StrengthReductionSearch<dim> &search,
+                                          const unsigned int block,
+                                          const unsigned int index,
+                                          const Snapshot<dim> &before)
+  {
+    const double lowest       = scene.safety.lowest;
+    const unsigned int number = index + 2;
+    SafetyFactor result;
+    if (holds_when_strong(block, index, before))
+      {
+        typename StrengthReductionSearch<dim>::Known known;
+        known.stable   = lowest;
+        known.unstable = 1.;
+        known.start    = lowest;
+        search.add_cheap_answers(block, result);
+        if (std::isfinite(result.limit_factor))
+          known.limit = result.limit_factor;
+        result = search.find(block, number, known);
+      }
+    else
+      {
+        result.block        = block;
+        result.outcome      = SafetyFactor::Outcome::falls_freely;
+        result.upper        = lowest;
+        result.failure_mode = "falling";
+        recall(before, parts());
+        step->dig(number);
+        search.add_cheap_answers(block, result);
+      }
+    contact->reduce_strength(StrengthReduction());
+    return result;
+  }
+
+
+
+  template <int dim>
+  SafetyFactor
+  Simulation<dim>::factor_of_standing_block(
+    StrengthReductionSearch<dim> &search,
+    const unsigned int block,
+    const unsigned int index)
+  {
+    const Stage &stage = *scene.stages[index];
+    typename StrengthReductionSearch<dim>::Known known;
+    for (const SafetyFactor &earlier : safety_factors)
+      if (earlier.block == block)
+        known.hint = earlier.outcome == SafetyFactor::Outcome::bracketed
+                       ? earlier.value()
+                       : 0.;
+    if (is_converged && stage.friction_angle_override < 0. &&
+        stage.unbalanced_ratio > 0.)
+      known.stable = 1.;
+    SafetyFactor cheap;
+    search.add_cheap_answers(block, cheap);
+    if (known.stable > 0.)
+      known.onset = cheap.stress_ratio;
+    if (std::isfinite(cheap.limit_factor))
+      known.limit = cheap.limit_factor;
+    if (known.hint == 0.)
+      known.hint =
+        known.limit > 0. && known.onset > 1. ? known.onset : known.limit;
+    // only rest at the joints' own strength is a start at factor 1
+    if (known.stable == 0.)
+      known.start = std::max(scene.safety.lowest, 0.5 * known.hint);
+    return search.find(block, index + 2, known);
+  }
+
+
+
+  template <int dim>
   void
   Simulation<dim>::find_safety_factors(const unsigned int index,
                                        const Snapshot<dim> &before,
                                        const Snapshot<dim> &after)
   {
-    const unsigned int number = index + 2;
-    const Stage &stage        = *scene.stages[index];
     StrengthReductionSearch<dim> search(
       scene, split, blocks, *numbering, parts());
     const std::vector<unsigned int> removed = removal_stage;
     const bool was_converged                = is_converged;
-    const std::vector<unsigned int> wanted  = list_wanted_blocks(index);
-    for (unsigned int i = this_team(); i < wanted.size(); i += n_teams())
+    for (const unsigned int b : list_blocks_of_team(index))
       {
-        const unsigned int b = wanted[i];
-        typename StrengthReductionSearch<dim>::Known known;
-        for (const SafetyFactor &earlier : safety_factors)
-          if (earlier.block == b)
-            known.hint = earlier.outcome == SafetyFactor::Outcome::bracketed
-                           ? earlier.value()
-                           : 0.;
-        SafetyFactor result;
-        if (removed[b] == number)
-          {
-            const double lowest = scene.safety.lowest;
-            known               = {lowest, 1., 0., lowest};
-            if (holds_when_strong(b, index, before))
-              result = search.find(b, number, known);
-            else
-              {
-                result.block        = b;
-                result.outcome      = SafetyFactor::Outcome::falls_freely;
-                result.upper        = lowest;
-                result.failure_mode = "falling";
-                recall(before, parts());
-                step->dig(number);
-                search.add_cheap_answers(b, result);
-              }
-            contact->reduce_strength(StrengthReduction());
-          }
-        else
-          {
-            if (was_converged && stage.friction_angle_override < 0. &&
-                stage.unbalanced_ratio > 0.)
-              known.stable = 1.;
-            SafetyFactor cheap;
-            search.add_cheap_answers(b, cheap);
-            if (known.stable > 0.)
-              known.onset = cheap.stress_ratio;
-            if (known.hint == 0. && known.stable > 0. &&
-                std::isfinite(cheap.limit_factor) && cheap.stress_ratio > 1.)
-              known.hint = cheap.stress_ratio;
-            else if (known.hint == 0. && std::isfinite(cheap.limit_factor))
-              known.hint = cheap.limit_factor;
-            // only rest at the joints' own strength is a start at factor 1
-            if (known.stable == 0.)
-              known.start = std::max(scene.safety.lowest, 0.5 * known.hint);
-            result = search.find(b, number, known);
-          }
+        SafetyFactor result =
+          removed[b] == index + 2
+            ? factor_of_failed_block(search, b, index, before)
+            : factor_of_standing_block(search, b, index);
         recall(after, parts());
         removal_stage = removed;
         is_converged  = was_converged;
-        result.stage  = stage.name;
+        result.stage  = scene.stages[index]->name;
         safety_factors.push_back(result);
         print_factor(result);
         count_cells();
         save_if_due();
-      }
-    wait_for_all_teams();
-    for (const SafetyFactor &theirs : gather_from_teams(safety_factors))
-      {
-        safety_factors.push_back(theirs);
-        print_factor(theirs);
       }
   }
 

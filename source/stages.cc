@@ -4,6 +4,7 @@
 #include <keyblock/geostress.h>
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
+#include <keyblock/teams.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,7 +134,9 @@ namespace Keyblock
         present.is_reported = true;
         save_if_due();
       }
-    if (present.wants_factors)
+    if (present.wants_factors && n_teams() > 1)
+      find_factors_in_teams();
+    else if (present.wants_factors)
       find_remaining_factors();
   }
 

@@ -114,6 +114,17 @@ namespace Keyblock
       return list;
     }
 
+    /** The bytes of @p file, which is in memory. */
+    std::vector<char>
+    image_of(const hid_t file)
+    {
+      H5Fflush(file, H5F_SCOPE_LOCAL);
+      const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+      std::vector<char> bytes(size > 0 ? size : 0);
+      H5Fget_file_image(file, bytes.data(), bytes.size());
+      return bytes;
+    }
+
     /** Write @p bytes and wait for the disk. Returns whether that worked. */
     bool
     write_through(const std::string &file_name, const std::vector<char> &bytes)
@@ -168,6 +179,22 @@ namespace Keyblock
                   InputError("The file '" + name +
                              "' is not a checkpoint; name one by --restart."));
     });
+  }
+
+
+
+  StateFile::StateFile(std::vector<char> &image)
+    : name("state of the run")
+  {
+    if (!is_root())
+      return;
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_fapl_core(access, memory_increment, false);
+    H5Pset_file_image(access, image.data(), image.size());
+    file = H5Fopen(name.c_str(), H5F_ACC_RDONLY, access);
+    AssertThrow(file >= 0,
+                dealii::ExcMessage("The state of the run cannot be read."));
   }
 
 
@@ -305,18 +332,26 @@ namespace Keyblock
 
 
 
+  std::vector<char>
+  StateFile::image() const
+  {
+    std::vector<char> bytes;
+    if (is_root())
+      bytes = image_of(file);
+    broadcast(bytes);
+    return bytes;
+  }
+
+
+
   std::string
   StateFile::write(const std::string &file_name) const
   {
     std::string failure;
     if (is_root())
       {
-        H5Fflush(file, H5F_SCOPE_LOCAL);
-        const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-        std::vector<char> image(size > 0 ? size : 0);
-        H5Fget_file_image(file, image.data(), image.size());
         const std::string part = file_name + ".part";
-        if (!write_through(part, image) ||
+        if (!write_through(part, image_of(file)) ||
             std::rename(part.c_str(), file_name.c_str()) != 0)
           {
             failure = std::strerror(errno);

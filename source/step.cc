@@ -9,6 +9,20 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    double
+    sum_of_sizes(const std::vector<double> &forces)
+    {
+      double sum = 0.;
+      for (const double force : forces)
+        sum += std::abs(force);
+      return sum_over_ranks(sum);
+    }
+  } // namespace
+
+
+
   template <int dim>
   ExplicitStep<dim>::ExplicitStep(const Scene<dim> &scene,
                                   const SplitMesh<dim> &split,
@@ -156,12 +170,18 @@ namespace Keyblock
           carried[i] =
             fields.internal_force[i] - fields.load[i] - fields.contact_force[i];
     conditions.remove_held_components(carried);
-    double sum = 0.;
-    for (const double force : carried)
-      sum += std::abs(force);
     // a block that is taken away later in the stage carries less
-    carried_sum = std::max(carried_sum, sum_over_ranks(sum));
+    carried_sum = std::max(carried_sum, sum_of_sizes(carried));
     return carried;
+  }
+
+
+
+  template <int dim>
+  double
+  ExplicitStep<dim>::share_of_dug(const std::vector<double> &carried) const
+  {
+    return carried_sum > 0. ? sum_of_sizes(carried) / carried_sum : 0.;
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // One trial of strength reduction, and how it is decided.
 #include <keyblock/mpi.h>
+#include <keyblock/slow_mode.h>
 #include <keyblock/stop_request.h>
 #include <keyblock/strength_trial.h>
 
@@ -28,6 +29,10 @@ namespace Keyblock
      * shorter ones start slip waves that shake the block loose [-]. */
     constexpr unsigned int ramp_periods = 4;
 
+    // of blocks that creep to rest by one slow mode
+    constexpr double creep_damping = 0.6; ///< over that mode's critical one [-]
+    constexpr double creep_drop    = 0.5; ///< of energy, where motion stops [-]
+
     /** A resultant that has not fallen by a fifth in so many windows has
      * stopped falling: the rock around relaxes in several periods of the block.
      */
@@ -36,6 +41,10 @@ namespace Keyblock
     /** Length of the second phase, at most, in periods of the block's lowest
      * mode: what is open then goes back to the first one, which damps [-]. */
     constexpr double watch_periods = 20.;
+
+    /** Share of the acceleration of a free body that slip has at least where
+     * what the block slips on moves with it [-]. */
+    constexpr double least_share = 0.3;
 
     /** Windows over which a resultant that moves the block must stay. */
     constexpr unsigned int n_steady = 6;
@@ -201,18 +210,22 @@ namespace Keyblock
   void
   StrengthTrials<dim>::step_damped_until(const unsigned int last,
                                          const unsigned int block,
+                                         const double drop,
                                          Trial &trial)
   {
     // kinetic damping: at a peak of its energy the block is near a balance,
     // and all motion is stopped; a block that speeds up has no peaks
-    double before = 0.;
+    double peak = 0.;
     for (; trial.n_steps < last; ++trial.n_steps)
       {
         run.step.advance(false);
         const double now = kinetic_energy(block);
-        if (now < before)
-          run.step.stop_motion();
-        before = now < before ? 0. : now;
+        peak             = std::max(peak, now);
+        if (now < drop * peak)
+          {
+            run.step.stop_motion();
+            peak = 0.;
+          }
       }
   }
 
@@ -239,6 +252,7 @@ namespace Keyblock
   template <int dim>
   bool
   StrengthTrials<dim>::settle(const unsigned int block,
+                              const double full_damping,
                               const Vector<dim> &first,
                               Trial &trial)
   {
@@ -249,11 +263,24 @@ namespace Keyblock
     Vector<dim> before   = run.contact->mean_slip(block);
     double least         = std::numeric_limits<double>::max();
     unsigned int n_stuck = 0;
+    SlowMode<dim> creep(run.fields, nodes_of_block[block]);
+    double slowest = 0.; // angular frequency of the creep [rad/s]
     for (unsigned int step = 0; step < scene.safety.maximum_periods * period;
          step += window)
       {
         stop_if_asked();
-        step_damped_until(trial.n_steps + window, block, trial);
+        step_damped_until(trial.n_steps + window,
+                          block,
+                          slowest > 0. ? creep_drop : 1.,
+                          trial);
+        if (scene.safety.adaptive_damping)
+          {
+            slowest = creep.look();
+            run.step.set_mass_damping(
+              slowest > 0.
+                ? std::min(full_damping, 2. * creep_damping * slowest)
+                : full_damping);
+          }
         const Motion now = measure(block);
         const double moved =
           norm<dim>(add<dim>(now.slip, -1., before)) * period / window;
@@ -337,10 +364,12 @@ namespace Keyblock
                            velocity[w - 2] > 0.;
         if (grows && slip > failure_slip * size)
           return Verdict::fails;
-        // a resultant that stays and moves the block as it would a free body
-        bool is_free = grows && w >= n_steady &&
-                       !is_as_good_as_at_rest(trial) &&
-                       agree(now.resultant, mass * trial.acceleration, 0.2);
+        // a resultant that stays and moves the block as it would a free body,
+        // or one whose neighbours go along
+        const double share = mass * trial.acceleration / now.resultant;
+        bool is_free       = grows && w >= n_steady &&
+                       !is_as_good_as_at_rest(trial) && share > least_share &&
+                       share < 1.25;
         for (unsigned int k = 2; is_free && k <= n_steady; ++k)
           is_free = agree(now.resultant, resultant[w - k], 0.1);
         if (is_free)
@@ -391,7 +420,7 @@ namespace Keyblock
         trial.phase        = 1;
         if (round > 0)
           run.step.begin_stage(quiet, number);
-        const bool rests = settle(block, first, trial);
+        const bool rests = settle(block, quiet.mass_damping, first, trial);
         trial.phase_1_seconds += MPI_Wtime() - begin;
         if (rests)
           return Verdict::holds;

@@ -4,9 +4,11 @@
 #include <deal.II/base/mpi.h>
 
 #include <keyblock/mpi.h>
-#include <keyblock/stop_request.h>
 
+#include <algorithm>
 #include <chrono>
+#include <iostream>
+#include <numeric>
 #include <thread>
 
 namespace Keyblock
@@ -14,6 +16,7 @@ namespace Keyblock
   namespace
   {
     MPI_Comm team           = MPI_COMM_WORLD;
+    MPI_Comm in_use         = MPI_COMM_WORLD;
     unsigned int team_count = 1;
     unsigned int my_team    = 0;
   } // namespace
@@ -23,7 +26,7 @@ namespace Keyblock
   MPI_Comm
   world()
   {
-    return team;
+    return in_use;
   }
 
 
@@ -68,11 +71,49 @@ namespace Keyblock
 
 
 
+  std::vector<unsigned int>
+  share_out(const std::vector<double> &costs, const unsigned int n_teams)
+  {
+    std::vector<unsigned int> order(costs.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(),
+                     order.end(),
+                     [&](const unsigned int a, const unsigned int b) {
+                       return costs[a] > costs[b];
+                     });
+    std::vector<unsigned int> team(costs.size());
+    std::vector<double> load(n_teams, 0.);
+    for (const unsigned int job : order)
+      {
+        const auto least = std::min_element(load.begin(), load.end());
+        team[job]        = least - load.begin();
+        *least += costs[job];
+      }
+    return team;
+  }
+
+
+
+  TeamScope::TeamScope()
+  {
+    in_use = team;
+    if (my_team > 0)
+      std::cout.setstate(std::ios::failbit); // the first team prints
+  }
+
+
+
+  TeamScope::~TeamScope()
+  {
+    in_use = MPI_COMM_WORLD;
+    std::cout.clear();
+  }
+
+
+
   void
   wait_for_all_teams()
   {
-    if (team_count == 1)
-      return;
     MPI_Request request;
     MPI_Ibarrier(MPI_COMM_WORLD, &request);
     for (int is_complete = 0; !is_complete;)
@@ -80,8 +121,6 @@ namespace Keyblock
         MPI_Test(&request, &is_complete, MPI_STATUS_IGNORE);
         if (!is_complete)
           std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        if (!is_complete && signal_received())
-          throw StopRequest{signal_received()};
       }
   }
 } // namespace Keyblock

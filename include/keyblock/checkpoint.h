@@ -68,8 +68,8 @@ namespace Keyblock
                 std::vector<SafetyFactor> &factors);
   void exchange(StateFile &file, const std::string &group, History &history);
 
-  /** Factors that other teams found and that are not among @p mine yet, by
-   * block (collective over all ranks of all teams). */
+  /** What all teams found in a stage, by block; @p mine: what this one did
+   * (collective over all ranks of all teams). */
   std::vector<SafetyFactor>
   gather_from_teams(const std::vector<SafetyFactor> &mine);
 

@@ -12,8 +12,8 @@
 
 namespace Keyblock
 {
-  /** All ranks that share this mesh: those of the run, or of this rank's team
-   * (teams.h). */
+  /** All ranks that share this mesh: those of the run, or within a TeamScope
+   * those of this rank's team (teams.h). */
   MPI_Comm world();
 
   unsigned int n_ranks();
@@ -72,6 +72,9 @@ namespace Keyblock
 
   /** Rank 0's @p text. */
   std::string text_of_root(const std::string &text);
+
+  /** That @p text which is not empty, of the first rank that has one. */
+  std::string any_text(const std::string &text);
 
   /** Copy rank 0's @p list, plain data only, to all ranks. */
   template <typename T>

@@ -60,6 +60,7 @@ namespace Keyblock
       double stable   = 0.; ///< a factor at which the block holds
       double unstable = 0.; ///< one at which it fails
       double hint     = 0.; ///< a guess
+      double limit    = 0.; ///< another, tried where that was wrong
       double onset    = 0.; ///< at which present forces exceed the strength
       double start    = 1.; ///< factor of the equilibrium to start from
     };
@@ -83,14 +84,19 @@ namespace Keyblock
      * is anything to leave. */
     bool freeze_beyond_reach(const unsigned int block);
 
-    /** Try either side of a guess, then further and further from it, until
-     * one factor holds and one fails. */
-    SafetyFactor::Outcome
-    find_bracket(Search &search, const double middle, double spread) const;
+    /** Try a factor on either side of @p guess, unless it is known by now
+     * whether the block holds there.
+     * @param onset as in Known */
+    void try_guess(Search &search,
+                   double guess,
+                   const double onset,
+                   const double spread) const;
 
-    /** @param hint, @p onset as in Known */
-    SafetyFactor::Outcome
-    bisect(Search &search, double hint, const double onset) const;
+    /** Try factors further and further from one that was tried, until one
+     * holds and one fails. */
+    SafetyFactor::Outcome find_bracket(Search &search, double spread) const;
+
+    SafetyFactor::Outcome bisect(Search &search, const Known &known) const;
     SafetyFactor::Outcome sweep(Search &search) const;
 
     const Scene<dim> &scene;

@@ -335,6 +335,7 @@ namespace Keyblock
     double maximum_periods     = 100.;
     unsigned int trial_steps   = 0;
     bool warm_start            = true;
+    bool adaptive_damping      = true;
     bool true_masses           = false;
     double reach               = 3.;
     std::vector<double> seismic_coefficient;

@@ -115,12 +115,32 @@ namespace Keyblock
     /** Blocks whose factor after a stage is wanted and not known. */
     std::vector<unsigned int>
     list_wanted_blocks(const unsigned int index) const;
+
+    /** Those of them that this team looks at. */
+    std::vector<unsigned int>
+    list_blocks_of_team(const unsigned int index) const;
+
+    /** Factor of a block that was removed in the stage. */
+    SafetyFactor factor_of_failed_block(StrengthReductionSearch<dim> &search,
+                                        const unsigned int block,
+                                        const unsigned int index,
+                                        const Snapshot<dim> &before);
+    SafetyFactor factor_of_standing_block(StrengthReductionSearch<dim> &search,
+                                          const unsigned int block,
+                                          const unsigned int index);
     void find_safety_factors(const unsigned int index,
                              const Snapshot<dim> &before,
                              const Snapshot<dim> &after);
 
-    /** Those of the present stage that are not known yet. */
+    /** Those of the present stage that are not known yet and are this team's,
+     * on the ranks of world(). */
     void find_remaining_factors();
+
+    /** The same for all teams, each with a copy of this run. */
+    void find_factors_in_teams();
+
+    /** This run on the ranks of world(), set up but without a state. */
+    std::unique_ptr<Simulation> copy_set_up() const;
     bool holds_when_strong(const unsigned int block,
                            const unsigned int index,
                            const Snapshot<dim> &before);
@@ -144,6 +164,9 @@ namespace Keyblock
      * (collective). */
     void save_if_due();
     void save();
+
+    /** Add all that restore() needs to @p file. */
+    void put_state(StateFile &file);
     void restore(StateFile &file);
     void exchange_progress(StateFile &file);
     void exchange_results(StateFile &file);
@@ -159,6 +182,8 @@ namespace Keyblock
     void count_cells();
 
     Scene<dim> scene;
+    std::string scene_file;
+    std::vector<std::string> overrides; ///< of its entries
     std::string folder;
     std::string checkpoint; ///< to continue from, or empty
     std::string command;    ///< that starts this run anew
@@ -180,6 +205,7 @@ namespace Keyblock
     RunReport report;
     std::vector<StageReport> stage_reports;
     std::vector<SafetyFactor> safety_factors;
+    std::unique_ptr<Simulation> team_copy;   ///< on the ranks of this team
     std::vector<unsigned int> removal_stage; ///< number, by block; 0: there
     bool is_trial        = false;            ///< nothing is recorded or printed
     double wall_start    = 0.;

@@ -27,6 +27,9 @@ namespace Keyblock
     /** Read the file called @p name. Throws InputError. */
     explicit StateFile(const std::string &name);
 
+    /** Read what image() of another file gave. */
+    explicit StateFile(std::vector<char> &image);
+
     ~StateFile();
     StateFile(const StateFile &)            = delete;
     StateFile &operator=(const StateFile &) = delete;
@@ -52,6 +55,9 @@ namespace Keyblock
      * their ranks if there are as many, else the sum to rank 0. */
     void exchange_shares(const std::string &entry,
                          const std::vector<double *> &values);
+
+    /** The bytes of a new file, the same on all ranks. */
+    std::vector<char> image() const;
 
     /**
      * Write a new file to disk under @p file_name, complete or not at all: as

@@ -133,6 +133,10 @@ namespace Keyblock
      */
     std::vector<double> dig(const unsigned int number);
 
+    /** Size of @p carried (as from `dig`) over the largest of this stage
+     * (collective) [-]. */
+    double share_of_dug(const std::vector<double> &carried) const;
+
     /** The next stage has dug nothing yet. */
     void
     forget_dug_cells()
@@ -149,6 +153,13 @@ namespace Keyblock
 
     /** Set all velocities to zero; the next kick is a half one. */
     void stop_motion();
+
+    /** Mass damping [1/s], for the rest of the stage. */
+    void
+    set_mass_damping(const double rate)
+    {
+      stage.mass_damping = rate;
+    }
 
     /** Call the masses' users after they changed, and take the step they
      * allow. Returns its length [s]. */

@@ -31,7 +31,7 @@ namespace Keyblock
    *    stopped at every peak of its energy, the block either comes to rest
    *    (resultant of loads, stresses and contact on it below 1e-5 of its
    *    weight, slip per period below 1e-6 of its size), which is stable, or
-   *    not.
+   *    not. Creep by one slow mode is damped by that mode's frequency.
    * 2. From rest, with viscous damping of the highest modes alone, its slip
    *    speeds up, which is unstable, or dies out.
    *
@@ -104,9 +104,12 @@ namespace Keyblock
 
     void change_strength(const unsigned int block, Trial &trial);
 
-    /** Phase 1; whether the block has come to rest. */
-    bool
-    settle(const unsigned int block, const Vector<dim> &first, Trial &trial);
+    /** Phase 1; whether the block has come to rest.
+     * @param full_damping of the masses, where no slow mode shows [1/s] */
+    bool settle(const unsigned int block,
+                const double full_damping,
+                const Vector<dim> &first,
+                Trial &trial);
 
     /** Phase 2. */
     Verdict
@@ -115,8 +118,11 @@ namespace Keyblock
     /** Whether the resultant is too small for the bracket to tell. */
     bool is_as_good_as_at_rest(const Trial &trial) const;
 
+    /** Steps of phase 1. All motion stops when the kinetic energy of the block
+     * is below @p drop of its peak. */
     void step_damped_until(const unsigned int last,
                            const unsigned int block,
+                           const double drop,
                            Trial &trial);
 
     /** Cells along the block's size. */

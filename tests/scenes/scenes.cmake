@@ -60,6 +60,11 @@ keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
 keyblock_scene(verification/factor_incline)
 keyblock_scene(verification/factor_incline REFERENCES factor_incline_teams
   RANKS 2 SET "Safety factor/Teams=2")
+# a slot between two blocks, one for each team
+keyblock_scene(verification/factor_incline REFERENCES factor_incline_two_blocks
+  RANKS 2 4 SET "Safety factor/Teams=2"
+  "Excavations/Names=uphill, downhill, slot" "Excavations/slot/Shape=box"
+  "Excavations/slot/Corner=-0.05, 0" "Excavations/slot/Size=0.1, 0.1")
 foreach(case 10_40 68_40 25_50 60_40 50_25 75_68 77_76 80_75)
   string(REPLACE "_" ";" angles ${case})
   list(GET angles 0 friction)

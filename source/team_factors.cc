@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Safety factors of a stage: by this run, or by teams with a copy of it each.
+#include <keyblock/mpi.h>
+#include <keyblock/simulation.h>
+#include <keyblock/teams.h>
+
+#include <algorithm>
+
+namespace Keyblock
+{
+  template <int dim>
+  void
+  Simulation<dim>::find_remaining_factors()
+  {
+    const Snapshot<dim> after               = take_snapshot(parts());
+    const std::vector<unsigned int> removed = removal_stage;
+    const bool was_converged                = is_converged;
+    try
+      {
+        find_safety_factors(present.index, present.before, after);
+      }
+    catch (const StopRequest &)
+      {
+        // what is saved is the end of the stage, and the factors found
+        recall(after, parts());
+        removal_stage = removed;
+        is_converged  = was_converged;
+        throw;
+      }
+  }
+
+
+
+  template <int dim>
+  std::unique_ptr<Simulation<dim>>
+  Simulation<dim>::copy_set_up() const
+  {
+    auto copy = std::make_unique<Simulation>(scene_file, overrides, folder);
+    copy->scene.output.write_vtu           = false;
+    copy->scene.output.checkpoint_interval = 0.;
+    copy->blocks                           = blocks;
+    copy->split                            = split;
+    copy->set_up();
+    return copy;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::find_factors_in_teams()
+  {
+    if (list_wanted_blocks(present.index).empty())
+      return;
+    StateFile file;
+    put_state(file);
+    std::vector<char> image = file.image();
+
+    const std::size_t n_known = safety_factors.size();
+    std::vector<SafetyFactor> found;
+    int signal = 0;
+    std::string failure;
+    {
+      const TeamScope scope;
+      try
+        {
+          if (team_copy == nullptr)
+            team_copy = copy_set_up();
+          StateFile state(image);
+          team_copy->restore(state);
+          team_copy->find_remaining_factors();
+        }
+      catch (const StopRequest &request)
+        {
+          signal = request.signal;
+        }
+      catch (const ComputationError &error)
+        {
+          failure = error.message;
+        }
+      if (team_copy != nullptr && team_copy->safety_factors.size() > n_known)
+        found.assign(team_copy->safety_factors.begin() + n_known,
+                     team_copy->safety_factors.end());
+    }
+
+    // what one team found is not lost where another was stopped
+    wait_for_all_teams();
+    for (const SafetyFactor &factor : gather_from_teams(found))
+      {
+        safety_factors.push_back(factor);
+        const bool is_printed = std::any_of(found.begin(),
+                                            found.end(),
+                                            [&](const SafetyFactor &mine) {
+                                              return mine.block == factor.block;
+                                            });
+        if (!is_printed)
+          print_factor(factor);
+      }
+    failure = any_text(failure);
+    AssertThrow(failure.empty(), ComputationError(failure));
+    signal = max_over_ranks(signal);
+    if (signal > 0)
+      throw StopRequest{signal};
+    save_if_due();
+  }
+
+  template void Simulation<2>::find_remaining_factors();
+  template void Simulation<3>::find_remaining_factors();
+  template void Simulation<2>::find_factors_in_teams();
+  template void Simulation<3>::find_factors_in_teams();
+} // namespace Keyblock
