@@ -103,7 +103,9 @@ namespace Keyblock
       }
     std::vector<double> costs;
     for (const unsigned int b : wanted)
-      costs.push_back(steps.count(b) > 0 ? steps[b] : most);
+      // the stage is run again for one that failed in it
+      costs.push_back((steps.count(b) > 0 ? steps[b] : most) +
+                      (removal_stage[b] == index + 2 ? present.n_done : 0));
 
     const std::vector<unsigned int> team = share_out(costs, n_teams());
     std::vector<unsigned int> mine;

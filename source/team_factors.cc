@@ -47,6 +47,41 @@ namespace Keyblock
 
 
   template <int dim>
+  typename Simulation<dim>::TeamResult
+  Simulation<dim>::find_factors_of_team(std::vector<char> &image)
+  {
+    TeamResult result;
+    const std::size_t n_known = safety_factors.size();
+    const TeamScope scope;
+    try
+      {
+        if (team_copy == nullptr)
+          team_copy = copy_set_up();
+        StateFile state(image);
+        team_copy->restore(state);
+        result.n_capped = team_copy->contact->n_capped;
+        team_copy->find_remaining_factors();
+      }
+    catch (const StopRequest &request)
+      {
+        result.signal = request.signal;
+      }
+    catch (const ComputationError &error)
+      {
+        result.failure = error.message;
+      }
+    if (team_copy == nullptr)
+      return result;
+    result.n_capped = team_copy->contact->n_capped - result.n_capped;
+    if (team_copy->safety_factors.size() > n_known)
+      result.factors.assign(team_copy->safety_factors.begin() + n_known,
+                            team_copy->safety_factors.end());
+    return result;
+  }
+
+
+
+  template <int dim>
   void
   Simulation<dim>::find_factors_in_teams()
   {
@@ -55,50 +90,25 @@ namespace Keyblock
     StateFile file;
     put_state(file);
     std::vector<char> image = file.image();
-
-    const std::size_t n_known = safety_factors.size();
-    std::vector<SafetyFactor> found;
-    int signal = 0;
-    std::string failure;
-    {
-      const TeamScope scope;
-      try
-        {
-          if (team_copy == nullptr)
-            team_copy = copy_set_up();
-          StateFile state(image);
-          team_copy->restore(state);
-          team_copy->find_remaining_factors();
-        }
-      catch (const StopRequest &request)
-        {
-          signal = request.signal;
-        }
-      catch (const ComputationError &error)
-        {
-          failure = error.message;
-        }
-      if (team_copy != nullptr && team_copy->safety_factors.size() > n_known)
-        found.assign(team_copy->safety_factors.begin() + n_known,
-                     team_copy->safety_factors.end());
-    }
+    const TeamResult mine   = find_factors_of_team(image);
+    contact->n_capped += mine.n_capped;
 
     // what one team found is not lost where another was stopped
     wait_for_all_teams();
-    for (const SafetyFactor &factor : gather_from_teams(found))
+    for (const SafetyFactor &factor : gather_from_teams(mine.factors))
       {
         safety_factors.push_back(factor);
-        const bool is_printed = std::any_of(found.begin(),
-                                            found.end(),
-                                            [&](const SafetyFactor &mine) {
-                                              return mine.block == factor.block;
-                                            });
-        if (!is_printed)
+        const bool is_mine = std::any_of(mine.factors.begin(),
+                                         mine.factors.end(),
+                                         [&](const SafetyFactor &other) {
+                                           return other.block == factor.block;
+                                         });
+        if (!is_mine) // those were printed as they were found
           print_factor(factor);
       }
-    failure = any_text(failure);
+    const std::string failure = any_text(mine.failure);
     AssertThrow(failure.empty(), ComputationError(failure));
-    signal = max_over_ranks(signal);
+    const int signal = max_over_ranks(mine.signal);
     if (signal > 0)
       throw StopRequest{signal};
     save_if_due();

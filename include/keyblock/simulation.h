@@ -139,6 +139,18 @@ namespace Keyblock
     /** The same for all teams, each with a copy of this run. */
     void find_factors_in_teams();
 
+    /** What a team found, or why it was stopped. */
+    struct TeamResult
+    {
+      std::vector<SafetyFactor> factors;
+      unsigned int n_capped = 0; ///< contact groups
+      int signal            = 0;
+      std::string failure; ///< message of a ComputationError
+    };
+
+    /** What this team finds from the state in @p image (StateFile::image). */
+    TeamResult find_factors_of_team(std::vector<char> &image);
+
     /** This run on the ranks of world(), set up but without a state. */
     std::unique_ptr<Simulation> copy_set_up() const;
     bool holds_when_strong(const unsigned int block,
