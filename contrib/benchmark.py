@@ -332,7 +332,7 @@ def factors(keyblock):
             r"set (Size|Size at excavation|Size at joints)\s*= ([\d.]+)$",
             file.read(), re.M)
     rows = []
-    for scale in (1.5, 1., 0.7):
+    for scale in (1.3, 1., 0.7):
         run = Run(keyblock, "study/powerhouse", "Safety factor/Teams=2",
                   "Output/Write VTU=false",
                   *(f"Mesh/{name}={scale * float(value)}"
