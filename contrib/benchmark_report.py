@@ -29,7 +29,9 @@ The same boxes from ten thousand to four million cells.
 """,
     "ranks": """## Two ranks
 
-Both cores share a memory bandwidth that one core nearly fills in 2D.
+Both cores share a memory bandwidth that one core nearly fills in 2D. The last
+column is a ceiling: two runs on one rank each at the same time, which never wait
+for each other, over one alone. Cores that others use too give ratios above two.
 """,
     "accuracy": """## Run time against error
 

@@ -36,6 +36,7 @@ SETTINGS += [(f"time step {safety} of the bound",
              for safety in (0.5, 0.7, 0.9, 0.95)]
 SETTINGS += [(f"mass damping {ratio}", {"Safety factor/Mass damping": ratio})
              for ratio in (0.1, 0.2, 0.3, 0.4, 0.5)]
+SETTINGS += [("no adaptive damping", {"Safety factor/Adaptive damping": "false"})]
 SETTINGS += [(f"damping ratio {ratio}", {"Safety factor/Damping ratio": ratio})
              for ratio in (0.1, 0.2, 0.3, 0.4, 0.5)]
 SETTINGS += [(f"window {window}", {"Safety factor/Window": window})
