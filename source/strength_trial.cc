@@ -364,14 +364,15 @@ namespace Keyblock
                            velocity[w - 2] > 0.;
         if (grows && slip > failure_slip * size)
           return Verdict::fails;
-        // a resultant that stays and moves the block as it would a free body,
-        // or one whose neighbours go along
+        // a resultant that stays and moves the block as it would a free body;
+        // one whose neighbours go along may be held by their stiffness later
         const double share = mass * trial.acceleration / now.resultant;
         bool is_free       = grows && w >= n_steady &&
                        !is_as_good_as_at_rest(trial) && share > least_share &&
                        share < 1.25;
         for (unsigned int k = 2; is_free && k <= n_steady; ++k)
-          is_free = agree(now.resultant, resultant[w - k], 0.1);
+          is_free =
+            agree(now.resultant, resultant[w - k], share > 0.8 ? 0.1 : 0.01);
         if (is_free)
           return Verdict::fails;
       }
