@@ -38,9 +38,3 @@ keyblock_restart(factor_incline_stopped verification/factor_incline
 # cells at rest
 keyblock_restart(pulse verification/pulse RANKS 2
   ARGUMENTS --ranks 2 --set "Time stepping/Rest speed=1e-3")
-# two teams, each with the safety factor of a block
-keyblock_restart(factor_teams verification/factor_incline RANKS 2
-  ARGUMENTS --ranks 2 --set "Safety factor/Teams=2"
-  --set "Excavations/Names=uphill, downhill, slot"
-  --set "Excavations/slot/Shape=box" --set "Excavations/slot/Corner=-0.05, 0"
-  --set "Excavations/slot/Size=0.1, 0.1")
