@@ -587,7 +587,9 @@ namespace Keyblock
                       teams,
                       "Teams of ranks that look for the factors of different "
                       "blocks at the same time; all compute the stages. "
-                      "A divisor of the number of ranks.",
+                      "A divisor of the number of ranks. Without a signal, "
+                      "checkpoints wait until all factors of a stage are "
+                      "found.",
                       Integer(1));
     prm.add_parameter("Method",
                       method,
