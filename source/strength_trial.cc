@@ -42,11 +42,16 @@ namespace Keyblock
      * mode: what is open then goes back to the first one, which damps [-]. */
     constexpr double watch_periods = 20.;
 
-    /** Share of the acceleration of a free body that slip has at least where
-     * what the block slips on moves with it [-]. */
-    constexpr double least_share = 0.3;
+    // acceleration of slip over that of a free body under the resultant [-]
+    constexpr double least_share = 0.3; ///< what the block slips on moves along
+    constexpr double free_share  = 0.8; ///< the block moves by itself
+    constexpr double most_share  = 1.25;
 
-    /** Windows over which a resultant that moves the block must stay. */
+    // change of a resultant that moves the block to failure [-]
+    constexpr double steady_alone = 0.1;  ///< of a block that moves by itself
+    constexpr double steady_along = 0.01; ///< of one whose neighbours go along
+
+    /** Windows over which such a resultant must stay. */
     constexpr unsigned int n_steady = 6;
 
     /** Times that a block which neither rests nor speeds up is looked at. */
@@ -369,10 +374,10 @@ namespace Keyblock
         const double share = mass * trial.acceleration / now.resultant;
         bool is_free       = grows && w >= n_steady &&
                        !is_as_good_as_at_rest(trial) && share > least_share &&
-                       share < 1.25;
+                       share < most_share;
+        const double change = share > free_share ? steady_alone : steady_along;
         for (unsigned int k = 2; is_free && k <= n_steady; ++k)
-          is_free =
-            agree(now.resultant, resultant[w - k], share > 0.8 ? 0.1 : 0.01);
+          is_free = agree(now.resultant, resultant[w - k], change);
         if (is_free)
           return Verdict::fails;
       }
