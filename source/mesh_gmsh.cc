@@ -34,6 +34,11 @@ namespace Keyblock
      * 3D, number 10, gives another mesh in every run. */
     constexpr int frontal_delaunay_2d = 6, delaunay_3d = 1;
 
+    /** Gmsh's numbers of the ways to pair triangles to quadrilaterals: the best
+     * pairing of all, which not every mesh has, and one pair after the other.
+     */
+    constexpr int blossom = 1, one_by_one = 0;
+
     /** What is left in the model after everything was cut by everything. */
     struct Pieces
     {
@@ -390,6 +395,47 @@ namespace Keyblock
       gmsh::model::mesh::field::setAsBackgroundMesh(least);
     }
 
+    /** Mesh the current model; returns Gmsh's first error, empty if there was
+     * none. Gmsh must not throw meanwhile: an exception in one of its threads
+     * ends the program. */
+    std::string
+    mesh_model(const int dim)
+    {
+      gmsh::option::setNumber("General.AbortOnError", 0.);
+      gmsh::logger::start();
+      gmsh::model::mesh::generate(dim);
+      std::vector<std::string> log;
+      gmsh::logger::get(log);
+      gmsh::logger::stop();
+      gmsh::option::setNumber("General.AbortOnError", 2.);
+      const std::string mark = "Error: ";
+      for (const std::string &line : log)
+        if (line.compare(0, mark.size(), mark) == 0)
+          return line.substr(mark.size());
+      return "";
+    }
+
+    /** Mesh the current model with quadrilaterals, or, if triangles cannot be
+     * paired, with triangles, which are cut later. */
+    std::string
+    mesh_with_quadrilaterals()
+    {
+      std::string reason;
+      gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
+      for (const int pairing : {blossom, one_by_one})
+        {
+          gmsh::option::setNumber("Mesh.RecombineAll", 1);
+          gmsh::option::setNumber("Mesh.RecombinationAlgorithm", pairing);
+          reason = mesh_model(2);
+          if (reason.empty())
+            return "";
+          gmsh::model::mesh::clear();
+        }
+      gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 0);
+      gmsh::option::setNumber("Mesh.RecombineAll", 0);
+      return mesh_model(2);
+    }
+
     template <int dim>
     MixedMesh
     generate(const Scene<dim> &scene)
@@ -400,12 +446,10 @@ namespace Keyblock
       set_sizes<dim>(scene.meshing, pieces, extent);
       gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
       gmsh::option::setNumber("Mesh.Algorithm3D", delaunay_3d);
-      if (dim == 2)
-        {
-          gmsh::option::setNumber("Mesh.RecombineAll", 1);
-          gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
-        }
-      gmsh::model::mesh::generate(dim);
+      const std::string reason =
+        dim == 2 ? mesh_with_quadrilaterals() : mesh_model(dim);
+      if (!reason.empty())
+        throw std::runtime_error(reason);
       return read_gmsh_model<dim>();
     }
   } // namespace
@@ -433,13 +477,12 @@ namespace Keyblock
       std::count_if(mixed.cells.begin(),
                     mixed.cells.end(),
                     [](const MixedMesh::Element &cell) {
-                      return cell.vertices.size() != 4;
+                      return cell.vertices.size() > 4;
                     });
     AssertThrow(n_wrong == 0,
                 InputError("Gmsh left " + std::to_string(n_wrong) +
-                           " cells that are no " +
-                           (dim == 2 ? "quadrilaterals" : "tetrahedra") + "; " +
-                           remedy + "."));
+                           " cells with more than four corners; " + remedy +
+                           "."));
     return cut_mesh<dim>(mixed, "The mesh made by Gmsh", remedy);
   }
 

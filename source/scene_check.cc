@@ -4,6 +4,7 @@
 
 #include <keyblock/errors.h>
 #include <keyblock/expression.h>
+#include <keyblock/polygon.h>
 #include <keyblock/scene.h>
 
 #include <cmath>
@@ -36,6 +37,17 @@ namespace Keyblock
     {
       if (!text.empty())
         Expression<dim>(text, n_components, entry);
+    }
+
+    void
+    require_simple(const std::vector<Point<2>> &corners,
+                   const std::string &entry)
+    {
+      const std::string fault = fault_of_polygon(corners);
+      require(fault.empty(),
+              "The polygon '" + entry + "' " + fault +
+                "; give its corners in the order in which they follow each "
+                "other along its outline.");
     }
 
     template <int dim>
@@ -80,6 +92,8 @@ namespace Keyblock
           require(meshing.generator == "gmsh",
                   "The entry 'Mesh/Generator' is " + meshing.generator +
                     ", which cannot mesh a polygon; set it to gmsh.");
+          if constexpr (dim == 2)
+            require_simple(domain.polygon, "Domain/Polygon");
         }
       require((domain.shape == "file") == (meshing.generator == "file"),
               "The entries 'Domain/Shape' (" + domain.shape +
@@ -158,10 +172,13 @@ namespace Keyblock
               "The entry '" + section + "/Shape' is " + shape +
                 ", which needs Dimension 2; use box or extruded polygon.");
       if (shape == "polygon" || shape == "extruded polygon")
-        require(excavation.vertices.size() >= 3,
-                "The entry '" + section + "/Vertices' has " +
-                  std::to_string(excavation.vertices.size()) +
-                  " corners; a polygon needs at least three.");
+        {
+          require(excavation.vertices.size() >= 3,
+                  "The entry '" + section + "/Vertices' has " +
+                    std::to_string(excavation.vertices.size()) +
+                    " corners; a polygon needs at least three.");
+          require_simple(excavation.vertices, section + "/Vertices");
+        }
       if (shape == "extruded polygon")
         require(excavation.from < excavation.to,
                 "The entry '" + section + "/From' (" + number(excavation.from) +
@@ -184,6 +201,23 @@ namespace Keyblock
                 "The entry '" + section + "/Size' has " +
                   std::to_string(excavation.size.size()) + " numbers; give " +
                   std::to_string(dim) + ".");
+    }
+
+    /** Corners of a polygon in space, by two axes of its plane. */
+    template <int dim>
+    std::vector<Point<2>>
+    corners_in_plane(const Joint<dim> &joint)
+    {
+      const Tensor<1, dim> normal = joint.normal();
+      unsigned int steepest       = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(normal[d]) > std::abs(normal[steepest]))
+          steepest = d;
+      std::vector<Point<2>> corners;
+      for (const Point<dim> &vertex : joint.vertices)
+        corners.emplace_back(vertex[steepest == 0 ? 1 : 0],
+                             vertex[steepest == dim - 1 ? dim - 2 : dim - 1]);
+      return corners;
     }
 
     template <int dim>
@@ -231,6 +265,8 @@ namespace Keyblock
                     "A corner of '" + section + "/Vertices' is " +
                       number(joint.distance(vertex)) +
                       " m off the plane of the others; joints are plane.");
+          if (dim == 3)
+            require_simple(corners_in_plane(joint), section + "/Vertices");
         }
       const double tangent =
         std::tan(joint.friction_angle * dealii::numbers::PI / 180.);
