@@ -283,9 +283,7 @@ namespace Keyblock
                 }
               if (j != none && other != none && dug == 0)
                 {
-                  const int side =
-                    scene.joints[j]->distance(mesh.cell_center(c)) > 0. ? 1
-                                                                        : -1;
+                  const int side = mesh.side[c][f];
                   result.blocks[b].joint_area[j] +=
                     mesh.face_area_vector(c, f).norm();
                   if (result.block_of_cell[other] != b)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/disjoint_sets.h>
 #include <keyblock/interface.h>
 
 #include <algorithm>
@@ -10,37 +11,6 @@ namespace Keyblock
 {
   namespace
   {
-    /** Sets that grow together; the root of a set is its least member. */
-    class DisjointSets
-    {
-    public:
-      explicit DisjointSets(const unsigned int n)
-        : parent(n)
-      {
-        std::iota(parent.begin(), parent.end(), 0);
-      }
-
-      unsigned int
-      root(unsigned int i)
-      {
-        while (parent[i] != i)
-          i = parent[i] = parent[parent[i]];
-        return i;
-      }
-
-      void
-      join(const unsigned int a, const unsigned int b)
-      {
-        const unsigned int ra = root(a), rb = root(b);
-        parent[std::max(ra, rb)] = std::min(ra, rb);
-      }
-
-    private:
-      std::vector<unsigned int> parent;
-    };
-
-
-
     template <int dim>
     unsigned int
     local_vertex(const Mesh<dim> &mesh,
@@ -171,7 +141,6 @@ namespace Keyblock
                    const Blocks<dim> &blocks,
                    const std::vector<unsigned int> &kept,
                    const bool weld_infinite_blocks,
-                   const Scene<dim> &scene,
                    SplitMesh<dim> &result)
         : mesh(mesh)
         , blocks(blocks)
@@ -185,7 +154,7 @@ namespace Keyblock
         number_vertices();
         for (unsigned int s = 2; s <= blocks.n_stages; ++s)
           alive.push_back(join_alive(s));
-        list_joint_faces(scene);
+        list_joint_faces();
       }
 
       /** Vertex before the split of each new vertex. */
@@ -300,13 +269,13 @@ namespace Keyblock
       }
 
       void
-      list_joint_faces(const Scene<dim> &scene)
+      list_joint_faces()
       {
         for_each_split_face([&](const unsigned int c,
                                 const unsigned int f,
                                 const unsigned int other) {
           const unsigned int joint = mesh.joint[c][f];
-          if (scene.joints[joint]->distance(mesh.cell_center(c)) > 0.)
+          if (mesh.side[c][f] > 0)
             return;
           unsigned int other_face = 0;
           while (mesh.neighbor[other][other_face] != c)
@@ -509,7 +478,6 @@ namespace Keyblock
                                  kept,
                                  !is_active ||
                                    scene.contact.weld_infinite_blocks,
-                                 scene,
                                  result);
     find_neighbors(result.mesh);
     result.hanging = list_hanging_vertices(result.mesh);

@@ -208,6 +208,47 @@ namespace Keyblock
 
 
   template <int dim>
+  bool
+  turn_alike(const typename Mesh<dim>::FaceVertices &a,
+             const typename Mesh<dim>::FaceVertices &b)
+  {
+    if constexpr (dim == 2)
+      return a == b;
+    else
+      {
+        const auto next_of = [](const auto &face, const unsigned int vertex) {
+          static constexpr unsigned int around[4] = {0, 1, 3, 2};
+          unsigned int i                          = 0;
+          while (face[around[i]] != vertex)
+            ++i;
+          return face[around[(i + 1) % 4]];
+        };
+        return next_of(a, a[0]) == next_of(b, a[0]);
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  least_over_median_thickness(const Mesh<dim> &mesh)
+  {
+    std::vector<double> thickness;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        double largest = 0.;
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          largest = std::max(largest, mesh.face_area_vector(c, f).norm());
+        thickness.push_back(mesh.cell_volume(c) / largest);
+      }
+    const auto middle = thickness.begin() + thickness.size() / 2;
+    std::nth_element(thickness.begin(), middle, thickness.end());
+    return *std::min_element(thickness.begin(), thickness.end()) / *middle;
+  }
+
+
+
+  template <int dim>
   MeshQuality
   measure_quality(const Mesh<dim> &mesh)
   {
@@ -225,6 +266,12 @@ namespace Keyblock
   template struct Mesh<3>;
   template void find_neighbors(Mesh<2> &);
   template void find_neighbors(Mesh<3> &);
+  template bool turn_alike<2>(const Mesh<2>::FaceVertices &,
+                              const Mesh<2>::FaceVertices &);
+  template bool turn_alike<3>(const Mesh<3>::FaceVertices &,
+                              const Mesh<3>::FaceVertices &);
+  template double least_over_median_thickness(const Mesh<2> &);
+  template double least_over_median_thickness(const Mesh<3> &);
   template MeshQuality measure_quality(const Mesh<2> &);
   template MeshQuality measure_quality(const Mesh<3> &);
 } // namespace Keyblock

@@ -186,11 +186,12 @@ namespace Keyblock
           }
       }
 
-      void
-      cut_face(const MixedMesh::Element &face)
+      /** The pieces of a face, turning around its normal as the face does. */
+      std::vector<typename Mesh<dim>::FaceVertices>
+      cut_face(const Corners &corners)
       {
-        const Corners &corners = face.vertices;
-        const unsigned int n   = corners.size();
+        std::vector<typename Mesh<dim>::FaceVertices> pieces;
+        const unsigned int n = corners.size();
         for (unsigned int i = 0; i < n; ++i)
           {
             const unsigned int before = corners[(i + n - 1) % n];
@@ -203,8 +204,11 @@ namespace Keyblock
                 piece[1] = center_of(sorted({corners[i], after}));
                 piece[2] = center_of(sorted({corners[i], before}));
               }
-            mesh.boundary_faces.push_back({piece, face.id});
+            else if (i == 1)
+              std::swap(piece.front(), piece.back());
+            pieces.push_back(piece);
           }
+        return pieces;
       }
 
     private:
@@ -439,6 +443,16 @@ namespace Keyblock
   MixedMesh
   read_gmsh_model()
   {
+    std::unordered_map<std::size_t, unsigned int> vertex_of_tag;
+    return read_gmsh_model<dim>(vertex_of_tag);
+  }
+
+
+
+  template <int dim>
+  MixedMesh
+  read_gmsh_model(std::unordered_map<std::size_t, unsigned int> &vertex_of_tag)
+  {
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parameters;
     gmsh::model::mesh::getNodes(
@@ -448,7 +462,6 @@ namespace Keyblock
       node_of_tag[tags[i]] = i;
 
     MixedMesh mixed;
-    std::unordered_map<std::size_t, unsigned int> vertex_of_tag;
     const TaggedElements cells = get_elements(dim);
     for (std::size_t c = 0; c < cells.ids.size(); ++c)
       {
@@ -512,19 +525,28 @@ namespace Keyblock
         }
       else
         cutter.cut_cell(cell);
+    using FaceVertices   = typename Mesh<dim>::FaceVertices;
+    const auto pieces_of = [&](const MixedMesh::Element &face) {
+      return is_pure ? std::vector<FaceVertices>{in_lexicographic_order<
+                         Mesh<dim>::n_face_vertices>(face.vertices)}
+                     : cutter.cut_face(face.vertices);
+    };
     for (const MixedMesh::Element &face : outer_faces<dim>(mixed))
-      if (is_pure)
-        mesh.boundary_faces.push_back(
-          {in_lexicographic_order<Mesh<dim>::n_face_vertices>(face.vertices),
-           face.id});
-      else
-        cutter.cut_face(face);
+      for (const FaceVertices &piece : pieces_of(face))
+        mesh.boundary_faces.push_back({piece, face.id});
+    for (const MixedMesh::Element &face : mixed.marked_faces)
+      for (const FaceVertices &piece : pieces_of(face))
+        mesh.marked_faces.push_back({piece, face.id});
     make_positive(mesh, origin, remedy);
     check_sides(mesh, origin, remedy);
     order_cells(mesh);
     return mesh;
   }
 
+  template MixedMesh
+  read_gmsh_model<2>(std::unordered_map<std::size_t, unsigned int> &);
+  template MixedMesh
+  read_gmsh_model<3>(std::unordered_map<std::size_t, unsigned int> &);
   template MixedMesh read_gmsh_model<2>();
   template MixedMesh read_gmsh_model<3>();
   template Mesh<2>

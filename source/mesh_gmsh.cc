@@ -1,34 +1,37 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A mesh that follows joints and excavations, made by Gmsh in this process.
-#include <deal.II/base/tensor.h>
-
+// A mesh that follows joints and excavations, made by Gmsh in this process,
+// exactly or with the joints cut into it.
 #include <gmsh.h>
 #include <keyblock/errors.h>
+#include <keyblock/excavation_region.h>
+#include <keyblock/gmsh_model.h>
+#include <keyblock/joint_cut.h>
 #include <keyblock/mesh_cut.h>
+#include <keyblock/mesh_improvement.h>
+#include <keyblock/mesh_size.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <iomanip>
+#include <map>
+#include <sstream>
 #include <stdexcept>
 
 namespace Keyblock
 {
   namespace
   {
-    namespace occ = gmsh::model::occ;
     using gmsh::vectorpair;
 
-    /** Size of the elements that Gmsh starts from over that of the pieces they
-     * are cut into: halved edges in 2D; in 3D the cube root of the volume of a
-     * quarter of a regular tetrahedron is 0.31 of its edge, and Gmsh's are not
-     * regular. */
+    /** Wanted edges of simplices over the size of the cells they are cut into:
+     * the square root of the area of a third of a regular triangle is 0.38 of
+     * its edge; the cube root of the volume of a quarter of a regular
+     * tetrahedron 0.31, and Gmsh's are not regular. */
     template <int dim>
-    constexpr double coarsening = (dim == 2) ? 2. : 3.;
+    constexpr double simplex_coarsening = (dim == 2) ? 2.6 : 3.;
 
-    /** Bounds for the points that stand for a curve, or for the diagonal of a
-     * surface, when distances from it are measured. */
-    constexpr double least_samples = 20., most_samples = 1000.,
-                     most_surface_samples = 200.;
+    /** The same for Gmsh's quadrilaterals, which it halves. */
+    constexpr double quadrilateral_coarsening = 2.;
 
     /** Gmsh's numbers of the mesh algorithms used. Its faster parallel one in
      * 3D, number 10, gives another mesh in every run. */
@@ -39,371 +42,27 @@ namespace Keyblock
      */
     constexpr int blossom = 1, one_by_one = 0;
 
-    /** What is left in the model after everything was cut by everything. */
-    struct Pieces
-    {
-      vectorpair domain, excavations, joints;
-    };
-
+    /** With more joints the exact way is not tried: it takes long and small
+     * features are certain. */
     template <int dim>
-    Point<3>
-    in_space(const Point<dim> &p)
-    {
-      Point<3> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = p[d];
-      return result;
-    }
+    constexpr unsigned int most_exact_joints = (dim == 2) ? 40 : 12;
 
-    int
-    add_point(const Point<3> &p)
-    {
-      return occ::addPoint(p[0], p[1], p[2]);
-    }
+    /** An exact mesh is taken if its thinnest cell has this part of the median
+     * altitude [-]. */
+    constexpr double least_thinness = 0.1;
 
-    int
-    add_polygon(const std::vector<Point<3>> &corners)
-    {
-      std::vector<int> points, lines;
-      for (const Point<3> &corner : corners)
-        points.push_back(add_point(corner));
-      for (unsigned int i = 0; i < points.size(); ++i)
-        lines.push_back(
-          occ::addLine(points[i], points[(i + 1) % points.size()]));
-      return occ::addPlaneSurface({occ::addCurveLoop(lines)});
-    }
+    /** Cells of exact meshes below this quality are mended. */
+    constexpr double wanted_quality = 0.35;
 
-    int
-    add_prism(const std::vector<Point<3>> &base, const Tensor<1, 3> &height)
-    {
-      vectorpair created;
-      occ::extrude(
-        {{2, add_polygon(base)}}, height[0], height[1], height[2], created);
-      for (const auto &[dimension, tag] : created)
-        if (dimension == 3)
-          return tag;
-      throw std::runtime_error("an extruded polygon has no volume");
-    }
-
-    /** A disc bounded by true arcs, by two perpendicular radius vectors. */
-    int
-    add_disc(const Point<3> &center,
-             const Tensor<1, 3> &first,
-             const Tensor<1, 3> &second)
-    {
-      const int middle              = add_point(center);
-      const std::vector<int> points = {add_point(center + first),
-                                       add_point(center + second),
-                                       add_point(center - first),
-                                       add_point(center - second)};
-      std::vector<int> arcs;
-      for (unsigned int i = 0; i < points.size(); ++i)
-        arcs.push_back(
-          occ::addCircleArc(points[i], middle, points[(i + 1) % 4]));
-      const int disc = occ::addPlaneSurface({occ::addCurveLoop(arcs)});
-      occ::remove({{0, middle}});
-      return disc;
-    }
-
-    template <int dim>
-    int
-    add_parallelepiped(const Point<dim> &corner,
-                       const std::vector<Tensor<1, dim>> &edges)
-    {
-      const std::vector<Point<3>> base = {in_space<dim>(corner),
-                                          in_space<dim>(corner + edges[0]),
-                                          in_space<dim>(corner + edges[0] +
-                                                        edges[1]),
-                                          in_space<dim>(corner + edges[1])};
-      return dim == 2
-               ? add_polygon(base)
-               : add_prism(base, in_space<dim>(Point<dim>(edges.back())));
-    }
-
-    template <int dim>
-    int
-    add_box(const Point<dim> &corner, const std::vector<double> &size)
-    {
-      std::vector<Tensor<1, dim>> edges(dim);
-      for (unsigned int d = 0; d < dim; ++d)
-        edges[d][d] = size[d];
-      return add_parallelepiped<dim>(corner, edges);
-    }
-
-    template <int dim>
-    int
-    add_domain(const Domain<dim> &domain)
-    {
-      if (domain.shape == "box")
-        return add_box<dim>(domain.corner, domain.size);
-      if (domain.shape == "parallelepiped")
-        return add_parallelepiped<dim>(domain.corner,
-                                       {domain.edges.begin(),
-                                        domain.edges.end()});
-      std::vector<Point<3>> corners;
-      for (const Point<dim> &corner : domain.polygon)
-        corners.push_back(in_space<dim>(corner));
-      return add_polygon(corners);
-    }
-
-    template <int dim>
-    int
-    add_excavation(const Excavation<dim> &excavation)
-    {
-      if (excavation.shape == "box")
-        return add_box<dim>(excavation.corner, excavation.size);
-      if (excavation.shape == "circle")
-        return add_disc(in_space<2>(excavation.center),
-                        Point<3>(excavation.radius, 0., 0.),
-                        Point<3>(0., excavation.radius, 0.));
-      std::vector<Point<3>> corners;
-      for (const Point<2> &vertex : excavation.vertices)
-        corners.push_back(dim == 2
-                            ? in_space<2>(vertex)
-                            : Point<3>(vertex[0], excavation.from, vertex[1]));
-      return dim == 2
-               ? add_polygon(corners)
-               : add_prism(corners,
-                           Point<3>(0., excavation.to - excavation.from, 0.));
-    }
-
-    /** A joint; an infinite one reaches beyond the ball of radius @p reach
-     * about @p center. */
-    int
-    add_joint(const Joint<2> &joint, const Point<2> &center, const double reach)
-    {
-      const Tensor<1, 2> normal  = joint.normal();
-      const Tensor<1, 2> along   = Point<2>(normal[1], -normal[0]);
-      std::vector<Point<2>> ends = joint.vertices;
-      if (joint.extent == "disc")
-        ends = {joint.point - joint.radius * along,
-                joint.point + joint.radius * along};
-      if (joint.extent == "infinite")
-        {
-          const Point<2> middle = center - joint.distance(center) * normal;
-          ends = {middle - reach * along, middle + reach * along};
-        }
-      return occ::addLine(add_point(in_space<2>(ends[0])),
-                          add_point(in_space<2>(ends[1])));
-    }
-
-    int
-    add_joint(const Joint<3> &joint, const Point<3> &center, const double reach)
-    {
-      const Tensor<1, 3> normal = joint.normal();
-      const unsigned int axis =
-        std::abs(normal[0]) < 0.6 ? 0 : (std::abs(normal[1]) < 0.6 ? 1 : 2);
-      Tensor<1, 3> unit;
-      unit[axis]                = 1.;
-      Tensor<1, 3> first        = cross_product_3d(normal, unit);
-      first                     = first / first.norm();
-      const Tensor<1, 3> second = cross_product_3d(normal, first);
-      if (joint.extent == "disc")
-        return add_disc(joint.point,
-                        joint.radius * first,
-                        joint.radius * second);
-      std::vector<Point<3>> corners;
-      if (joint.extent == "infinite")
-        {
-          const Point<3> middle = center - joint.distance(center) * normal;
-          corners               = {middle - reach * first - reach * second,
-                                   middle + reach * first - reach * second,
-                                   middle + reach * first + reach * second,
-                                   middle - reach * first + reach * second};
-        }
-      else
-        for (const Point<3> &vertex : joint.vertices)
-          corners.push_back(vertex - joint.distance(vertex) * normal);
-      return add_polygon(corners);
-    }
-
-    /** Everything inside or on the boundary of @p entities. */
-    std::set<std::pair<int, int>>
-    closure(const vectorpair &entities)
-    {
-      std::set<std::pair<int, int>> found(entities.begin(), entities.end());
-      vectorpair waiting = entities;
-      while (!waiting.empty())
-        {
-          const std::pair<int, int> entity = waiting.back();
-          waiting.pop_back();
-          vectorpair parts, embedded;
-          if (entity.first > 0)
-            gmsh::model::getBoundary({entity}, parts, false, false, false);
-          if (entity.first > 1)
-            gmsh::model::mesh::getEmbedded(entity.first,
-                                           entity.second,
-                                           embedded);
-          parts.insert(parts.end(), embedded.begin(), embedded.end());
-          for (const auto &part : parts)
-            if (found.insert(part).second)
-              waiting.push_back(part);
-        }
-      return found;
-    }
-
-    /** Remove all that is not part of the domain, from the model and from
-     * @p pieces: joints and excavations may reach beyond. */
-    void
-    clip(Pieces &pieces)
-    {
-      const auto inside     = closure(pieces.domain);
-      const auto is_outside = [&inside](const std::pair<int, int> &entity) {
-        return inside.count(entity) == 0;
-      };
-      vectorpair entities;
-      gmsh::model::getEntities(entities);
-      std::reverse(entities.begin(), entities.end());
-      vectorpair outside;
-      std::copy_if(entities.begin(),
-                   entities.end(),
-                   std::back_inserter(outside),
-                   is_outside);
-      gmsh::model::removeEntities(outside);
-      for (vectorpair *list : {&pieces.excavations, &pieces.joints})
-        list->erase(std::remove_if(list->begin(), list->end(), is_outside),
-                    list->end());
-    }
-
-    /** The least box around the domain. */
-    struct Extent
-    {
-      Point<3> low, high;
-    };
-
-    /** Domain, excavations and joints, cut by each other and clipped. */
-    template <int dim>
-    Pieces
-    build_model(const Scene<dim> &scene, Extent &extent)
-    {
-      const vectorpair domain = {{dim, add_domain<dim>(scene.domain)}};
-      Point<3> &low           = extent.low;
-      Point<3> &high          = extent.high;
-      occ::getBoundingBox(dim,
-                          domain[0].second,
-                          low[0],
-                          low[1],
-                          low[2],
-                          high[0],
-                          high[1],
-                          high[2]);
-      Point<dim> center;
-      for (unsigned int d = 0; d < dim; ++d)
-        center[d] = (low[d] + high[d]) / 2.;
-
-      vectorpair tools;
-      for (const auto &excavation : scene.excavations)
-        tools.emplace_back(dim, add_excavation<dim>(*excavation));
-      for (const auto &joint : scene.joints)
-        tools.emplace_back(dim - 1,
-                           add_joint(*joint, center, low.distance(high)));
-
-      Pieces pieces{domain, {}, {}};
-      vectorpair all_pieces;
-      std::vector<vectorpair> pieces_of;
-      if (!tools.empty())
-        {
-          occ::fragment(domain, tools, all_pieces, pieces_of);
-          pieces.domain = pieces_of[0];
-        }
-      for (unsigned int i = 1; i < pieces_of.size(); ++i)
-        {
-          vectorpair &list = (i <= scene.excavations.size())
-                               ? pieces.excavations
-                               : pieces.joints;
-          list.insert(list.end(), pieces_of[i].begin(), pieces_of[i].end());
-        }
-      occ::synchronize();
-      clip(pieces);
-      return pieces;
-    }
-
-    /** A size field that grows from @p size on @p entities (curves in 2D,
-     * surfaces in 3D) to @p far_size at @p distance. Lengths in m. */
-    template <int dim>
-    int
-    add_size_field(const vectorpair &entities,
-                   const double size,
-                   const double far_size,
-                   const double distance)
-    {
-      namespace field = gmsh::model::mesh::field;
-      std::vector<double> tags;
-      double longest = 0.;
-      for (const auto &[dimension, tag] : entities)
-        {
-          double measure;
-          occ::getMass(dimension, tag, measure);
-          longest = std::max(longest, std::pow(measure, 1. / dimension));
-          tags.push_back(tag);
-        }
-      const int near = field::add("Distance");
-      field::setNumbers(near, dim == 2 ? "CurvesList" : "SurfacesList", tags);
-      field::setNumber(near,
-                       "NumPointsPerCurve",
-                       std::clamp(std::ceil(longest / size),
-                                  least_samples,
-                                  dim == 2 ? most_samples
-                                           : most_surface_samples));
-      const int growth = field::add("Threshold");
-      field::setNumber(growth, "InField", near);
-      field::setNumber(growth, "SizeMin", size);
-      field::setNumber(growth, "SizeMax", far_size);
-      field::setNumber(growth, "DistMin", 0.);
-      field::setNumber(growth, "DistMax", distance);
-      return growth;
-    }
-
-    /** Ask for the sizes of the section Mesh, no others. */
-    template <int dim>
-    void
-    set_sizes(const Meshing<dim> &meshing,
-              const Pieces &pieces,
-              const Extent &extent)
-    {
-      for (const std::string source :
-           {"ExtendFromBoundary", "FromPoints", "FromCurvature"})
-        gmsh::option::setNumber("Mesh.MeshSize" + source, 0.);
-      const double size = coarsening<dim> * meshing.size;
-      gmsh::option::setNumber("Mesh.MeshSizeMax", size);
-
-      double distance = meshing.grading_distance;
-      if (distance == 0.)
-        for (unsigned int d = 0; d < dim; ++d)
-          distance = std::max(distance, (extent.high[d] - extent.low[d]) / 4.);
-      vectorpair outline;
-      if (!pieces.excavations.empty())
-        gmsh::model::getBoundary(pieces.excavations, outline, true, false);
-
-      std::vector<double> fields;
-      if (meshing.size_at_excavation > 0. && !outline.empty())
-        fields.push_back(
-          add_size_field<dim>(outline,
-                              coarsening<dim> * meshing.size_at_excavation,
-                              size,
-                              distance));
-      if (meshing.size_at_joints > 0. && !pieces.joints.empty())
-        fields.push_back(
-          add_size_field<dim>(pieces.joints,
-                              coarsening<dim> * meshing.size_at_joints,
-                              size,
-                              distance));
-      if (fields.empty())
-        return;
-      const int least = gmsh::model::mesh::field::add("Min");
-      gmsh::model::mesh::field::setNumbers(least, "FieldsList", fields);
-      gmsh::model::mesh::field::setAsBackgroundMesh(least);
-    }
-
-    /** Mesh the current model; returns Gmsh's first error, empty if there was
-     * none. Gmsh must not throw meanwhile: an exception in one of its threads
-     * ends the program. */
+    /** Mesh curves and surfaces of the current model; returns Gmsh's first
+     * error, empty if there was none. Gmsh must not throw meanwhile: an
+     * exception in one of its threads ends the program. */
     std::string
-    mesh_model(const int dim)
+    mesh_surfaces()
     {
       gmsh::option::setNumber("General.AbortOnError", 0.);
       gmsh::logger::start();
-      gmsh::model::mesh::generate(dim);
+      gmsh::model::mesh::generate(2);
       std::vector<std::string> log;
       gmsh::logger::get(log);
       gmsh::logger::stop();
@@ -426,31 +85,423 @@ namespace Keyblock
         {
           gmsh::option::setNumber("Mesh.RecombineAll", 1);
           gmsh::option::setNumber("Mesh.RecombinationAlgorithm", pairing);
-          reason = mesh_model(2);
+          reason = mesh_surfaces();
           if (reason.empty())
             return "";
           gmsh::model::mesh::clear();
         }
       gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 0);
       gmsh::option::setNumber("Mesh.RecombineAll", 0);
-      return mesh_model(2);
+      return mesh_surfaces();
+    }
+
+
+    template <int dim>
+    Point<dim>
+    in_model(const Point<3> &p)
+    {
+      Point<dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = p[d];
+      return result;
+    }
+
+    /** Ask for the sizes of the section Mesh, no others, times @p coarsening.
+     */
+    template <int dim>
+    void
+    set_sizes(const MeshSize<dim> &size, const double coarsening)
+    {
+      for (const std::string source :
+           {"ExtendFromBoundary", "FromPoints", "FromCurvature"})
+        gmsh::option::setNumber("Mesh.MeshSize" + source, 0.);
+      gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
+      gmsh::option::setNumber("Mesh.Algorithm3D", delaunay_3d);
+      gmsh::model::mesh::setSizeCallback(
+        [&size, coarsening](int, int, double x, double y, double z) {
+          return coarsening * size(in_model<dim>(Point<3>(x, y, z)));
+        });
     }
 
     template <int dim>
-    MixedMesh
-    generate(const Scene<dim> &scene)
+    MeshSize<dim>
+    wanted_size(const Scene<dim> &scene, const GmshModel<dim> &model)
     {
-      const GmshSession session;
-      Extent extent;
-      const Pieces pieces = build_model<dim>(scene, extent);
-      set_sizes<dim>(scene.meshing, pieces, extent);
-      gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
-      gmsh::option::setNumber("Mesh.Algorithm3D", delaunay_3d);
-      const std::string reason =
-        dim == 2 ? mesh_with_quadrilaterals() : mesh_model(dim);
+      const Tensor<1, 3> sides = model.high - model.low;
+      return MeshSize<dim>(scene, std::max({sides[0], sides[1], sides[2]}));
+    }
+
+    /** Gmsh's elements with what they lie on. */
+    template <int dim>
+    struct MarkedMesh
+    {
+      MixedMesh mixed;
+      std::vector<Surface<dim>> surfaces; ///< first those of the joints
+
+      /** Vertices at points of the model and, in 3D, on the rims of joints. */
+      std::vector<unsigned int> corners;
+    };
+
+    /** Line, plane or circle through an element of an outline. */
+    template <int dim>
+    Surface<dim>
+    surface_through(const std::vector<Point<dim>> &element,
+                    const bool is_circle,
+                    const Scene<dim> &scene)
+    {
+      Surface<dim> surface;
+      surface.point = element[0];
+      if constexpr (dim == 2)
+        {
+          surface.normal = cross_product_2d(element[1] - element[0]);
+          if (is_circle)
+            for (const auto &excavation : scene.excavations)
+              if (excavation->shape == "circle" &&
+                  std::abs(depth_inside(*excavation, element[0])) +
+                      std::abs(depth_inside(*excavation, element[1])) <
+                    1e-6 * excavation->radius)
+                {
+                  surface.point  = excavation->center;
+                  surface.radius = excavation->radius;
+                }
+        }
+      else
+        surface.normal =
+          cross_product_3d(element[1] - element[0], element[2] - element[0]);
+      surface.normal /= surface.normal.norm();
+      return surface;
+    }
+
+    /** Reads Gmsh's current mesh. */
+    template <int dim>
+    class Reader
+    {
+    public:
+      Reader(const GmshModel<dim> &model, const Scene<dim> &scene)
+        : model(model)
+        , scene(scene)
+      {}
+
+      MarkedMesh<dim>
+      read()
+      {
+        result.mixed = read_gmsh_model<dim>(vertex_of_tag);
+        if (!model.joints.empty())
+          for (unsigned int j = 0; j < scene.joints.size(); ++j)
+            {
+              Surface<dim> surface;
+              surface.point  = scene.joints[j]->extent == "polygon"
+                                 ? scene.joints[j]->vertices[0]
+                                 : scene.joints[j]->point;
+              surface.normal = scene.joints[j]->normal();
+              surface.joint  = j;
+              result.surfaces.push_back(surface);
+              for (const auto &[dimension, tag] : model.joints[j])
+                joints_of_entity[tag].push_back(j);
+            }
+        vectorpair entities;
+        gmsh::model::getEntities(entities, dim - 1);
+        for (const auto &[dimension, tag] : entities)
+          read_outline(tag);
+        list_corners();
+        return result;
+      }
+
+    private:
+      void
+      read_outline(const int tag)
+      {
+        std::vector<int> types;
+        std::vector<std::vector<std::size_t>> elements, nodes;
+        gmsh::model::mesh::getElements(types, elements, nodes, dim - 1, tag);
+        std::string type;
+        gmsh::model::getType(dim - 1, tag, type);
+        const auto joints = joints_of_entity.find(tag);
+        bool is_new       = (joints == joints_of_entity.end());
+        for (unsigned int t = 0; t < types.size(); ++t)
+          for (std::size_t i = 0; i + dim <= nodes[t].size(); i += dim)
+            {
+              MixedMesh::Element face;
+              for (unsigned int k = 0; k < dim; ++k)
+                {
+                  const auto found = vertex_of_tag.find(nodes[t][i + k]);
+                  if (found != vertex_of_tag.end())
+                    face.vertices.push_back(found->second);
+                }
+              if (face.vertices.size() != dim)
+                continue;
+              std::vector<Point<dim>> places;
+              for (const unsigned int v : face.vertices)
+                places.push_back(in_model<dim>(result.mixed.vertices[v]));
+              if (is_new)
+                {
+                  result.surfaces.push_back(
+                    surface_through<dim>(places, type == "Circle", scene));
+                  is_new = false;
+                }
+              if (joints == joints_of_entity.end())
+                mark(face, result.surfaces.size() - 1, places);
+              else
+                for (const unsigned int j : joints->second)
+                  mark(face, j, places);
+            }
+      }
+
+      /** The plus side is where the surface's normal points to. */
+      void
+      mark(MixedMesh::Element face,
+           const unsigned int surface,
+           const std::vector<Point<dim>> &places)
+      {
+        Tensor<1, dim> left; // or the right-hand normal
+        if constexpr (dim == 2)
+          left = -cross_product_2d(places[1] - places[0]);
+        else
+          left = cross_product_3d(places[1] - places[0], places[2] - places[0]);
+        if (left * result.surfaces[surface].normal < 0.)
+          std::swap(face.vertices[0], face.vertices[1]);
+        face.id = surface;
+        result.mixed.marked_faces.push_back(face);
+      }
+
+      void
+      list_corners()
+      {
+        for (int dimension = 0; dimension < dim - 1; ++dimension)
+          {
+            vectorpair entities;
+            gmsh::model::getEntities(entities, dimension);
+            for (const auto &[d, tag] : entities)
+              if (d == 0 || bounds_one_surface(tag))
+                {
+                  std::vector<std::size_t> tags;
+                  std::vector<double> coordinates, parameters;
+                  gmsh::model::mesh::getNodes(
+                    tags, coordinates, parameters, d, tag);
+                  for (const std::size_t node : tags)
+                    if (vertex_of_tag.count(node) > 0)
+                      result.corners.push_back(vertex_of_tag.at(node));
+                }
+          }
+      }
+
+      /** Whether no second surface keeps the nodes of a curve in place. */
+      static bool
+      bounds_one_surface(const int tag)
+      {
+        std::vector<int> surfaces, lower;
+        gmsh::model::getAdjacencies(1, tag, surfaces, lower);
+        return surfaces.size() < 2;
+      }
+
+      const GmshModel<dim> &model;
+      const Scene<dim> &scene;
+      MarkedMesh<dim> result;
+      std::unordered_map<std::size_t, unsigned int> vertex_of_tag;
+      std::map<int, std::vector<unsigned int>> joints_of_entity;
+    };
+
+    /** Triangles or tetrahedra ready to be cut or mended. */
+    template <int dim>
+    SimplexMesh<dim>
+    make_simplex_mesh(const MarkedMesh<dim> &marked, const MeshSize<dim> &size)
+    {
+      SimplexMesh<dim> mesh;
+      mesh.surfaces = marked.surfaces;
+      for (const Point<3> &vertex : marked.mixed.vertices)
+        {
+          const Point<dim> p = in_model<dim>(vertex);
+          mesh.add_vertex(p, simplex_coarsening<dim> * size(p));
+        }
+      for (const unsigned int corner : marked.corners)
+        mesh.is_fixed[corner] = true;
+      for (const MixedMesh::Element &element : marked.mixed.cells)
+        {
+          typename SimplexMesh<dim>::CellVertices cell;
+          std::copy(element.vertices.begin(),
+                    element.vertices.end(),
+                    cell.begin());
+          if (mesh.volume(cell) < 0.)
+            std::swap(cell[0], cell[1]);
+          mesh.add_cell(cell);
+        }
+      for (const MixedMesh::Element &face : marked.mixed.marked_faces)
+        {
+          typename SimplexMesh<dim>::Facet facet;
+          std::copy(face.vertices.begin(), face.vertices.end(), facet.begin());
+          bool is_odd;
+          facet = mesh.sorted(facet, is_odd);
+          mesh.add_mark(facet, {face.id, !is_odd});
+        }
+      return mesh;
+    }
+
+    /** The live cells and marked facets of @p mesh. */
+    template <int dim>
+    MarkedMesh<dim>
+    to_marked_mesh(const SimplexMesh<dim> &mesh)
+    {
+      MarkedMesh<dim> result;
+      result.surfaces = mesh.surfaces;
+      std::vector<unsigned int> number(mesh.vertices.size(), no_index);
+      for (const auto &cell : mesh.cells)
+        if (cell.is_alive)
+          {
+            MixedMesh::Element element{{}, 0};
+            for (const unsigned int v : cell.vertices)
+              {
+                if (number[v] == no_index)
+                  {
+                    number[v] = result.mixed.vertices.size();
+                    Point<3> p;
+                    for (unsigned int d = 0; d < dim; ++d)
+                      p[d] = mesh.vertices[v][d];
+                    result.mixed.vertices.push_back(p);
+                  }
+                element.vertices.push_back(number[v]);
+              }
+            result.mixed.cells.push_back(element);
+          }
+      for (const auto &facet : mesh.marked_facets())
+        for (const auto &mark : mesh.marks.at(facet))
+          {
+            MixedMesh::Element face{{}, mark.surface};
+            for (const unsigned int v : facet)
+              face.vertices.push_back(number[v]);
+            if (!mark.plus_is_positive)
+              std::swap(face.vertices[0], face.vertices[1]);
+            result.mixed.marked_faces.push_back(face);
+          }
+      return result;
+    }
+
+    void
+    require_meshed(const std::string &reason)
+    {
       if (!reason.empty())
         throw std::runtime_error(reason);
-      return read_gmsh_model<dim>();
+    }
+
+    /** Least altitude of the triangles of the current model over that of
+     * a regular one of the wanted size [-]. */
+    template <int dim>
+    double
+    thinnest_triangle(const MeshSize<dim> &size)
+    {
+      std::vector<std::size_t> tags;
+      std::vector<double> coordinates, parameters;
+      gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+      std::unordered_map<std::size_t, Point<3>> place;
+      for (std::size_t i = 0; i < tags.size(); ++i)
+        place[tags[i]] = Point<3>(coordinates[3 * i],
+                                  coordinates[3 * i + 1],
+                                  coordinates[3 * i + 2]);
+      std::vector<std::size_t> elements, nodes;
+      gmsh::model::mesh::getElementsByType(2, elements, nodes);
+      double least = 1.;
+      for (std::size_t i = 0; i + 3 <= nodes.size(); i += 3)
+        {
+          const Point<3> &a = place[nodes[i]], &b = place[nodes[i + 1]],
+                         &c = place[nodes[i + 2]];
+          const double area = cross_product_3d(b - a, c - a).norm();
+          const double longest =
+            std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
+          least = std::min(least,
+                           area / longest /
+                             (0.866 * simplex_coarsening<dim> *
+                              size(in_model<dim>(a + (Tensor<1, 3>(b - a) +
+                                                      Tensor<1, 3>(c - a)) /
+                                                       3.))));
+        }
+      return least;
+    }
+
+    /** Mesh the current model of volumes. Surfaces that are too thin already
+     * are not gone on with unless they @p must_be: thin cells are certain, and
+     * so are faults of Gmsh. */
+    void
+    mesh_volumes(const MeshSize<3> &size, const bool must_be)
+    {
+      require_meshed(mesh_surfaces());
+      const double thinness = thinnest_triangle(size);
+      if (!must_be && thinness < least_thinness)
+        {
+          std::ostringstream text;
+          text << "the thinnest triangle on them would have "
+               << std::setprecision(2) << thinness
+               << " of the thickness wanted";
+          throw std::runtime_error(text.str());
+        }
+      gmsh::model::mesh::generate(3);
+    }
+
+    /** Joints and excavations as they are. In 3D bad cells are mended.
+     * Throws what went wrong, also cells that are thin unless they @p must_be.
+     */
+    template <int dim>
+    MarkedMesh<dim>
+    mesh_exactly(const Scene<dim> &scene, const bool must_be)
+    {
+      const GmshSession session;
+      const GmshModel<dim> model = build_gmsh_model<dim>(scene, true);
+      const MeshSize<dim> size   = wanted_size(scene, model);
+      set_sizes<dim>(size,
+                     dim == 2 ? quadrilateral_coarsening
+                              : simplex_coarsening<dim>);
+      if constexpr (dim == 2)
+        require_meshed(mesh_with_quadrilaterals());
+      else
+        mesh_volumes(size, must_be);
+      MarkedMesh<dim> marked = Reader<dim>(model, scene).read();
+      if (dim == 2)
+        return marked;
+      SimplexMesh<dim> mesh = make_simplex_mesh(marked, size);
+      MeshImprovement<dim>(mesh, 0.).improve(wanted_quality, 8);
+      return to_marked_mesh(mesh);
+    }
+
+    /** Joints cut into a mesh of domain and excavations. */
+    template <int dim>
+    MarkedMesh<dim>
+    mesh_by_cuts(const Scene<dim> &scene, MeshReport<dim> &report)
+    {
+      const GmshSession session;
+      const GmshModel<dim> model = build_gmsh_model<dim>(scene, false);
+      const MeshSize<dim> size   = wanted_size(scene, model);
+      set_sizes<dim>(size, simplex_coarsening<dim>);
+      if constexpr (dim == 2)
+        require_meshed(mesh_surfaces());
+      else
+        mesh_volumes(size, true);
+      SimplexMesh<dim> mesh =
+        make_simplex_mesh(Reader<dim>(model, scene).read(), size);
+      report =
+        cut_joints(mesh, scene, scene.meshing.snap, simplex_coarsening<dim>);
+      return to_marked_mesh(mesh);
+    }
+
+    /** Put the new vertices in the middle of chords onto their circles. */
+    template <int dim>
+    void
+    bend_outlines(Mesh<dim> &mesh)
+    {
+      for (const auto &face : mesh.marked_faces)
+        if (mesh.surfaces[face.surface].radius > 0.)
+          for (const unsigned int v : face.vertices)
+            mesh.vertices[v] -=
+              mesh.surfaces[face.surface].distance(mesh.vertices[v]) *
+              mesh.surfaces[face.surface].normal_at(mesh.vertices[v]);
+    }
+
+    template <int dim>
+    Mesh<dim>
+    to_mesh(const MarkedMesh<dim> &marked, const std::string &remedy)
+    {
+      Mesh<dim> mesh =
+        cut_mesh<dim>(marked.mixed, "The mesh made by Gmsh", remedy);
+      mesh.surfaces = marked.surfaces;
+      bend_outlines(mesh);
+      return mesh;
     }
   } // namespace
 
@@ -460,30 +511,53 @@ namespace Keyblock
   Mesh<dim>
   make_gmsh_mesh(const Scene<dim> &scene)
   {
-    const std::string remedy =
-      "change 'Mesh/Size' (" + std::to_string(scene.meshing.size) +
-      " m) or move joints and excavations that almost touch each other";
-    MixedMesh mixed;
-    const std::string reason =
-      reason_of_failure([&]() { mixed = generate(scene); });
-    AssertThrow(reason.empty() && !mixed.cells.empty(),
-                InputError(
-                  "Gmsh could not mesh the scene with its " +
-                  std::to_string(scene.joints.size()) + " joints and " +
-                  std::to_string(scene.excavations.size()) + " excavations (" +
-                  (reason.empty() ? "no cells" : reason) + "); " + remedy +
-                  "."));
-    const unsigned int n_wrong =
-      std::count_if(mixed.cells.begin(),
-                    mixed.cells.end(),
-                    [](const MixedMesh::Element &cell) {
-                      return cell.vertices.size() > 4;
-                    });
-    AssertThrow(n_wrong == 0,
-                InputError("Gmsh left " + std::to_string(n_wrong) +
-                           " cells with more than four corners; " + remedy +
+    const double snap = scene.meshing.snap;
+    std::ostringstream remedy;
+    remedy << "change 'Mesh/Size' (" << scene.meshing.size
+           << " m), move joints and excavations that almost touch each other"
+           << (snap > 0. ? "" : ", or give 'Mesh/Snap' its default");
+
+    std::string reason;
+    const bool is_exact = snap == 0. || scene.joints.empty();
+    if (is_exact || scene.joints.size() <= most_exact_joints<dim>)
+      {
+        Mesh<dim> mesh;
+        reason = reason_of_failure([&]() {
+          mesh = to_mesh(mesh_exactly(scene, is_exact), remedy.str());
+        });
+        if (reason.empty())
+          {
+            mesh.report.way       = "exact";
+            const double thinness = least_over_median_thickness(mesh);
+            if (is_exact || thinness >= least_thinness)
+              return mesh;
+            std::ostringstream text;
+            text << "the thinnest cell would have " << std::setprecision(2)
+                 << thinness << " of the usual thickness";
+            reason = text.str();
+          }
+        AssertThrow(!is_exact,
+                    InputError(
+                      "Gmsh could not mesh the scene with its " +
+                      std::to_string(scene.joints.size()) + " joints and " +
+                      std::to_string(scene.excavations.size()) +
+                      " excavations (" + reason + "); " + remedy.str() + "."));
+      }
+    else
+      reason = std::to_string(scene.joints.size()) + " joints are more than " +
+               std::to_string(most_exact_joints<dim>);
+    Mesh<dim> mesh;
+    MeshReport<dim> report;
+    const std::string failure = reason_of_failure(
+      [&]() { mesh = to_mesh(mesh_by_cuts(scene, report), remedy.str()); });
+    AssertThrow(failure.empty(),
+                InputError("Gmsh could not mesh the domain with its " +
+                           std::to_string(scene.excavations.size()) +
+                           " excavations (" + failure + "); " + remedy.str() +
                            "."));
-    return cut_mesh<dim>(mixed, "The mesh made by Gmsh", remedy);
+    mesh.report        = report;
+    mesh.report.reason = reason;
+    return mesh;
   }
 
   template Mesh<2> make_gmsh_mesh(const Scene<2> &);

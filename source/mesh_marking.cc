@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -79,7 +80,10 @@ namespace Keyblock
             kept.push_back(face);
         }
       mesh.boundary_faces = kept;
-      mesh.vertices       = std::move(vertices);
+      for (auto &face : mesh.marked_faces)
+        for (unsigned int &v : face.vertices)
+          v = rank[v];
+      mesh.vertices = std::move(vertices);
     }
 
 
@@ -261,6 +265,47 @@ namespace Keyblock
 
 
 
+    /** Mark joints as the generator knows them: of several on one face the
+     * first of the scene. */
+    template <int dim>
+    void
+    mark_known_joints(Mesh<dim> &mesh)
+    {
+      std::map<typename Mesh<dim>::FaceVertices,
+               const typename Mesh<dim>::MarkedFace *>
+        known;
+      const auto joint_of = [&mesh](const auto &face) {
+        return mesh.surfaces[face.surface].joint;
+      };
+      for (const auto &face : mesh.marked_faces)
+        if (joint_of(face) != no_index)
+          {
+            auto key = face.vertices;
+            std::sort(key.begin(), key.end());
+            const auto entry = known.emplace(key, &face).first;
+            if (joint_of(face) < joint_of(*entry->second))
+              entry->second = &face;
+          }
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          {
+            const auto vertices = mesh.face_vertices(c, f);
+            auto key            = vertices;
+            std::sort(key.begin(), key.end());
+            const auto found = known.find(key);
+            if (found == known.end())
+              continue;
+            mesh.joint[c][f] = joint_of(*found->second);
+            mesh.side[c][f] =
+              turn_alike<dim>(vertices, found->second->vertices) ==
+                  is_inward<dim>(f)
+                ? 1
+                : -1;
+          }
+    }
+
+
+
     template <int dim>
     void
     mark_joint(Mesh<dim> &mesh,
@@ -305,6 +350,8 @@ namespace Keyblock
                   joint.is_within_extent(mesh.face_center(c, f), 0.))
                 {
                   mesh.joint[c][f] = index;
+                  mesh.side[c][f] =
+                    joint.distance(mesh.cell_center(c)) > 0. ? 1 : -1;
                   ++n_faces;
                 }
             }
@@ -445,6 +492,8 @@ namespace Keyblock
     broadcast(mesh.region);
     broadcast(mesh.boundary_faces);
     broadcast(mesh.hanging_faces);
+    broadcast(mesh.surfaces);
+    broadcast(mesh.marked_faces);
 
     find_neighbors(mesh);
     mark_boundaries(mesh, scene);
@@ -453,8 +502,14 @@ namespace Keyblock
     std::array<unsigned int, Mesh<dim>::n_cell_faces> no_face;
     no_face.fill(none);
     mesh.joint.assign(mesh.n_cells(), no_face);
-    for (unsigned int j = 0; j < scene.joints.size(); ++j)
-      mark_joint(mesh, *scene.joints[j], j, scene.meshing.joint_tolerance);
+    std::array<signed char, Mesh<dim>::n_cell_faces> no_side;
+    no_side.fill(0);
+    mesh.side.assign(mesh.n_cells(), no_side);
+    if (scene.meshing.generator == "gmsh")
+      mark_known_joints(mesh);
+    else
+      for (unsigned int j = 0; j < scene.joints.size(); ++j)
+        mark_joint(mesh, *scene.joints[j], j, scene.meshing.joint_tolerance);
     return mesh;
   }
 

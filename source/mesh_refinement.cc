@@ -51,6 +51,7 @@ namespace Keyblock
               tree.prepare_coarsening_and_refinement();
             while (flag_across_interfaces() | flag_around_crossings());
             tree.execute_coarsening_and_refinement();
+            pass_marks_on();
           }
       }
 
@@ -59,6 +60,8 @@ namespace Keyblock
       {
         Mesh<dim> mesh;
         mesh.vertices = tree.get_vertices();
+        mesh.surfaces = surfaces;
+        mesh.report   = report;
         for (const auto &cell : tree.active_cell_iterators())
           {
             const unsigned int c = cell->active_cell_index();
@@ -82,6 +85,16 @@ namespace Keyblock
                    c,
                    f});
           }
+        for (const auto &face : tree.active_face_iterators())
+          for (const MarkOfFace &mark : marks_of(face))
+            {
+              typename Mesh<dim>::FaceVertices vertices;
+              for (const unsigned int v : face->vertex_indices())
+                vertices[v] = face->vertex_index(v);
+              if (mark.is_turned)
+                std::swap(vertices[dim - 2], vertices[dim - 1]);
+              mesh.marked_faces.push_back({vertices, mark.surface});
+            }
         for (const HangingVertex &hanging : list_hanging_vertices(mesh))
           {
             // off the middle only where an outline is bent along its axis
@@ -132,6 +145,69 @@ namespace Keyblock
               const auto found = ids.find(key);
               face->set_boundary_id(found == ids.end() ? 0 : found->second);
             }
+        plant_marks(coarse);
+      }
+
+      /** That a face lies on a surface; turned if the surface's plus side is
+       * where deal.II's order of the vertices does not point to. */
+      struct MarkOfFace
+      {
+        unsigned int surface;
+        bool is_turned;
+      };
+
+      /** Give each marked face of the coarse mesh the number of its list. */
+      void
+      plant_marks(const Mesh<dim> &coarse)
+      {
+        surfaces = coarse.surfaces;
+        report   = coarse.report;
+        marks.assign(1, {});
+        std::map<typename Mesh<dim>::FaceVertices,
+                 std::vector<const typename Mesh<dim>::MarkedFace *>>
+          marked;
+        for (const auto &face : coarse.marked_faces)
+          {
+            auto key = face.vertices;
+            std::sort(key.begin(), key.end());
+            marked[key].push_back(&face);
+          }
+        if (marked.empty())
+          return;
+        for (const auto &face : tree.active_face_iterators())
+          {
+            typename Mesh<dim>::FaceVertices vertices, key;
+            for (const unsigned int v : face->vertex_indices())
+              vertices[v] = face->vertex_index(v);
+            key = vertices;
+            std::sort(key.begin(), key.end());
+            const auto found = marked.find(key);
+            if (found == marked.end())
+              continue;
+            std::vector<MarkOfFace> list;
+            for (const auto *mark : found->second)
+              list.push_back(
+                {mark->surface, !turn_alike<dim>(vertices, mark->vertices)});
+            face->set_user_index(marks.size());
+            marks.push_back(list);
+          }
+      }
+
+      /** Children lie on what their parents lie on. */
+      void
+      pass_marks_on()
+      {
+        if (marks.size() > 1)
+          for (auto face = tree.begin_face(); face != tree.end_face(); ++face)
+            if (face->user_index() > 0 && face->has_children())
+              face->recursively_set_user_index(face->user_index());
+      }
+
+      template <typename Face>
+      const std::vector<MarkOfFace> &
+      marks_of(const Face &face) const
+      {
+        return marks[face->user_index()];
       }
 
       /** Let new vertices on circular outlines go to the circle. */
@@ -229,6 +305,52 @@ namespace Keyblock
         return has_flags;
       }
 
+      /** Whether a face lies on a joint: as the generator knows, else by its
+       * place. */
+      template <typename Face>
+      bool
+      is_on_joint(const Face &face, const double size) const
+      {
+        if (surfaces.empty())
+          return count_joints_at(face->center(true), size) > 0;
+        for (const MarkOfFace &mark : marks_of(face))
+          if (surfaces[mark.surface].is_joint())
+            return true;
+        return false;
+      }
+
+      /** Lines at which marked faces of several joints meet. */
+      std::vector<bool>
+      find_crossings() const
+      {
+        std::vector<bool> is_crossing(tree.n_raw_lines(), false);
+        if constexpr (dim == 3)
+          {
+            if (surfaces.empty())
+              {
+                for (const auto &cell : tree.active_cell_iterators())
+                  for (const unsigned int l : cell->line_indices())
+                    is_crossing[cell->line(l)->index()] =
+                      count_joints_at(cell->line(l)->center(),
+                                      cell->line(l)->diameter()) > 1;
+                return is_crossing;
+              }
+            std::vector<unsigned int> first(tree.n_raw_lines(), none);
+            for (const auto &face : tree.active_face_iterators())
+              for (const MarkOfFace &mark : marks_of(face))
+                if (surfaces[mark.surface].is_joint())
+                  for (unsigned int l = 0; l < 4; ++l)
+                    {
+                      const unsigned int line = face->line_index(l);
+                      is_crossing[line] =
+                        is_crossing[line] ||
+                        (first[line] != none && first[line] != mark.surface);
+                      first[line] = mark.surface;
+                    }
+          }
+        return is_crossing;
+      }
+
       unsigned int
       count_joints_at(const Point<dim> &place, const double size) const
       {
@@ -269,8 +391,7 @@ namespace Keyblock
                   continue;
                 const Cell other = cell->neighbor(f);
                 if (!other->refine_flag_set() &&
-                    (count_joints_at(cell->face(f)->center(true),
-                                     cell->diameter()) > 0 ||
+                    (is_on_joint(cell->face(f), cell->diameter()) ||
                      is_outline_between(cell, other)))
                   {
                     other->set_refine_flag();
@@ -288,14 +409,7 @@ namespace Keyblock
         bool has_changed = false;
         if constexpr (dim == 3)
           {
-            std::map<unsigned int, bool> crossings;
-            const auto is_crossing = [&](const auto &line) {
-              const auto found = crossings.find(line->index());
-              if (found != crossings.end())
-                return found->second;
-              return crossings[line->index()] =
-                       count_joints_at(line->center(), line->diameter()) > 1;
-            };
+            const std::vector<bool> is_crossing = find_crossings();
             std::vector<bool> is_flagged(tree.n_raw_lines(), false);
             for (const auto &cell : tree.active_cell_iterators())
               if (cell->refine_flag_set())
@@ -305,7 +419,7 @@ namespace Keyblock
               if (!cell->refine_flag_set())
                 for (const unsigned int l : cell->line_indices())
                   if (is_flagged[cell->line(l)->index()] &&
-                      is_crossing(cell->line(l)))
+                      is_crossing[cell->line(l)->index()])
                     {
                       cell->set_refine_flag();
                       has_changed = true;
@@ -320,6 +434,9 @@ namespace Keyblock
         formulas; ///< of excavations
       dealii::Triangulation<dim> tree;
       std::vector<unsigned int> id_of_boundary;
+      std::vector<Surface<dim>> surfaces; ///< as the generator knows them
+      std::vector<std::vector<MarkOfFace>> marks; ///< by the faces' user index
+      MeshReport<dim> report;
     };
 
 

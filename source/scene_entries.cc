@@ -91,6 +91,15 @@ namespace Keyblock
                       "A cell face lies on a joint if its vertices are within "
                       "this fraction of the face's size [-].",
                       Double(0., 0.1));
+    prm.add_parameter(
+      "Snap",
+      snap,
+      "Gmsh: where joints cannot be followed exactly with cells of a good "
+      "shape, they are cut into a mesh of the rest, and vertices nearer to a "
+      "joint than this part of the edges wanted there (2.6 cell sizes in 2D, 3 "
+      "in 3D) are moved onto it. Larger: larger time steps; smaller: joints "
+      "and thin blocks more exact. 0: always exact, or refused.",
+      Double(0., 0.45));
     prm.add_parameter("Refine at excavations",
                       refine_at_excavations,
                       "Distances from outlines of excavations [m], decreasing: "

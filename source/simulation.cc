@@ -42,11 +42,12 @@ namespace Keyblock
   void
   Simulation<dim>::make_geometry()
   {
-    mesh    = make_mesh(scene);
-    quality = measure_quality(mesh);
-    blocks  = find_blocks(mesh, scene);
-    split   = split_mesh(mesh, blocks, scene);
-    mesh    = Mesh<dim>();
+    mesh        = make_mesh(scene);
+    quality     = measure_quality(mesh);
+    mesh_report = mesh.report;
+    blocks      = find_blocks(mesh, scene);
+    split       = split_mesh(mesh, blocks, scene);
+    mesh        = Mesh<dim>();
   }
 
 
@@ -106,6 +107,7 @@ namespace Keyblock
       out << "        stable time step "
           << conditions->stable_step.limit(Stage())
           << " s, set by the cell at (" << report.stable_step_place << ")\n";
+    print_mesh_report(out, mesh_report, scene);
     print_block_table(out, blocks, scene);
     if (scene.block_theory.report)
       print_block_theory(out, find_block_theory(scene, scene.block_theory));

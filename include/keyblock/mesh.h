@@ -5,7 +5,9 @@
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/point.h>
 
+#include <keyblock/mesh_report.h>
 #include <keyblock/scene.h>
+#include <keyblock/surface.h>
 
 #include <algorithm>
 #include <array>
@@ -68,6 +70,23 @@ namespace Keyblock
     /** Ids of outer faces, where the generator gave any. */
     std::vector<BoundaryFace> boundary_faces;
 
+    /** A face between cells that lies on a surface, as the generator knows it.
+     * The right-hand normal of the vertices (in 2D: the left of the way from
+     * the first to the second) points to the plus side of a joint. */
+    struct MarkedFace
+    {
+      FaceVertices vertices;
+      unsigned int surface; ///< index into surfaces
+    };
+
+    /** Planes of joints, of excavations and of the domain, and where the mesh
+     * lies on them; empty if the generator does not know. */
+    std::vector<Surface<dim>> surfaces;
+    std::vector<MarkedFace> marked_faces;
+
+    /** What the generator did to joints; on rank 0. */
+    MeshReport<dim> report;
+
     /** A face of a cell and the part of it that a smaller cell covers. */
     struct HangingFace
     {
@@ -84,6 +103,9 @@ namespace Keyblock
     /** Index into Scene::joints of the joint each face lies on, or `none`.
      * Outer faces on a joint's surface carry the joint as well. */
     std::vector<std::array<unsigned int, n_cell_faces>> joint;
+
+    /** Side of that joint on which the cell lies: -1 or +1; 0: no joint. */
+    std::vector<std::array<signed char, n_cell_faces>> side;
 
     /** Index into boundary_names of the outer boundary each face lies on, or
      * `none` inside and where the boundary has no name. */
@@ -176,8 +198,10 @@ namespace Keyblock
   template <int dim>
   Mesh<dim> make_structured_mesh(const Scene<dim> &scene);
 
-  /** Quadrilaterals or hexahedra that follow joints and excavations, made by
-   * Gmsh in this process. */
+  /** Quadrilaterals or hexahedra that follow joints and excavations: exactly,
+   * made by Gmsh in this process, or, where that would give cells too thin or
+   * fails, with the joints cut into a mesh of the rest (cut_joints()). Throws
+   * InputError if Mesh/Snap forbids to cut what cannot be exact. */
   template <int dim>
   Mesh<dim> make_gmsh_mesh(const Scene<dim> &scene);
 
@@ -209,6 +233,27 @@ namespace Keyblock
   /** All of them, sorted by vertex; no master hangs itself. */
   template <int dim>
   std::vector<HangingVertex> list_hanging_vertices(const Mesh<dim> &mesh);
+
+  /** Whether the vertices of a face in deal.II's order turn around a normal
+   * that points into the cell (2D: whether the cell is left of the way from
+   * the first to the second). */
+  template <int dim>
+  constexpr bool
+  is_inward(const unsigned int face)
+  {
+    return dim == 2 ? (face == 1 || face == 2) : face % 2 == 0;
+  }
+
+  /** Whether two lists of the vertices of one face, in deal.II's order but from
+   * any start, turn around the same normal. */
+  template <int dim>
+  bool turn_alike(const typename Mesh<dim>::FaceVertices &a,
+                  const typename Mesh<dim>::FaceVertices &b);
+
+  /** Thickness of the thinnest cell (its volume over its largest face) over the
+   * median one [-]: an estimate of the same ratio of stable steps. */
+  template <int dim>
+  double least_over_median_thickness(const Mesh<dim> &mesh);
 
   template <int dim>
   MeshQuality measure_quality(const Mesh<dim> &mesh);

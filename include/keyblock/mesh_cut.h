@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace Keyblock
@@ -31,6 +32,9 @@ namespace Keyblock
     std::vector<Point<3>> vertices;
     std::vector<Element> cells;
     std::vector<Element> faces;
+
+    /** Faces that become Mesh::marked_faces; the id is that of the surface. */
+    std::vector<Element> marked_faces;
   };
 
   /** Keeps Gmsh initialized, silent and free of anybody's configuration file
@@ -51,10 +55,14 @@ namespace Keyblock
   /**
    * The elements of dimension @p dim (cells) and dim-1 (faces) of the current
    * model of Gmsh, with the number of the first physical group of the entity
-   * they belong to. Of curved elements only the corners are taken. Vertices
-   * that no cell uses are left out, and so are faces without a group or with
-   * such a vertex.
+   * they belong to. @p vertex_of_tag gets the vertex of each of Gmsh's node
+   * tags. Of curved elements only the corners are taken. Vertices that no cell
+   * uses are left out, and so are faces without a group or with such a vertex.
    */
+  template <int dim>
+  MixedMesh
+  read_gmsh_model(std::unordered_map<std::size_t, unsigned int> &vertex_of_tag);
+
   template <int dim>
   MixedMesh read_gmsh_model();
 
@@ -67,8 +75,8 @@ namespace Keyblock
    * quadrilaterals, a quadrilateral 4, a tetrahedron 4 hexahedra, a wedge 6, a
    * hexahedron 8, and neighbours share all new vertices.
    *
-   * Fills vertices, cells, region and, from those faces of @p mixed that are
-   * outer ones, boundary_faces. In 2D z is dropped.
+   * Fills vertices, cells, region, marked_faces and, from those faces of @p
+   * mixed that are outer ones, boundary_faces. In 2D z is dropped.
    *
    * Throws InputError for pyramids, which cannot be cut in this way, for cells
    * that are flat, folded or not convex, and for cells on the same side of a

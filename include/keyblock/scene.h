@@ -47,6 +47,7 @@ namespace Keyblock
     double size_at_joints     = 0.;
     double grading_distance   = 0.;
     double joint_tolerance    = 1e-6;
+    double snap               = 0.2;
 
     // local refinement
     std::vector<double> refine_at_excavations;

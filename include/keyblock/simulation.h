@@ -202,6 +202,7 @@ namespace Keyblock
     std::string last_checkpoint, restart_command; ///< of the run, if any
     Mesh<dim> mesh;
     MeshQuality quality;
+    MeshReport<dim> mesh_report;
     Blocks<dim> blocks;
     SplitMesh<dim> split;
     std::unique_ptr<Numbering<dim>> numbering;

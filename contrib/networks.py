@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+"""Meshes random joint networks around a tunnel and tabulates how well.
+
+usage: contrib/networks.py [--kinds traces,discs,planes] [--numbers 20,50]
+         [--seeds 1-5] [--run] [--keyblock build/keyblock] [--keep FOLDER]
+         [-- arguments for keyblock]
+
+traces: 2D, a horseshoe 10 m wide in 80 m, two sets of traces of 3 to 20 m;
+discs, planes: 3D, a tunnel of 6 m, 30 m long, in a cube of 40 m, three sets.
+The stable step is compared with the cell size at the excavation over the
+velocity of pressure waves. With --run the tunnel is dug and the run's end
+looked at. Exits with 1 if a scene was refused or crashed.
+"""
+import argparse
+import json
+import math
+import random
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+YOUNG, POISSON, DENSITY, GRAVITY = 15e9, 0.25, 2700., 9.81
+VELOCITY = math.sqrt(YOUNG * (1 - POISSON) / ((1 + POISSON) * (1 - 2 * POISSON)) / DENSITY)
+SIZE_AT_EXCAVATION = {2: 0.5, 3: 1.2}
+SETS = [(60, 30), (55, 150), (25, 280)]  # dip, dip direction in 3D
+NUMBERS = {"traces": [20, 50, 100, 200, 400], "discs": [5, 10, 20, 50, 100],
+           "planes": [3, 5, 8, 12, 20]}
+
+
+def text(values):
+    return ", ".join(f"{v:.9g}" for v in values)
+
+
+def section(name, entries):
+    lines = "".join(f"  {e}\n" if not isinstance(e, str) or "\n" in e else f"  set {e}\n"
+                    for e in entries)
+    return f"subsection {name}\n{lines}end\n"
+
+
+def traces(n, rng):
+    """Ends of traces: two sets, dipping 60 degrees to +x and 35 to -x."""
+    joints = []
+    for i in range(n):
+        dip = math.radians((60. if i % 2 == 0 else -35.) + rng.uniform(-10, 10))
+        x, y, length = rng.uniform(-40, 40), rng.uniform(-40, 40), rng.uniform(3, 20)
+        dx, dy = math.cos(dip) * length / 2, -math.sin(dip) * length / 2
+        joints.append(["Extent = polygon",
+                       f"Vertices = {text((x - dx, y - dy))}; {text((x + dx, y + dy))}"])
+    return joints
+
+
+def faces(n, rng, has_rim):
+    joints = []
+    for i in range(n):
+        dip, direction = (v + rng.uniform(-10, 10) for v in SETS[i % 3])
+        point = rng.uniform(-14, 14), rng.uniform(6, 34), rng.uniform(-12, 14)
+        radius = rng.uniform(3, 10)
+        joints.append([f"Point = {text(point)}", f"Dip = {dip:.9g}",
+                       f"Dip direction = {direction % 360:.9g}"] +
+                      (["Extent = disc", f"Radius = {radius:.9g}"] if has_rim else []))
+    return joints
+
+
+def scene(kind, n, seed):
+    """The text of a scene file."""
+    rng = random.Random(f"{kind} {n} {seed}")
+    dim = 2 if kind == "traces" else 3
+    joints = traces(n, rng) if dim == 2 else faces(n, rng, kind == "discs")
+    if dim == 2:
+        corner, size, top = (-40, -40), (80, 80), 40.
+        arch = [(5 * math.cos(a * math.pi / 12), 5 * math.sin(a * math.pi / 12))
+                for a in range(13)]
+        outline = [(-5, -5), (5, -5)] + arch
+        excavation = ["Vertices = " + "; ".join(text(p) for p in outline)]
+        mesh = ["Size = 3", "Size at joints = 1", "Grading distance = 20"]
+        sides = "left, right"
+    else:
+        corner, size, top = (-20, 0, -20), (40, 40, 40), 20.
+        excavation = ["Shape = box", "Corner = -3, 5, -3", "Size = 6, 30, 6"]
+        mesh = ["Size = 4", "Grading distance = 15"]
+        sides = "left, right, front, back"
+    above = 5e6 - DENSITY * GRAVITY * top
+    down = ["0"] * (dim - 1)
+
+    def group(name, title, items):
+        names = ", ".join(n for n, _ in items)
+        inner = "".join(section(n, e) for n, e in items)
+        return f"subsection {title}\n  set Names = {names}\n{inner}end\n"
+
+    return (
+        f"set Dimension = {dim}\nset Title = {n} random {kind}, seed {seed}\n"
+        + section("Domain", [f"Corner = {text(corner)}", f"Size = {text(size)}",
+                             "Truncated boundaries = all"])
+        + section("Mesh", ["Generator = gmsh",
+                           f"Size at excavation = {SIZE_AT_EXCAVATION[dim]}"] + mesh)
+        + section("Initial state", [
+            f"Gravity = {'; '.join(down + [str(-GRAVITY)])}",
+            f"Surface elevation = {top}", f"Surface stress = {above:.9g}",
+            f"Vertical stress gradient = {DENSITY * GRAVITY:.9g}",
+            "Lateral ratios = 1", "Equilibrium = static"])
+        + group("", "Materials", [("rock", [f"Young modulus = {YOUNG}",
+                                            f"Poisson ratio = {POISSON}",
+                                            f"Density = {DENSITY}"])])
+        + group("", "Supports", [("bottom", ["Boundaries = bottom"]),
+                                 ("sides", [f"Boundaries = {sides}", "Directions = normal"])])
+        + group("", "Tractions", [("top", ["Boundaries = top",
+                                           f"Traction = {'; '.join(down + [f'{-above:.9g}'])}"])])
+        + group("", "Stages", [("dig", ["Kind = quasi-static", "Unbalanced ratio = 1e-4",
+                                        "Ramp unbalance = 5e-3", "Maximum steps = 30000"])])
+        + section("Output", ["Write VTU = false", "History interval = 50"])
+        + group("", "Excavations", [("tunnel", excavation + ["Stage = dig"])])
+        + group("", "Joints", [(f"j{i}", entries + ["Friction angle = 30"])
+                               for i, entries in enumerate(joints)]))
+
+
+def cpu_of_children():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def run(program, folder, kind, n, seed, full, arguments):
+    """(reason of failure or None, ratio of the step, seconds of CPU, summary)"""
+    name = f"{kind}_{n}_{seed}"
+    (folder / f"{name}.prm").write_text(scene(kind, n, seed))
+    before = cpu_of_children()
+    command = [program, "--output", str(folder / name), f"{name}.prm"] + arguments
+    if not full:
+        command.insert(1, "--validate")
+    result = subprocess.run(command, cwd=folder, text=True, capture_output=True)
+    cpu = cpu_of_children() - before
+    if result.returncode != 0:
+        last = (result.stderr.strip() or result.stdout.strip()).splitlines()
+        return f"exit {result.returncode}: {last[-1] if last else ''}", 0., cpu, None
+    step = next(float(line.split()[3]) for line in result.stdout.splitlines()
+                if "stable time step" in line)
+    dim = 2 if kind == "traces" else 3
+    summary = None
+    if full:
+        summary = json.loads((folder / name / "summary.json").read_text())
+    return None, step * VELOCITY / SIZE_AT_EXCAVATION[dim], cpu, summary
+
+
+def main():
+    arguments, rest = sys.argv[1:], []
+    if "--" in arguments:
+        at = arguments.index("--")
+        arguments, rest = arguments[:at], arguments[at + 1:]
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    root = Path(__file__).resolve().parent.parent
+    parser.add_argument("--kinds", default="traces,discs,planes")
+    parser.add_argument("--numbers", default="")
+    parser.add_argument("--seeds", default="1-5")
+    parser.add_argument("--run", action="store_true")
+    parser.add_argument("--keyblock", default=str(root / "build" / "keyblock"))
+    parser.add_argument("--keep", default="")
+    options = parser.parse_args(arguments)
+    first, _, last = options.seeds.partition("-")
+    seeds = range(int(first), int(last or first) + 1)
+    folder = Path(options.keep or tempfile.mkdtemp())
+    folder.mkdir(parents=True, exist_ok=True)
+    program = str(Path(options.keyblock).resolve())
+    n_failures = 0
+    print("kind     joints  meshed  ratio of steps: median  worst (seed)   CPU [s]: median  most")
+    for kind in options.kinds.split(","):
+        numbers = [int(n) for n in options.numbers.split(",")] if options.numbers else NUMBERS[kind]
+        for n in numbers:
+            ratios, times = [], []
+            for seed in seeds:
+                reason, ratio, cpu, summary = run(program, folder, kind, n, seed,
+                                                  options.run, rest)
+                if reason:
+                    n_failures += 1
+                    print(f"  {kind} {n} seed {seed}: {reason}")
+                    continue
+                ratios.append((ratio, seed))
+                times.append(cpu)
+                if summary:
+                    residual = summary["energy"]["relative_residual"]
+                    stage = summary["stages"][-1]
+                    print(f"  {kind} {n} seed {seed}: {stage['steps']} steps, unbalanced "
+                          f"{stage['unbalanced_ratio']:.2g}, residual {residual:.2g}")
+            if ratios:
+                worst = min(ratios)
+                print(f"{kind:8s} {n:6d}  {len(ratios)}/{len(seeds)}  "
+                      f"{statistics.median(r for r, _ in ratios):22.3f}  "
+                      f"{worst[0]:.3f} ({worst[1]})  {statistics.median(times):20.2f}  "
+                      f"{max(times):.2f}", flush=True)
+    sys.exit(1 if n_failures else 0)
+
+
+if __name__ == "__main__":
+    main()
