@@ -148,7 +148,10 @@ namespace Keyblock
       std::string failure; ///< message of a ComputationError
     };
 
-    /** What this team finds from the state in @p image (StateFile::image). */
+    /** All that restore() needs, as bytes (StateFile::image). */
+    std::vector<char> state_image();
+
+    /** What this team finds from the state in @p image. */
     TeamResult find_factors_of_team(std::vector<char> &image);
 
     /** This run on the ranks of world(), set up but without a state. */
