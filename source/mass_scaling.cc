@@ -52,13 +52,13 @@ namespace Keyblock
         return squares;
       }
 
-      /** Cells by block whose omega^2 is above @p square. */
+      /** Cells by block whose omega^2 is above the block's @p square. */
       std::vector<unsigned int>
-      count_above(const double square) const
+      count_above(const std::vector<double> &square) const
       {
         std::vector<unsigned int> n(total.size(), 0);
         for (unsigned int c = 0; c < block.size(); ++c)
-          n[block[c]] += frequency[c] * frequency[c] > square;
+          n[block[c]] += frequency[c] * frequency[c] > square[block[c]];
         sum_lists(n);
         return n;
       }
@@ -175,8 +175,7 @@ namespace Keyblock
       blocks.sum(wanted, [&](const double omega2, const unsigned int b) {
         return std::max(0., omega2 / square[b] - 1.);
       });
-    const std::vector<unsigned int> n_stiff =
-      blocks.count_above(highest * highest);
+    const std::vector<unsigned int> n_stiff = blocks.count_above(square);
     for (unsigned int b = 0; b < n_blocks; ++b)
       if (wanted[b])
         result[b] = {square[b],

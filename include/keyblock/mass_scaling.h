@@ -25,7 +25,7 @@ namespace Keyblock
     double floor         = 0.; ///< of a cell's, in its density [rad^2/s^2]
     double added         = 0.; ///< mass moved to stiff cells [kg]
     double mass          = 0.; ///< of the block's deformable cells [kg]
-    unsigned int n_cells = 0;  ///< that were too stiff
+    unsigned int n_cells = 0;  ///< that got it
     bool is_at_bound = false;  ///< some of them still are: too much to be added
 
     /** Density for inertia over the true one, of a cell [-]. */
