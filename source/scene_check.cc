@@ -380,6 +380,17 @@ namespace Keyblock
                 "the time before all stages; give it another name.");
     }
 
+    void
+    check_time_stepping(const TimeStepping &stepping)
+    {
+      require(stepping.maximum_step == 0. ||
+                stepping.least_step <= stepping.maximum_step,
+              "The entry 'Time stepping/Least step' is " +
+                number(stepping.least_step) +
+                " s, above 'Time stepping/Maximum step'; mass would be moved "
+                "for nothing: lower one or raise the other.");
+    }
+
     template <int dim>
     void
     check_initial_state(const Scene<dim> &scene)
@@ -573,6 +584,7 @@ namespace Keyblock
     for (const auto &stage : stages)
       check_stage(*stage);
     check_stages_of_excavations(*this);
+    check_time_stepping(time_stepping);
     check_initial_state(*this);
     check_expressions(*this);
     for (const auto &monitor : monitors)

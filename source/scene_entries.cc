@@ -465,6 +465,19 @@ namespace Keyblock
                       maximum_step,
                       "Upper limit of the time step [s]; 0: none.",
                       not_negative);
+    prm.add_parameter("Least step",
+                      least_step,
+                      "Stable step, without damping and safety, that dynamic "
+                      "stages are to have [s]; 0: any. Cells with a smaller "
+                      "one get inertia, but no weight, from the others of "
+                      "their block.",
+                      not_negative);
+    prm.add_parameter("Largest added mass",
+                      largest_added_mass,
+                      "What such cells get, at most, as a fraction of the "
+                      "block's mass, and what any other cell gives, as a "
+                      "fraction of its own [-].",
+                      Double(0., 0.5));
     prm.add_parameter("Energy ledger",
                       ledger,
                       "Keep every energy term, each step.");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// From the scene to arrays: cells, masses, initial state.
+// From the scene to arrays: cells, frequencies, initial state.
 #include <keyblock/set_up.h>
 
 #include <keyblock/cell_geometry.h>
@@ -14,17 +14,6 @@ namespace Keyblock
 {
   namespace
   {
-    template <int dim>
-    Corners<dim, double>
-    corners_of(const Mesh<dim> &mesh, const unsigned int cell)
-    {
-      Corners<dim, double> corners;
-      for (int v = 0; v < (1 << dim); ++v)
-        for (int d = 0; d < dim; ++d)
-          corners[v][d] = mesh.vertices[mesh.cells[cell][v]][d];
-      return corners;
-    }
-
     double
     radians(const double degrees)
     {
@@ -216,6 +205,7 @@ namespace Keyblock
     stage_number = number;
     list_cells();
     set_up_frequencies();
+    set_up_mass_scaling();
     set_up_mass();
     set_up_supports();
     set_up_tractions();
@@ -367,12 +357,25 @@ namespace Keyblock
 
 
   template <int dim>
+  std::array<std::array<double, dim>, 1 << dim>
+  Conditions<dim>::corners_of(const unsigned int mesh_cell) const
+  {
+    std::array<std::array<double, dim>, 1 << dim> corners;
+    for (int v = 0; v < (1 << dim); ++v)
+      for (int d = 0; d < dim; ++d)
+        corners[v][d] = split.mesh.vertices[split.mesh.cells[mesh_cell][v]][d];
+    return corners;
+  }
+
+
+
+  template <int dim>
   void
   Conditions<dim>::set_up_frequencies()
   {
     Corners<dim, double> last_edges{};
-    unsigned int last_material = none, highest_cell = none;
-    double highest = 0., lowest = std::numeric_limits<double>::max();
+    unsigned int last_material = none;
+    double lowest              = std::numeric_limits<double>::max();
     frequency.resize(cells.nodes.size());
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       {
@@ -380,7 +383,7 @@ namespace Keyblock
         const unsigned int m          = material_of(mesh_cell);
         const Material<dim> &material = *scene.materials[m];
         // congruent cells, as in structured meshes, have equal frequencies
-        const auto corners = corners_of(split.mesh, mesh_cell);
+        const auto corners = corners_of(mesh_cell);
         auto edges         = corners;
         bool is_congruent  = m == last_material;
         for (int v = 0; v < (1 << dim); ++v)
@@ -399,82 +402,8 @@ namespace Keyblock
         last_edges    = edges;
         last_material = m;
         lowest        = std::min(lowest, frequency[c]);
-        if (frequency[c] > highest)
-          {
-            highest      = frequency[c];
-            highest_cell = mesh_cell;
-          }
       }
-    lowest_frequency    = min_over_ranks(lowest);
-    true_step.frequency = max_over_ranks(highest);
-    const unsigned int cell =
-      min_over_ranks(highest == true_step.frequency ? highest_cell : none);
-    if (cell != none)
-      true_step.place = split.mesh.cell_center(cell);
-    stable_step = true_step;
-  }
-
-
-
-  template <int dim>
-  std::vector<double>
-  Conditions<dim>::sum_masses(const bool is_scaled) const
-  {
-    std::vector<double> mass(dim * numbering.n_local(), 0.);
-    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
-      {
-        const unsigned int mesh_cell = cells.mesh_cell[c];
-        const double density = scene.materials[material_of(mesh_cell)]->density;
-        const double ratio   = frequency[c] / lowest_frequency;
-        const auto share =
-          lumped_mass<dim>(corners_of(split.mesh, mesh_cell),
-                           is_scaled ? density * ratio * ratio : density);
-        for (int v = 0; v < (1 << dim); ++v)
-          for (int d = 0; d < dim; ++d)
-            mass[dim * cells.nodes[c][v] + d] += share[v];
-      }
-    numbering.add_hanging_to_masters(mass);
-    numbering.add_ghosts_to_owners(mass);
-    numbering.update_ghosts(mass);
-    std::vector<double> by_node(numbering.n_local());
-    for (unsigned int node = 0; node < by_node.size(); ++node)
-      by_node[node] = mass[dim * node];
-    return by_node;
-  }
-
-
-
-  template <int dim>
-  void
-  Conditions<dim>::set_up_mass()
-  {
-    fields.weighing_mass = sum_masses(false);
-    scale_density(false);
-  }
-
-
-
-  template <int dim>
-  void
-  Conditions<dim>::scale_density(const bool is_scaled)
-  {
-    fields.mass = is_scaled ? sum_masses(true) : fields.weighing_mass;
-    fields.inverse_mass.resize(fields.mass.size());
-    for (unsigned int node = 0; node < fields.mass.size(); ++node)
-      {
-        const int support =
-          fields.support_of_node.empty() ? -1 : fields.support_of_node[node];
-        const bool is_free =
-          support < 0 || !fields.supports[support].is_fixed();
-        fields.inverse_mass[node] =
-          is_free && fields.mass[node] > 0. ? 1. / fields.mass[node] : 0.;
-      }
-    hold_frozen_nodes();
-    list_moving_nodes();
-    stable_step = true_step;
-    if (is_scaled)
-      stable_step.frequency = lowest_frequency;
-    bound_step_by_far_field();
+    lowest_frequency = min_over_ranks(lowest);
   }
 
 
@@ -547,20 +476,6 @@ namespace Keyblock
                 split.mesh.vertices[numbering.vertex_of_node[node]], 0., d);
         numbering.interpolate_hanging(fields.velocity);
       }
-  }
-
-
-
-  template <int dim>
-  void
-  Conditions<dim>::set_damping(const double damping_ratio)
-  {
-    cells.beta.clear();
-    if (damping_ratio == 0.)
-      return;
-    for (const double omega : frequency)
-      cells.beta.push_back(2. * damping_ratio / omega);
-    fields.damping_force.assign(fields.velocity.size(), 0.);
   }
 
 

@@ -14,6 +14,14 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Least over median step of the cells that is not warned of [-]. */
+    constexpr double least_step_ratio = 0.05;
+  } // namespace
+
+
+
   template <int dim>
   Simulation<dim>::Simulation(const std::string &scene_file,
                               const std::vector<std::string> &overrides,
@@ -82,6 +90,9 @@ namespace Keyblock
     for (unsigned int d = 0; d < dim; ++d)
       place << (d ? ", " : "") << conditions->stable_step.place[d];
     report.stable_step_place = place.str();
+    report.step_ratio =
+      measure_step_spread(conditions->frequency, cells.mesh_cell, split.mesh)
+        .ratio();
   }
 
 
@@ -97,21 +108,55 @@ namespace Keyblock
 
   template <int dim>
   void
-  Simulation<dim>::print_set_up(std::ostream &out) const
+  Simulation<dim>::print_set_up(std::ostream &out)
   {
     out << "Mesh    " << split.mesh.n_cells() << " cells (" << n_cells_global
         << " deformable), " << numbering->n_global() << " nodes, "
         << split.interface.pairs.size() << " pairs; least scaled Jacobian "
         << std::setprecision(3) << quality.minimum_scaled_jacobian << "\n";
     if (n_cells_global > 0)
-      out << "        stable time step "
-          << conditions->stable_step.limit(Stage())
-          << " s, set by the cell at (" << report.stable_step_place << ")\n";
+      print_stable_step(out);
     print_mesh_report(out, mesh_report, scene);
+    print_mass_scaling(out);
     print_block_table(out, blocks, scene);
     if (scene.block_theory.report)
       print_block_theory(out, find_block_theory(scene, scene.block_theory));
     out << std::flush;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::print_stable_step(std::ostream &out) const
+  {
+    const TimeStepping &stepping = scene.time_stepping;
+    out << "        stable time step " << conditions->stable_step.limit(Stage())
+        << " s, set by the cell at (" << report.stable_step_place
+        << ")\n        least over median step of "
+        << "the cells " << report.step_ratio << '\n';
+    if (report.step_ratio < least_step_ratio)
+      out << "Warning: The least stable step of a cell is " << report.step_ratio
+          << " times the median one, and sets the time step; improve the mesh "
+             "there"
+          << (stepping.least_step == 0. ? ", or set 'Time stepping/Least step'"
+                                        : "")
+          << ".\n";
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::print_mass_scaling(std::ostream &out)
+  {
+    const std::string text =
+      describe_mass_scaling(conditions->mass_scaling,
+                            blocks,
+                            scene.time_stepping.least_step);
+    if (text != mass_scaling_text)
+      out << text << std::flush;
+    mass_scaling_text = text;
   }
 
 
@@ -322,6 +367,7 @@ namespace Keyblock
     report.wall_time      = MPI_Wtime() - wall_start;
     report.contact_time   = step->contact_seconds;
     report.force_time     = step->force_seconds;
+    report.mass_scaling   = conditions->mass_scaling;
     report.skipped_steps  = sum_over_ranks(step->n_skipped);
     report.capped_groups  = sum_over_ranks(contact ? contact->n_capped : 0);
     monitors->write_csv(folder + "history.csv");

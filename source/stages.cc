@@ -105,6 +105,8 @@ namespace Keyblock
     if (present.wants_factors)
       present.before = take_snapshot(parts());
     dig_stage(stage, number);
+    if (is_root())
+      print_mass_scaling(std::cout);
     present.first_step = step->n_steps;
   }
 

@@ -63,6 +63,15 @@ namespace Keyblock
     /** Increment of the memory that holds a new file [bytes]. */
     constexpr std::size_t memory_increment = 1 << 22;
 
+    /** A name for a file in memory. HDF5 tells such files apart by their names
+     * alone, so that no two that are open may have the same. */
+    std::string
+    new_name()
+    {
+      static unsigned int n_files = 0;
+      return "state " + std::to_string(++n_files);
+    }
+
     template <typename T>
     void
     save_list(const hid_t file,
@@ -158,7 +167,7 @@ namespace Keyblock
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fapl_core(access, memory_increment, false);
-    file = H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    file = H5Fcreate(new_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
     AssertThrow(file >= 0,
                 dealii::ExcMessage("No checkpoint can be put together."));
   }
@@ -192,7 +201,7 @@ namespace Keyblock
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fapl_core(access, memory_increment, false);
     H5Pset_file_image(access, image.data(), image.size());
-    file = H5Fopen(name.c_str(), H5F_ACC_RDONLY, access);
+    file = H5Fopen(new_name().c_str(), H5F_ACC_RDONLY, access);
     AssertThrow(file >= 0,
                 dealii::ExcMessage("The state of the run cannot be read."));
   }

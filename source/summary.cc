@@ -150,12 +150,14 @@ namespace Keyblock
     blocks_as_tree(const Blocks<dim> &blocks,
                    const Scene<dim> &scene,
                    const std::vector<SafetyFactor> &factors,
-                   const std::vector<unsigned int> &removal_stage)
+                   const std::vector<unsigned int> &removal_stage,
+                   const std::vector<MassScaling> &scaling)
     {
       Tree list;
       for (const Block<dim> &block : blocks.blocks)
         {
           Tree tree, classes, areas;
+          const unsigned int b = &block - blocks.blocks.data();
           put(tree, "id", block.id);
           for (const BlockClass kind : block.class_of_stage)
             classes.push_back({"", Tree(to_string(kind))});
@@ -165,6 +167,9 @@ namespace Keyblock
           put(tree, "volume", block.volume);
           put(tree, "mass", block.mass);
           put(tree, "weight", 9.81 * block.mass);
+          put(tree,
+              "added_mass",
+              b < scaling.size() ? scaling[b].added_fraction() : 0.);
           tree.add_child("centroid", list_of<dim>(block.centroid));
           if (block.exposed_stage != none)
             put(tree, "exposed_stage", block.exposed_stage);
@@ -172,7 +177,6 @@ namespace Keyblock
             put(areas, scene.joints[joint]->name, area);
           if (!areas.empty())
             tree.add_child("joint_areas", areas);
-          const unsigned int b = &block - blocks.blocks.data();
           if (b < removal_stage.size() && removal_stage[b] > 1)
             put(tree,
                 "removed_in_stage",
@@ -222,6 +226,8 @@ namespace Keyblock
     put(run_tree, "steps", run.steps);
     put(run_tree, "time_step", run.time_step);
     put(run_tree, "time_step_set_at", run.stable_step_place);
+    put(run_tree, "step_ratio", run.step_ratio);
+    put(run_tree, "added_mass", total_added_fraction(run.mass_scaling));
     put(run_tree, "simulated_time", run.simulated_time);
     put(run_tree, "wall_time", run.wall_time);
     put(run_tree, "loop_time", run.loop_time);
@@ -283,7 +289,8 @@ namespace Keyblock
                    energies_as_tree(stages.empty() ? Energies()
                                                    : stages.back().energies));
     root.add_child("blocks",
-                   blocks_as_tree<dim>(blocks, scene, factors, removal_stage));
+                   blocks_as_tree<dim>(
+                     blocks, scene, factors, removal_stage, run.mass_scaling));
     if (scene.block_theory.report)
       root.add_child("block_theory",
                      block_theory_as_tree(

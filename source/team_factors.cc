@@ -47,6 +47,17 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<char>
+  Simulation<dim>::state_image()
+  {
+    StateFile file;
+    put_state(file);
+    return file.image();
+  }
+
+
+
+  template <int dim>
   typename Simulation<dim>::TeamResult
   Simulation<dim>::find_factors_of_team(std::vector<char> &image)
   {
@@ -57,8 +68,10 @@ namespace Keyblock
       {
         if (team_copy == nullptr)
           team_copy = copy_set_up();
-        StateFile state(image);
-        team_copy->restore(state);
+        {
+          StateFile state(image);
+          team_copy->restore(state);
+        }
         result.n_capped = team_copy->contact->n_capped;
         team_copy->find_remaining_factors();
       }
@@ -87,9 +100,7 @@ namespace Keyblock
   {
     if (list_wanted_blocks(present.index).empty())
       return;
-    StateFile file;
-    put_state(file);
-    std::vector<char> image = file.image();
+    std::vector<char> image = state_image();
     const TeamResult mine   = find_factors_of_team(image);
     contact->n_capped += mine.n_capped;
 

@@ -5,15 +5,17 @@ usage: restart.py KEYBLOCK SCENE FOLDER [options]
 
   --breaks N       how many runs that had saved themselves are broken off, at
                    random moments (3)
-  --by HOW         kill: SIGKILL; stop: SIGTERM, after which the exit code must
-                   be 143; full: no room for files (kill)
+  --by HOW         kill: SIGKILL; stop: SIGTERM, or SIGUSR1 on several ranks,
+                   after which the exit code must be 143 or 138; full: no room
+                   for files (kill)
   --ranks N...     ranks of the first run, of the second, ... in turn (1)
   --tolerance X    of numbers in history.csv, relative to the largest of the
                    columns of their unit, and in summary.json, relative to the
                    number or 1; 0: equal bytes (0)
   --set A=B        as for keyblock
 
-All runs but the first, uninterrupted one save themselves every 20 ms.
+All runs but the first, uninterrupted one save themselves every 20 ms. What was
+broken off must have been resumed, from its checkpoint.
 """
 import argparse
 import csv
@@ -132,6 +134,12 @@ def compare(folder, reference):
     return largest
 
 
+def is_resumed(output, restart):
+    """Whether the run went on from a checkpoint, as it must if asked to."""
+    assert ("Resumed " in output) == bool(restart), output
+    return bool(restart)
+
+
 def is_newer(file_name, begin):
     return os.path.exists(file_name) and os.path.getmtime(file_name) > begin
 
@@ -171,18 +179,20 @@ def fill_disk(process, checkpoint):
                f"--restart {checkpoint}")
 
 
-def stop(process, checkpoint):
-    process.send_signal(signal.SIGTERM)
-    expect_end(process, 143, f"continue by: keyblock {options.scene}",
+def stop(process, checkpoint, ranks):
+    # mpirun kills the ranks a second after SIGTERM
+    by = signal.SIGTERM if ranks == 1 else signal.SIGUSR1
+    process.send_signal(by)
+    expect_end(process, 128 + by, f"continue by: keyblock {options.scene}",
                f"--restart {checkpoint}")
-    expect_refusals(checkpoint)
+    expect_refusals(checkpoint, ranks)
 
 
-def expect_refusals(checkpoint):
+def expect_refusals(checkpoint, ranks):
     """Another scene and another version are refused with a sentence."""
     extra = ["--restart", checkpoint]
     folder = options.folder + "_refused"
-    expect(run(command_of(folder, 1, 0, extra + ["--set",
+    expect(run(command_of(folder, ranks, 0, extra + ["--set",
                                                  "Time stepping/Safety=0.7"])),
            1, "'Time stepping/Safety' is '0.9' there and '0.7' here")
     with open(checkpoint, "rb") as file:
@@ -192,11 +202,11 @@ def expect_refusals(checkpoint):
     with open(other, "wb") as file:
         file.write(content.replace(b", checkpoint format ",
                                    b", checkpoint Format "))
-    expect(run(command_of(folder, 1, 0, ["--restart", other])), 1,
+    expect(run(command_of(folder, ranks, 0, ["--restart", other])), 1,
            "was written by keyblock")
     with open(other, "wb") as file:
         file.write(content[:len(content) // 2])
-    expect(run(command_of(folder, 1, 0, ["--restart", other])), 1,
+    expect(run(command_of(folder, ranks, 0, ["--restart", other])), 1,
            "is not a checkpoint")
     assert not os.path.exists(folder), "something was written"
 
@@ -206,7 +216,14 @@ begin = time.time()
 expect(run(command_of(reference, options.ranks[0], 0, [])), 0)
 duration = time.time() - begin
 
-broken, n_runs, largest = 0, 0, 0.
+
+def rest_of(begin):
+    """What is left of a run that began then, if it had waited [s]."""
+    elapsed = time.time() - begin
+    return duration if options.by == "kill" else max(0., duration - elapsed)
+
+
+broken, resumed, n_runs, largest = 0, 0, 0, 0.
 while broken < options.breaks:
     folder = f"{options.folder}_{n_runs}"
     checkpoint = folder + "/checkpoint.h5"
@@ -225,27 +242,33 @@ while broken < options.breaks:
         if broken == options.breaks:
             output = process.communicate()[0]
             assert process.returncode == 0, output
+            resumed += is_resumed(output, restart)
             break
         if options.by != "kill":
             wait_for(checkpoint, begin, process)
         try:
             output = process.communicate(
-                timeout=random.uniform(0., 1.2 * duration))[0]
+                timeout=random.uniform(0., 1.2 * rest_of(begin)))[0]
             assert process.returncode == 0, output
+            resumed += is_resumed(output, restart)
             break
         except subprocess.TimeoutExpired:
-            # counts if it had saved itself
-            broken += is_newer(checkpoint, begin)
+            has_saved = is_newer(checkpoint, begin)
             if options.by == "full":
                 fill_disk(process, checkpoint)
             elif options.by == "stop":
-                stop(process, checkpoint)
+                stop(process, checkpoint, ranks)
             else:
                 kill(process)
             if process.returncode == 0:
                 break
+            # counts if it had saved itself
+            broken += has_saved
     largest = max(largest, compare(folder, reference))
-print(f"{broken} runs broken off, {n_runs} continued to the end; "
+print(f"{broken} runs broken off, {n_runs} taken to the end, {resumed} of them "
+      "from a checkpoint; "
       f"largest difference {largest:g}, uninterrupted {duration:.1f} s")
+if resumed == 0:
+    sys.exit("no run was resumed to its end")
 if not math.isfinite(largest):
     sys.exit(1)

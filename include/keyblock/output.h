@@ -48,6 +48,8 @@ namespace Keyblock
     double element_steps       = 0.;
     unsigned int capped_groups = 0;
     std::string stable_step_place;
+    double step_ratio = 1.; ///< least over median of the cells at the start
+    std::vector<MassScaling> mass_scaling; ///< at the end, by block
   };
 
   /** Measured quantities of the scene: name and value, in order. */

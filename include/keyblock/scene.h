@@ -263,12 +263,14 @@ namespace Keyblock
   /** The explicit step. */
   struct TimeStepping
   {
-    std::string kinematics = "small";
-    double safety          = 0.9;
-    double maximum_step    = 0.;
-    bool ledger            = true;
-    bool skips_resting     = true;
-    double rest_speed      = 1e-12;
+    std::string kinematics    = "small";
+    double safety             = 0.9;
+    double maximum_step       = 0.;
+    double least_step         = 0.;
+    double largest_added_mass = 0.01;
+    bool ledger               = true;
+    bool skips_resting        = true;
+    double rest_speed         = 1e-12;
 
     bool
     is_large() const

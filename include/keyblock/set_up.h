@@ -6,6 +6,8 @@
 #include <keyblock/expression.h>
 #include <keyblock/fields.h>
 #include <keyblock/internal_force.h>
+#include <keyblock/mass_scaling.h>
+#include <keyblock/step_spread.h>
 
 #include <map>
 #include <memory>
@@ -108,8 +110,8 @@ namespace Keyblock
     /** Whether stage @p number digs, fills or loads anything. */
     bool changes(const unsigned int number) const;
 
-    /** Use masses that give all cells the lowest frequency of them, or the
-     * true ones. Gravity is not affected. */
+    /** Use masses that give all cells the lowest frequency of them, or those
+     * of `mass_scaling`, the true ones without it. Gravity is not affected. */
     void scale_density(const bool is_scaled);
 
     /**
@@ -177,6 +179,11 @@ namespace Keyblock
     StableStep<dim> stable_step;   ///< of the masses in use
     std::vector<double> frequency; ///< of each deformable cell here [rad/s]
 
+    /** Inertia shared out anew within blocks (Time stepping/Least step): one
+     * entry for each block, the last for rock that is dug later. Empty: none.
+     */
+    std::vector<MassScaling> mass_scaling;
+
   private:
     /** Share of the ramped force that is left [-]. */
     double share_left_at(const double progress) const;
@@ -186,7 +193,19 @@ namespace Keyblock
     void hold_frozen_nodes();
     void list_moving_nodes();
     void set_up_frequencies();
-    std::vector<double> sum_masses(const bool is_scaled) const;
+    void set_up_mass_scaling();
+
+    void share_out_masses();
+
+    /** Of the block of a cell of `cells`; null without mass_scaling. */
+    const MassScaling *scaling_of(const unsigned int cell) const;
+    double density_of(const unsigned int mesh_cell) const;
+    std::array<std::array<double, dim>, 1 << dim>
+    corners_of(const unsigned int mesh_cell) const;
+
+    /** Mass by node [kg], with density times @p factor(cell). */
+    template <typename Factor>
+    std::vector<double> sum_masses(const Factor &factor) const;
     void set_up_far_field();
     void bound_step_by_far_field();
     void set_up_mass();
@@ -211,8 +230,8 @@ namespace Keyblock
     bool is_load_set      = false;
 
     std::vector<unsigned int> cell_of_local; ///< into cells, or `none`
-    StableStep<dim> true_step;               ///< of the true masses
-    double lowest_frequency = 0.;            ///< of all cells [rad/s]
+    StableStep<dim> unscaled_step; ///< of masses that are not all scaled
+    double lowest_frequency = 0.;  ///< of all cells [rad/s]
   };
 } // namespace Keyblock
 

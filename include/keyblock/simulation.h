@@ -84,6 +84,13 @@ namespace Keyblock
       return conditions->stable_step.limit(Stage());
     }
 
+    /** Inertia moved within blocks in the present stage (set_up.h). */
+    const std::vector<MassScaling> &
+    mass_scaling() const
+    {
+      return conditions->mass_scaling;
+    }
+
     /** What the monitors measured (rank 0). */
     const History &
     measured() const
@@ -100,7 +107,11 @@ namespace Keyblock
     std::vector<double>
     gather_by_vertex(const std::vector<double> &field) const;
     void make_geometry();
-    void print_set_up(std::ostream &out) const;
+    void print_set_up(std::ostream &out);
+    void print_stable_step(std::ostream &out) const;
+
+    /** What mass scaling does in the present stage, if that is news. */
+    void print_mass_scaling(std::ostream &out);
     void set_up();
     void open_output();
     void run_stages();
@@ -148,7 +159,10 @@ namespace Keyblock
       std::string failure; ///< message of a ComputationError
     };
 
-    /** What this team finds from the state in @p image (StateFile::image). */
+    /** All that restore() needs, as bytes (StateFile::image). */
+    std::vector<char> state_image();
+
+    /** What this team finds from the state in @p image. */
     TeamResult find_factors_of_team(std::vector<char> &image);
 
     /** This run on the ranks of world(), set up but without a state. */
@@ -228,6 +242,7 @@ namespace Keyblock
     bool is_converged = true;
     std::vector<double> stage_start_displacement;
     unsigned long long n_cells_global = 0;
+    std::string mass_scaling_text; ///< as it was last printed
   };
 } // namespace Keyblock
 

@@ -3,6 +3,10 @@ keyblock_scene(verification/resting)
 keyblock_scene(verification/incline_25)
 keyblock_scene(verification/incline_30)
 keyblock_scene(verification/incline_35)
+# one cell of the block, at the top, is quartered and does not set the step
+keyblock_scene(verification/incline_30 REFERENCES incline_30_scaled RANKS 1 2
+  SET "Mesh/Refinement levels=(x > 0.325)*(x < 0.36)*(y > 0)*(y < 0.04)"
+  "Time stepping/Least step=1.3e-4")
 keyblock_scene(verification/incline_3d)
 keyblock_scene(verification/bar_impact)
 keyblock_scene(verification/oblique_impact)

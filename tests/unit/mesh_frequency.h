@@ -11,8 +11,9 @@
 
 namespace Keyblock
 {
-  /** Highest frequency of the mesh without supports, which is at least that
-   * with them, by so many power iterations on M^-1 K; from below [rad/s]. */
+  /** Highest frequency of the mesh with the masses in use, without supports,
+   * which is at least that with them, by so many power iterations on M^-1 K;
+   * from below [rad/s]. */
   template <int dim>
   double
   highest_frequency_of_mesh(const Simulation<dim> &simulation,
@@ -43,7 +44,7 @@ namespace Keyblock
         std::vector<double> sums(2, 0.);
         for (unsigned int i = 0; i < dim * number.n_owned(); ++i)
           {
-            const double mass = fields.weighing_mass[i / dim];
+            const double mass = fields.mass[i / dim];
             y[i]              = mass > 0. ? y[i] / mass : 0.; // hanging: 0
             sums[0] += x[i] * y[i] * mass;
             sums[1] += x[i] * x[i] * mass;
