@@ -3,6 +3,7 @@
 
 #include <keyblock/block_theory.h>
 #include <keyblock/mpi.h>
+#include <keyblock/network_output.h>
 #include <keyblock/teams.h>
 
 #include <unistd.h>
@@ -189,6 +190,11 @@ namespace Keyblock
                              "' cannot be made (" + error.message() +
                              "); choose another by --output."));
       scene.write_used(folder + "used.prm");
+      if (!scene.joints.empty())
+        {
+          write_joint_table(folder + "joints.csv", scene);
+          write_joint_planes(folder + "joints.vtu", scene, split.mesh.vertices);
+        }
       for (const std::string &warning : scene.warnings())
         std::cout << "Warning: " << warning << '\n';
       print_set_up(std::cout);

@@ -4,6 +4,7 @@
 
 #include <keyblock/errors.h>
 #include <keyblock/mpi.h>
+#include <keyblock/network_output.h>
 #include <keyblock/number_text.h>
 #include <keyblock/scene.h>
 #include <keyblock/scene_joints.h>
@@ -213,6 +214,20 @@ BOOST_AUTO_TEST_CASE(refused_joints)
   check_refused({"Joint sets/S/Radius law=power law"}, "Radius minimum");
   check_refused({"Domain/Size=20, 20"}, "'Domain/Size' has 2");
   read({"Safety factor/Joints=A, S, c"});
+}
+
+BOOST_AUTO_TEST_CASE(written_network_is_read_again)
+{
+  write("table.csv", table);
+  write_scene(scene_of_all());
+  // (coordinates in the grid of an origin are rounded there)
+  const std::string origin = "Domain/Origin=0, 0, 0";
+  const auto scene = read({origin, "Joints/b/Water pressure=9810*(20-z)"});
+  write_joint_table(own("written.csv"), *scene);
+  write_scene("subsection Joints\n set File = " + own("written.csv") +
+              "\nend\n");
+  const auto again = read({origin});
+  BOOST_TEST(print_joints(again->joints) == print_joints(scene->joints));
 }
 
 // a second for 10,000 rows would be slow; on a loaded machine it takes 0.3 s
