@@ -124,7 +124,7 @@ namespace Keyblock
           const std::filesystem::path path =
             std::filesystem::path(scene.file).parent_path() /
             scene.network.file;
-          add(read_joint_table<dim>(path.string(),
+          add(read_joint_table<dim>(path.lexically_normal().string(),
                                     scene.domain.origin,
                                     strength_of_set));
         }
