@@ -2,14 +2,17 @@
 """Meshes random joint networks around a tunnel and tabulates how well.
 
 usage: contrib/networks.py [--kinds traces,discs,planes] [--numbers 20,50]
-         [--seeds 1-5] [--run] [--keyblock build/keyblock] [--keep FOLDER]
+         [--seeds 1-5] [--least 0.05] [--run] [--residual 1e-9] [--ranks N]
+         [--keyblock build/keyblock] [--keep FOLDER]
          [-- arguments for keyblock]
 
 traces: 2D, a horseshoe 10 m wide in 80 m, two sets of traces of 3 to 20 m;
 discs, planes: 3D, a tunnel of 6 m, 30 m long, in a cube of 40 m, three sets.
 The stable step is compared with the cell size at the excavation over the
-velocity of pressure waves. With --run the tunnel is dug and the run's end
-looked at. Exits with 1 if a scene was refused or crashed.
+velocity of pressure waves. With --run the tunnel is dug until all is at rest
+or blocks move off. Exits with 1 if a scene was refused or crashed, has a ratio
+below --least, or a run a larger --residual of the energy ledger or a result
+that is not finite.
 """
 import argparse
 import json
@@ -121,7 +124,7 @@ def cpu_of_children():
     return usage.ru_utime + usage.ru_stime
 
 
-def run(program, folder, kind, n, seed, full, arguments):
+def run(program, folder, kind, n, seed, full, arguments, ranks):
     """(reason of failure or None, ratio of the step, seconds of CPU, summary)"""
     name = f"{kind}_{n}_{seed}"
     (folder / f"{name}.prm").write_text(scene(kind, n, seed))
@@ -129,6 +132,8 @@ def run(program, folder, kind, n, seed, full, arguments):
     command = [program, "--output", str(folder / name), f"{name}.prm"] + arguments
     if not full:
         command.insert(1, "--validate")
+    if ranks > 1:
+        command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] + command
     result = subprocess.run(command, cwd=folder, text=True, capture_output=True)
     cpu = cpu_of_children() - before
     if result.returncode != 0:
@@ -154,7 +159,10 @@ def main():
     parser.add_argument("--kinds", default="traces,discs,planes")
     parser.add_argument("--numbers", default="")
     parser.add_argument("--seeds", default="1-5")
+    parser.add_argument("--least", type=float, default=0.)
     parser.add_argument("--run", action="store_true")
+    parser.add_argument("--residual", type=float, default=1e-9)
+    parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--keyblock", default=str(root / "build" / "keyblock"))
     parser.add_argument("--keep", default="")
     options = parser.parse_args(arguments)
@@ -171,7 +179,9 @@ def main():
             ratios, times = [], []
             for seed in seeds:
                 reason, ratio, cpu, summary = run(program, folder, kind, n, seed,
-                                                  options.run, rest)
+                                                  options.run, rest, options.ranks)
+                if not reason and ratio < options.least:
+                    reason = f"ratio {ratio:.3g} is below {options.least}"
                 if reason:
                     n_failures += 1
                     print(f"  {kind} {n} seed {seed}: {reason}")
@@ -182,7 +192,11 @@ def main():
                     residual = summary["energy"]["relative_residual"]
                     stage = summary["stages"][-1]
                     print(f"  {kind} {n} seed {seed}: {stage['steps']} steps, unbalanced "
-                          f"{stage['unbalanced_ratio']:.2g}, residual {residual:.2g}")
+                          f"{stage['unbalanced_ratio']:.2g}, residual {residual:.2g}, moved "
+                          f"{stage['max_displacement']:.3g} m; {stage.get('remark', 'at rest')}")
+                    if not (abs(residual) < options.residual and
+                            math.isfinite(stage["max_displacement"])):
+                        n_failures += 1
             if ratios:
                 worst = min(ratios)
                 print(f"{kind:8s} {n:6d}  {len(ratios)}/{len(seeds)}  "

@@ -13,15 +13,16 @@ namespace Keyblock
   list_faces(const Scene<dim> &scene,
              const SplitMesh<dim> &split,
              const Conditions<dim> &conditions,
-             const unsigned int block)
+             const Block<dim> &block)
   {
+    const unsigned int index = block.id - 1;
     // one face per joint and side
     std::map<std::pair<unsigned int, bool>, BlockFace<dim>> faces;
     const Mesh<dim> &mesh = split.mesh;
     for (const JointFace &face : split.interface.joint_faces)
       {
-        const bool is_plus = split.block_of_cell[face.plus_cell] == block;
-        if ((split.block_of_cell[face.minus_cell] == block) == is_plus)
+        const bool is_plus = split.block_of_cell[face.plus_cell] == index;
+        if ((split.block_of_cell[face.minus_cell] == index) == is_plus)
           continue;
         if (conditions.is_dug(face.minus_cell) ||
             conditions.is_dug(face.plus_cell))
@@ -29,6 +30,7 @@ namespace Keyblock
         const Joint<dim> &joint = *scene.joints[face.joint];
         BlockFace<dim> &entry   = faces[{face.joint, is_plus}];
         const double area =
+          block.area_ratio(face.joint) *
           mesh.face_area_vector(face.minus_cell, face.minus_face).norm();
         entry.inward = (is_plus ? 1. : -1.) * joint.normal();
         entry.area += area;
@@ -64,7 +66,7 @@ namespace Keyblock
                        .vector(block.centroid, time);
     for (unsigned int d = 0; d < scene.safety.seismic_coefficient.size(); ++d)
       acceleration[d] += 9.81 * scene.safety.seismic_coefficient[d];
-    return block.mass * acceleration;
+    return block.exact_mass() * acceleration;
   }
 
 
@@ -102,7 +104,7 @@ namespace Keyblock
   template std::vector<BlockFace<2>> list_faces<2>(const Scene<2> &,
                                                    const SplitMesh<2> &,
                                                    const Conditions<2> &,
-                                                   const unsigned int);
+                                                   const Block<2> &);
   template Tensor<1, 2>
   weight_of<2>(const Scene<2> &, const Block<2> &, const double);
   template double stress_ratio<2>(const Scene<2> &,
@@ -112,7 +114,7 @@ namespace Keyblock
   template std::vector<BlockFace<3>> list_faces<3>(const Scene<3> &,
                                                    const SplitMesh<3> &,
                                                    const Conditions<3> &,
-                                                   const unsigned int);
+                                                   const Block<3> &);
   template Tensor<1, 3>
   weight_of<3>(const Scene<3> &, const Block<3> &, const double);
   template double stress_ratio<3>(const Scene<3> &,

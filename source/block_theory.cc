@@ -29,7 +29,7 @@ namespace Keyblock
 
     template <int dim>
     JointPyramid
-    make_pyramid(const std::vector<JointSet<dim>> &sets,
+    make_pyramid(const std::vector<ParallelJoints<dim>> &sets,
                  const unsigned int number,
                  const Tensor<1, dim> &gravity)
     {
@@ -97,10 +97,10 @@ namespace Keyblock
 
     /** Sets of the infinite joints, parallel ones together. */
     template <int dim>
-    std::vector<JointSet<dim>>
+    std::vector<ParallelJoints<dim>>
     collect_sets(const Scene<dim> &scene)
     {
-      std::vector<JointSet<dim>> sets;
+      std::vector<ParallelJoints<dim>> sets;
       for (const auto &joint : scene.joints)
         {
           if (joint->extent != "infinite")
@@ -136,7 +136,7 @@ namespace Keyblock
 
   template <int dim>
   std::vector<Tensor<1, dim>>
-  inward_normals(const std::vector<JointSet<dim>> &sets,
+  inward_normals(const std::vector<ParallelJoints<dim>> &sets,
                  const std::string &code)
   {
     std::vector<Tensor<1, dim>> result;
@@ -149,7 +149,7 @@ namespace Keyblock
 
   template <int dim>
   BlockTheory<dim>
-  find_block_theory(const std::vector<JointSet<dim>> &sets,
+  find_block_theory(const std::vector<ParallelJoints<dim>> &sets,
                     const Tensor<1, dim> &gravity,
                     const BlockTheorySettings &settings)
   {
@@ -208,7 +208,7 @@ namespace Keyblock
 
 
   RoofWedge
-  find_largest_roof_wedge(const std::vector<JointSet<3>> &sets,
+  find_largest_roof_wedge(const std::vector<ParallelJoints<3>> &sets,
                           const std::string &code,
                           const BlockTheorySettings &settings)
   {
@@ -247,9 +247,9 @@ namespace Keyblock
 #define INSTANTIATE(dim)                                                       \
   template struct BlockTheory<dim>;                                            \
   template std::vector<Tensor<1, dim>> inward_normals(                         \
-    const std::vector<JointSet<dim>> &, const std::string &);                  \
+    const std::vector<ParallelJoints<dim>> &, const std::string &);            \
   template BlockTheory<dim> find_block_theory(                                 \
-    const std::vector<JointSet<dim>> &,                                        \
+    const std::vector<ParallelJoints<dim>> &,                                  \
     const Tensor<1, dim> &,                                                    \
     const BlockTheorySettings &);                                              \
   template BlockTheory<dim> find_block_theory(const Scene<dim> &,              \

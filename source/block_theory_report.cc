@@ -25,7 +25,7 @@ namespace Keyblock
     /** Angle below the horizontal [deg]. */
     template <int dim>
     double
-    dip_of(const JointSet<dim> &set)
+    dip_of(const ParallelJoints<dim> &set)
     {
       return std::acos(std::min(1., set.normal[dim - 1])) * 180. /
              dealii::numbers::PI;
@@ -34,7 +34,7 @@ namespace Keyblock
     /** Azimuth towards which it descends, from 0 to 360 [deg]. */
     template <int dim>
     double
-    dip_direction_of(const JointSet<dim> &set)
+    dip_direction_of(const ParallelJoints<dim> &set)
     {
       const double north = dim == 3 ? set.normal[1] : 0.;
       const double angle =

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/block_measures.h>
 #include <keyblock/blocks.h>
 
 #include <algorithm>
@@ -386,6 +387,7 @@ namespace Keyblock
         result.n_stages = std::max(result.n_stages, mesh.excavation_stage[c]);
       }
     classify(result, mesh, scene);
+    measure_exactly(result, mesh);
     return result;
   }
 
@@ -412,6 +414,10 @@ namespace Keyblock
         out << ")  ";
         for (const auto &[joint, area] : block.joint_area)
           out << scene.joints[joint]->name << ' ';
+        if (block.exact.is_known &&
+            std::abs(block.exact.volume - block.volume) > 1e-9 * block.volume)
+          out << " (exactly " << std::setprecision(6) << block.exact.volume
+              << (dim == 2 ? " m2)" : " m3)");
         out << '\n';
       }
   }

@@ -35,7 +35,7 @@ namespace Keyblock
     , fields(fields)
     , default_tangent(tangent_of(scene.contact.default_friction_angle))
     , traction(interface.pairs.size())
-    , search(split, blocks)
+    , search(split, blocks, scene)
   {
     for (const auto &joint : scene.joints)
       {

@@ -58,12 +58,12 @@ namespace Keyblock
 
   template <>
   void
-  ContactSearch<3>::find_ridges(const Mesh<3> &mesh)
+  ContactSearch<3>::find_ridges()
   {
     std::vector<double> position(3 * n_slots());
     for (unsigned int slot = 0; slot < n_slots(); ++slot)
       for (unsigned int d = 0; d < 3; ++d)
-        position[3 * slot + d] = mesh.vertices[vertex_of_slot[slot]][d];
+        position[3 * slot + d] = place_of_slot[slot][d];
     std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> faces_at;
     for (unsigned int f = 0; f < face_slots.size(); ++f)
       for (const auto &[i, j] :

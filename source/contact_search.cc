@@ -2,6 +2,7 @@
 // Broad phase: which nodes may meet which faces.
 #include <keyblock/contact_geometry.h>
 #include <keyblock/contact_search.h>
+#include <keyblock/joint_extent.h>
 
 #include <deal.II/numerics/rtree.h>
 
@@ -10,9 +11,22 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Joints with a smaller sine between them count as one. */
+    constexpr double least_sine = 1e-2;
+
+    /** Shifts of vertices onto their joints that count as the mesh's bend, over
+     * the size of a face [-]. */
+    constexpr double least_bend = 1e-4, farthest_bend = 2.;
+  } // namespace
+
+
+
   template <int dim>
   ContactSearch<dim>::ContactSearch(const SplitMesh<dim> &split,
-                                    const Blocks<dim> &blocks)
+                                    const Blocks<dim> &blocks,
+                                    const Scene<dim> &scene)
     : interface(split.interface)
     , block_face_size(blocks.blocks.size(), 0.)
   {
@@ -51,13 +65,14 @@ namespace Keyblock
         is_rigid_block.push_back(blocks.blocks[b].is_rigid);
       }
     skin_width = 0.5 * smallest;
+    place_slots(mesh, scene);
     if constexpr (dim == 3)
-      find_ridges(mesh);
+      find_ridges();
 
     std::vector<double> position(dim * n_slots());
     for (unsigned int slot = 0; slot < n_slots(); ++slot)
       for (int d = 0; d < dim; ++d)
-        position[dim * slot + d] = mesh.vertices[vertex_of_slot[slot]][d];
+        position[dim * slot + d] = place_of_slot[slot][d];
     for (unsigned int slot = 0; slot < n_slots(); ++slot)
       {
         bool is_edge = false;
@@ -67,6 +82,52 @@ namespace Keyblock
                                 face_normal(position, faces_of_slot[slot][0])) <
                          cosine_of_sharp;
         is_sharp.push_back(is_edge);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ContactSearch<dim>::place_slots(const Mesh<dim> &mesh,
+                                  const Scene<dim> &scene)
+  {
+    std::vector<JointExtent<dim>> planes;
+    planes.reserve(scene.joints.size());
+    for (const auto &joint : scene.joints)
+      planes.emplace_back(*joint);
+    for (unsigned int slot = 0; slot < n_slots(); ++slot)
+      {
+        const Point<dim> &vertex = mesh.vertices[vertex_of_slot[slot]];
+        Point<dim> place         = vertex;
+        double size              = 0.;
+        std::vector<Tensor<1, dim>> used;
+        std::vector<unsigned int> joints;
+        for (const unsigned int f : faces_of_slot[slot])
+          {
+            const SurfaceFace<dim> &face = interface.surface[f];
+            size                         = std::max(size,
+                            mesh.vertices[face.vertices[0]].distance(
+                              mesh.vertices[face.vertices[1]]));
+            if (face.joint == none ||
+                std::find(joints.begin(), joints.end(), face.joint) !=
+                  joints.end())
+              continue;
+            joints.push_back(face.joint);
+            Tensor<1, dim> way = planes[face.joint].normal;
+            for (const auto &n : used)
+              way -= (way * n) * n;
+            if (used.size() == dim || way.norm() < least_sine)
+              continue;
+            place -=
+              planes[face.joint].distance(place) / way.norm_square() * way;
+            used.push_back(way / way.norm());
+          }
+        // rounding is no bend, and planes that meet far away do not meet here
+        const double shift = place.distance(vertex);
+        place_of_slot.push_back(
+          shift > least_bend * size && shift < farthest_bend * size ? place
+                                                                    : vertex);
       }
   }
 

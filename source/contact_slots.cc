@@ -106,8 +106,7 @@ namespace Keyblock
         copy(fields.displacement, slot_displacement);
         for (const unsigned int slot : active_slots)
           {
-            const Point<dim> &x =
-              split.mesh.vertices[search.vertex_of_slot[slot]];
+            const Point<dim> &x = search.place_of_slot[slot];
             for (int d = 0; d < dim; ++d)
               slot_position[dim * slot + d] =
                 x[d] + slot_displacement[dim * slot + d];
@@ -146,7 +145,7 @@ namespace Keyblock
       if (node_of_slot[slot] < numbering.n_owned())
         for (int d = 0; d < dim; ++d)
           position[dim * slot + d] =
-            fields.reference[dim * node_of_slot[slot] + d] +
+            search.place_of_slot[slot][d] +
             fields.displacement[dim * node_of_slot[slot] + d];
     if (n_ranks() > 1)
       sum_lists(position);

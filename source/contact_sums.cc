@@ -92,79 +92,118 @@ namespace Keyblock
         }
       return total;
     }
+
+    /** Size of the part of @p force across @p normal [N]. */
+    template <int dim>
+    double
+    shear_of(const Vector<dim> &force, const Tensor<1, dim> &normal)
+    {
+      Vector<dim> n;
+      for (int d = 0; d < dim; ++d)
+        n[d] = normal[d];
+      return norm<dim>(add<dim>(force, -dot<dim>(force, n), n));
+    }
+
+    /** Sums over several joints; the centre is weighted by pressure. */
+    template <int dim>
+    JointSums<dim>
+    add_up(const std::vector<JointSums<dim>> &sums)
+    {
+      JointSums<dim> total;
+      Vector<dim> moment{};
+      for (const JointSums<dim> &sum : sums)
+        {
+          total.normal += sum.normal;
+          total.shear += sum.shear;
+          total.force = add<dim>(total.force, 1., sum.force);
+          moment      = add<dim>(moment, sum.normal, sum.center);
+          total.n_open += sum.n_open;
+          total.n_sliding += sum.n_sliding;
+          total.n_sticking += sum.n_sticking;
+          total.n_intact += sum.n_intact;
+        }
+      if (total.normal != 0.)
+        for (int d = 0; d < dim; ++d)
+          total.center[d] = moment[d] / total.normal;
+      return total;
+    }
   } // namespace
 
 
 
   template <int dim>
   JointSums<dim>
-  Contact<dim>::sum_over_joint(const unsigned int joint) const
+  Contact<dim>::sum_over_joints(const std::vector<unsigned int> &joints) const
   {
-    JointSums<dim> sums;
-    Vector<dim> moment{};
+    // one sum for each joint, or one for all points
+    std::vector<JointSums<dim>> sums(std::max<std::size_t>(joints.size(), 1));
+    std::vector<Vector<dim>> moment(sums.size());
+    std::vector<unsigned int> sum_of_joint(scene.joints.size(), none);
+    for (unsigned int i = 0; i < joints.size(); ++i)
+      sum_of_joint[joints[i]] = i;
+    const auto find_sum = [&](const unsigned int joint) {
+      return joints.empty() ? 0 : joint == none ? none : sum_of_joint[joint];
+    };
     const double kick = last_kick > 0. ? last_kick : 1.;
     for (unsigned int p = 0; p < state.size(); ++p)
-      if ((joint == none || interface.pairs[p].joint == joint) &&
-          !state[p].is_converted && !state[p].is_removed &&
-          is_primary(group_of_pair[p]))
-        {
-          const unsigned int node =
-            numbering.local_node(interface.pairs[p].plus);
-          Vector<dim> place;
-          for (int d = 0; d < dim; ++d)
-            place[d] = fields.reference[dim * node + d] +
-                       fields.displacement[dim * node + d];
-          add_point<dim>(sums,
-                         moment,
-                         state[p].impulse,
-                         normal[p],
-                         state[p].status,
-                         place,
-                         kick);
-          sums.n_intact += state[p].is_intact;
-        }
+      {
+        const unsigned int i = find_sum(interface.pairs[p].joint);
+        if (i == none || state[p].is_converted || state[p].is_removed ||
+            !is_primary(group_of_pair[p]))
+          continue;
+        const unsigned int node = numbering.local_node(interface.pairs[p].plus);
+        Vector<dim> place;
+        for (int d = 0; d < dim; ++d)
+          place[d] = fields.reference[dim * node + d] +
+                     fields.displacement[dim * node + d];
+        add_point<dim>(sums[i],
+                       moment[i],
+                       state[p].impulse,
+                       normal[p],
+                       state[p].status,
+                       place,
+                       kick);
+        sums[i].n_intact += state[p].is_intact;
+      }
     if (is_root())
       for (const SurfaceContact<dim> &contact : contacts)
-        if (joint == none || contact.joint == joint)
-          {
-            // the slave's side has the positive weights
-            const ContactPoint<dim> &point = contact.point;
-            // forces are those on the joint's plus side
-            double side = 1.;
-            if (contact.joint != none)
-              {
-                const Tensor<1, dim> n = scene.joints[contact.joint]->normal();
-                double cosine          = 0.;
-                for (int d = 0; d < dim; ++d)
-                  cosine += n[d] * point.normal[d];
-                side = cosine < 0. ? -1. : 1.;
-              }
-            Vector<dim> place{};
-            for (int k = 0; k < point.n_nodes; ++k)
+        {
+          const unsigned int i = find_sum(contact.joint);
+          if (i == none)
+            continue;
+          // the slave's side has the positive weights
+          const ContactPoint<dim> &point = contact.point;
+          // forces are those on the joint's plus side
+          double side = 1.;
+          if (contact.joint != none)
+            {
+              const Tensor<1, dim> n = scene.joints[contact.joint]->normal();
+              double cosine          = 0.;
               for (int d = 0; d < dim; ++d)
-                place[d] += std::max(0., point.weight[k]) *
-                            slot_position[dim * point.node[k] + d];
-            add_point<dim>(sums,
-                           moment,
-                           add<dim>(Vector<dim>{}, side, point.impulse),
-                           add<dim>(Vector<dim>{}, side, point.normal),
-                           point.status,
-                           place,
-                           kick);
-          }
-    JointSums<dim> total = finish_sums<dim>(sums, moment);
-    if (joint != none)
+                cosine += n[d] * point.normal[d];
+              side = cosine < 0. ? -1. : 1.;
+            }
+          Vector<dim> place{};
+          for (int k = 0; k < point.n_nodes; ++k)
+            for (int d = 0; d < dim; ++d)
+              place[d] += std::max(0., point.weight[k]) *
+                          slot_position[dim * point.node[k] + d];
+          add_point<dim>(sums[i],
+                         moment[i],
+                         add<dim>(Vector<dim>{}, side, point.impulse),
+                         add<dim>(Vector<dim>{}, side, point.normal),
+                         point.status,
+                         place,
+                         kick);
+        }
+    for (unsigned int i = 0; i < sums.size(); ++i)
       {
-        const Tensor<1, dim> n = scene.joints[joint]->normal();
-        Vector<dim> normal_of_joint;
-        for (int d = 0; d < dim; ++d)
-          normal_of_joint[d] = n[d];
-        total.shear =
-          norm<dim>(add<dim>(total.force,
-                             -dot<dim>(total.force, normal_of_joint),
-                             normal_of_joint));
+        sums[i] = finish_sums<dim>(sums[i], moment[i]);
+        if (!joints.empty())
+          sums[i].shear =
+            shear_of<dim>(sums[i].force, scene.joints[joints[i]]->normal());
       }
-    return total;
+    return sums.size() == 1 ? sums[0] : add_up<dim>(sums);
   }
 
 
@@ -263,13 +302,15 @@ namespace Keyblock
   JointSums<dim>
   Contact<dim>::count_points() const
   {
-    return sum_over_joint(none);
+    return sum_over_joints({});
   }
 
   template std::vector<PairState<2>> Contact<2>::gather_pair_states() const;
   template std::vector<PairState<3>> Contact<3>::gather_pair_states() const;
-  template JointSums<2> Contact<2>::sum_over_joint(const unsigned int) const;
-  template JointSums<3> Contact<3>::sum_over_joint(const unsigned int) const;
+  template JointSums<2>
+  Contact<2>::sum_over_joints(const std::vector<unsigned int> &) const;
+  template JointSums<3>
+  Contact<3>::sum_over_joints(const std::vector<unsigned int> &) const;
   template std::vector<JointSums<2>>
   Contact<2>::sum_over_block(const unsigned int) const;
   template std::vector<JointSums<3>>

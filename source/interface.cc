@@ -356,6 +356,18 @@ namespace Keyblock
 
 
 
+    /** What part of a face's area its shadow on the plane with @p normal has;
+     * exactly 1 for a face that lies on it up to rounding [-]. */
+    template <int dim>
+    double
+    part_in_plane(const Tensor<1, dim> &area, const Tensor<1, dim> &normal)
+    {
+      const double part = std::abs(area * normal) / area.norm();
+      return part > 1. - 1e-9 ? 1. : part;
+    }
+
+
+
     template <int dim>
     void
     make_pairs(const Scene<dim> &scene,
@@ -376,6 +388,10 @@ namespace Keyblock
           const double size =
             std::pow(std::accumulate(areas.begin(), areas.end(), 0.),
                      1. / (dim - 1));
+          const double in_plane =
+            part_in_plane(result.mesh.face_area_vector(face.minus_cell,
+                                                       face.minus_face),
+                          scene.joints[face.joint]->normal());
           for (unsigned int v = 0; v < minus.size(); ++v)
             for (const unsigned int p : plus)
               if (p != minus[v] && before[p] == before[minus[v]])
@@ -390,7 +406,7 @@ namespace Keyblock
                     fans.unwelding_stage.find({{minus[v], p}});
                   if (welded != fans.unwelding_stage.end())
                     pair.unwelding_stage = welded->second;
-                  pair.area += areas[v];
+                  pair.area += in_plane * areas[v];
                   pair.face_size = std::max(pair.face_size, size);
                 }
         }

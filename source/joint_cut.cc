@@ -539,14 +539,11 @@ namespace Keyblock
                    MeshReport<dim> &report)
     {
       std::vector<double> shifts, shifts_in_cells;
-      std::map<std::pair<unsigned int, unsigned int>, double> merged;
       for (const auto &facet : mesh.marked_facets())
         {
-          std::vector<unsigned int> joints;
           for (const auto &mark : mesh.marks.at(facet))
             if (mesh.surfaces[mark.surface].is_joint())
               {
-                joints.push_back(mesh.surfaces[mark.surface].joint);
                 for (const unsigned int v : facet)
                   {
                     shifts.push_back(std::abs(
@@ -555,12 +552,7 @@ namespace Keyblock
                                               mesh.target_size[v]);
                   }
               }
-          std::sort(joints.begin(), joints.end());
-          for (unsigned int i = 1; i < joints.size(); ++i)
-            merged[{joints[0], joints[i]}] += mesh.measure(facet);
         }
-      for (const auto &[pair, area] : merged)
-        report.merged.push_back({pair.first, pair.second, area});
       if (shifts.empty())
         return;
       std::sort(shifts.begin(), shifts.end());
@@ -574,12 +566,20 @@ namespace Keyblock
 
 
 
-    /** Whether a joint that no cell was cut for has a corner or its centre
-     * in the box around the model: it is there, but too small. */
+    /** Tells which joints reach into the model: of those without facets
+     * whether they are too small or outside, and of the others that lie wholly
+     * in its box how much of their area they have. */
     template <int dim>
-    bool
-    is_in_model(const SimplexMesh<dim> &mesh, const Joint<dim> &joint)
+    void
+    look_for_joints(const SimplexMesh<dim> &mesh,
+                    const std::vector<JointExtent<dim>> &extents,
+                    MeshReport<dim> &report)
     {
+      std::vector<double> area(extents.size(), 0.);
+      for (const auto &facet : mesh.marked_facets())
+        for (const auto &mark : mesh.marks.at(facet))
+          if (mesh.surfaces[mark.surface].is_joint())
+            area[mesh.surfaces[mark.surface].joint] += mesh.measure(facet);
       Point<dim> low = mesh.vertices[0], high = low;
       for (const Point<dim> &p : mesh.vertices)
         for (unsigned int d = 0; d < dim; ++d)
@@ -587,16 +587,30 @@ namespace Keyblock
             low[d]  = std::min(low[d], p[d]);
             high[d] = std::max(high[d], p[d]);
           }
-      std::vector<Point<dim>> places = {joint.point};
-      if (joint.extent == "polygon")
-        places = joint.vertices;
-      return joint.extent != "infinite" &&
-             std::any_of(places.begin(), places.end(), [&](const auto &p) {
-               bool is_inside = true;
-               for (unsigned int d = 0; d < dim; ++d)
-                 is_inside = is_inside && p[d] > low[d] && p[d] < high[d];
-               return is_inside;
-             });
+      const auto is_in_box = [&](const Point<dim> &p) {
+        bool is_inside = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          is_inside = is_inside && p[d] > low[d] && p[d] < high[d];
+        return is_inside;
+      };
+      double found = 0., wanted = 0.;
+      for (unsigned int j = 0; j < extents.size(); ++j)
+        {
+          std::vector<Point<dim>> places;
+          if (!extents[j].is_infinite())
+            places = extents[j].outermost_points();
+          const unsigned int n_inside =
+            std::count_if(places.begin(), places.end(), is_in_box);
+          if (area[j] == 0.)
+            (n_inside > 0 ? report.lost : report.outside).push_back(j);
+          if (!places.empty() && n_inside == places.size())
+            {
+              found += area[j];
+              wanted += extents[j].area();
+            }
+        }
+      if (wanted > 0.)
+        report.area_ratio = found / wanted;
     }
   } // namespace
 
@@ -615,7 +629,6 @@ namespace Keyblock
     improvement.improve(wanted_quality, 3);
     std::vector<JointExtent<dim>> extents;
     extents.reserve(scene.joints.size());
-    std::vector<bool> is_there(scene.joints.size(), false);
     for (unsigned int j = 0; j < scene.joints.size(); ++j)
       {
         extents.emplace_back(*scene.joints[j]);
@@ -633,14 +646,7 @@ namespace Keyblock
     improvement.flatten(least_quality_of_flattening);
 
     measure_shifts(mesh, coarsening, report);
-    for (const auto &entry : mesh.marks)
-      for (const auto &mark : entry.second)
-        if (mesh.surfaces[mark.surface].is_joint())
-          is_there[mesh.surfaces[mark.surface].joint] = true;
-    for (unsigned int j = 0; j < is_there.size(); ++j)
-      if (!is_there[j])
-        (is_in_model(mesh, *scene.joints[j]) ? report.lost : report.outside)
-          .push_back(j);
+    look_for_joints(mesh, extents, report);
     return report;
   }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/numbers.h>
+
 #include <keyblock/joint_extent.h>
 
 #include <algorithm>
@@ -99,6 +101,50 @@ namespace Keyblock
           }
         return twice_area.norm() / perimeter;
       }
+  }
+
+
+
+  template <int dim>
+  double
+  JointExtent<dim>::area() const
+  {
+    if constexpr (dim == 2)
+      return 2. * half_width();
+    else
+      {
+        if (shape == Shape::disc)
+          return dealii::numbers::PI * radius * radius;
+        Tensor<1, dim> twice_area;
+        for (unsigned int i = 0; i < corners.size(); ++i)
+          twice_area +=
+            cross_product_3d(corners[i] - corners[0],
+                             corners[(i + 1) % corners.size()] - corners[0]);
+        return 0.5 * twice_area.norm();
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<Point<dim>>
+  JointExtent<dim>::outermost_points() const
+  {
+    if (shape == Shape::polygon)
+      return corners;
+    std::vector<Point<dim>> points;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        Tensor<1, dim> axis;
+        axis[d]        = 1.;
+        axis           = axis - (axis * normal) * normal;
+        const double l = axis.norm();
+        if (l < 1e-9)
+          continue;
+        points.push_back(center + radius / l * axis);
+        points.push_back(center - radius / l * axis);
+      }
+    return points;
   }
 
   template class JointExtent<2>;

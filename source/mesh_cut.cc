@@ -426,6 +426,10 @@ namespace Keyblock
         action();
         return "";
       }
+    catch (const InputError &error)
+      {
+        reason = error.message;
+      }
     catch (const std::exception &exception)
       {
         reason = exception.what();

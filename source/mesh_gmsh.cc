@@ -14,6 +14,7 @@
 #include <cmath>
 #include <iomanip>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -493,12 +494,42 @@ namespace Keyblock
               mesh.surfaces[face.surface].normal_at(mesh.vertices[v]);
     }
 
+    /** Joints that lie on the same faces, and the area they share. */
+    template <int dim>
+    void
+    list_merged_joints(const MarkedMesh<dim> &marked, MeshReport<dim> &report)
+    {
+      std::map<std::vector<unsigned int>, std::set<unsigned int>> joints_on;
+      for (const MixedMesh::Element &face : marked.mixed.marked_faces)
+        if (marked.surfaces[face.id].is_joint())
+          {
+            std::vector<unsigned int> key = face.vertices;
+            std::sort(key.begin(), key.end());
+            joints_on[key].insert(marked.surfaces[face.id].joint);
+          }
+      std::map<std::pair<unsigned int, unsigned int>, double> shared;
+      for (const auto &[vertices, joints] : joints_on)
+        for (const unsigned int j : joints)
+          if (j != *joints.begin())
+            {
+              const Point<3> &a = marked.mixed.vertices[vertices[0]],
+                             &b = marked.mixed.vertices[vertices[1]],
+                             &c = marked.mixed.vertices[vertices.back()];
+              shared[{*joints.begin(), j}] +=
+                dim == 2 ? a.distance(b)
+                         : 0.5 * cross_product_3d(b - a, c - a).norm();
+            }
+      for (const auto &[pair, area] : shared)
+        report.merged.push_back({pair.first, pair.second, area});
+    }
+
     template <int dim>
     Mesh<dim>
     to_mesh(const MarkedMesh<dim> &marked, const std::string &remedy)
     {
       Mesh<dim> mesh =
         cut_mesh<dim>(marked.mixed, "The mesh made by Gmsh", remedy);
+      list_merged_joints(marked, mesh.report);
       mesh.surfaces = marked.surfaces;
       bend_outlines(mesh);
       return mesh;
@@ -555,6 +586,7 @@ namespace Keyblock
                            std::to_string(scene.excavations.size()) +
                            " excavations (" + failure + "); " + remedy.str() +
                            "."));
+    report.merged      = mesh.report.merged;
     mesh.report        = report;
     mesh.report.reason = reason;
     return mesh;

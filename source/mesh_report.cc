@@ -38,15 +38,19 @@ namespace Keyblock
       return;
     out << std::setprecision(3);
     if (report.way == "exact")
+      out << "        joints are where the scene has them\n";
+    else
       {
-        out << "        joints are where the scene has them\n";
-        return;
+        out << "        joints are cut into the mesh (" << report.reason
+            << ") and moved by up to " << report.largest_shift << " m, "
+            << report.largest_shift_in_cells
+            << " cells; 99 % of their points by less than "
+            << report.percentile_99 << " m, " << report.percentile_99_in_cells
+            << " cells\n";
+        if (report.area_ratio != 1.)
+          out << "        finite joints have " << report.area_ratio
+              << " of their area in the mean\n";
       }
-    out << "        joints are cut into the mesh (" << report.reason
-        << ") and moved by up to " << report.largest_shift << " m, "
-        << report.largest_shift_in_cells << " cells; 99 % of their points by "
-        << "less than " << report.percentile_99 << " m, "
-        << report.percentile_99_in_cells << " cells\n";
     for (const auto &merged : report.merged)
       out << "        joints " << scene.joints[merged.joint]->name << " and "
           << scene.joints[merged.other]->name << " share " << merged.area

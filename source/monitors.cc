@@ -290,13 +290,12 @@ namespace Keyblock
   Monitors<dim>::sample_joint(const Monitor<dim> &monitor,
                               std::vector<double> &row)
   {
-    unsigned int joint = none;
-    for (unsigned int j = 0; j < scene.joints.size(); ++j)
-      if (scene.joints[j]->name == monitor.joint)
-        joint = j;
+    const bool is_all = monitor.joint == "all";
+    const std::vector<unsigned int> joints =
+      is_all ? std::vector<unsigned int>() : scene.joints_called(monitor.joint);
     JointSums<dim> sums;
-    if (contact)
-      sums = contact->sum_over_joint(joint);
+    if (contact && (is_all || !joints.empty()))
+      sums = contact->sum_over_joints(joints);
     row.push_back(sums.normal);
     row.push_back(sums.shear);
     row.insert(row.end(), sums.force.begin(), sums.force.end());

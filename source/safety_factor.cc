@@ -307,7 +307,8 @@ namespace Keyblock
   StrengthReductionSearch<dim>::add_cheap_answers(const unsigned int block,
                                                   SafetyFactor &result) const
   {
-    const auto faces = list_faces<dim>(scene, split, run.conditions, block);
+    const auto faces =
+      list_faces<dim>(scene, split, run.conditions, blocks.blocks[block]);
     const LimitEquilibrium<dim> limit = solve_limit_equilibrium<dim>(
       faces, weight_of<dim>(scene, blocks.blocks[block], run.step.time));
     result.limit_mode   = limit.describe(faces);

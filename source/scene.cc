@@ -5,13 +5,14 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/errors.h>
+#include <keyblock/scene_check.h>
+#include <keyblock/scene_joints.h>
+#include <keyblock/scene_text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
-#include <map>
 #include <set>
 #include <sstream>
 
@@ -19,91 +20,9 @@ namespace Keyblock
 {
   namespace
   {
-    /** Run @p action; turn a deal.II parser exception into one sentence. */
-    template <typename Action>
-    void
-    parse_or_explain(const std::string &source, const Action &action)
-    {
-      try
-        {
-          action();
-        }
-      catch (const InputError &)
-        {
-          throw;
-        }
-      catch (const dealii::ExceptionBase &exception)
-        {
-          std::ostringstream text;
-          exception.print_info(text);
-          std::istringstream words(text.str());
-          std::string sentence, word;
-          while (words >> word)
-            sentence += (sentence.empty() ? "" : " ") + word;
-          AssertThrow(false,
-                      InputError(
-                        "In " + source + ": " + sentence +
-                        " Entries, ranges and units are listed in "
-                        "doc/parameters.md (or by --print-parameters)."));
-        }
-    }
-
-    std::string
-    read_text(const std::string &file_name)
-    {
-      std::ifstream in(file_name);
-      AssertThrow(in && !std::filesystem::is_directory(file_name),
-                  InputError("The scene file '" + file_name +
-                             "' cannot be read; check its path."));
-      std::ostringstream text;
-      text << in.rdbuf();
-      return text.str();
-    }
-
-    /** "Section/Sub/Entry=value" as lines of a parameter file. */
-    std::string
-    override_as_text(const std::string &assignment)
-    {
-      const auto equal = assignment.find('=');
-      AssertThrow(equal != std::string::npos && equal > 0,
-                  InputError("The override '" + assignment +
-                             "' of --set has no '='; write "
-                             "--set \"Section/Entry=value\"."));
-      std::istringstream path(assignment.substr(0, equal));
-      std::vector<std::string> parts;
-      for (std::string part; std::getline(path, part, '/');)
-        parts.push_back(part);
-      std::string text;
-      for (unsigned int i = 0; i + 1 < parts.size(); ++i)
-        text += "subsection " + parts[i] + "\n";
-      text +=
-        "set " + parts.back() + " = " + assignment.substr(equal + 1) + "\n";
-      for (unsigned int i = 0; i + 1 < parts.size(); ++i)
-        text += "end\n";
-      return text;
-    }
-
-    void
-    parse_all(ParameterHandler &prm,
-              const std::string &file_name,
-              const std::vector<std::string> &overrides,
-              const bool skip_unknown)
-    {
-      const std::string text = read_text(file_name);
-      parse_or_explain("'" + file_name + "'", [&]() {
-        std::istringstream in(text);
-        prm.parse_input(in, file_name, "", skip_unknown);
-      });
-      for (const std::string &assignment : overrides)
-        parse_or_explain("--set \"" + assignment + "\"", [&]() {
-          prm.parse_input_from_string(override_as_text(assignment),
-                                      "",
-                                      skip_unknown);
-        });
-    }
-
     const std::vector<std::string> list_sections = {"Excavations",
                                                     "Joints",
+                                                    "Joint sets",
                                                     "Materials",
                                                     "Supports",
                                                     "Tractions",
@@ -361,6 +280,19 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<unsigned int>
+  Scene<dim>::joints_called(const std::string &name) const
+  {
+    std::vector<unsigned int> found;
+    for (unsigned int j = 0; j < joints.size(); ++j)
+      if (joints[j]->name == name || joints[j]->set == name)
+        found.push_back(j);
+    return found;
+  }
+
+
+
+  template <int dim>
   std::vector<std::string>
   Scene<dim>::warnings() const
   {
@@ -401,7 +333,9 @@ namespace Keyblock
     declare_section(prm, "Output", output);
     declare_names(prm);
     declare_items(prm, "Excavations", excavations);
+    declare_section(prm, "Joints", network);
     declare_items(prm, "Joints", joints);
+    declare_items(prm, "Joint sets", joint_sets);
     declare_items(prm, "Materials", materials);
     declare_items(prm, "Supports", supports);
     declare_items(prm, "Tractions", tractions);
@@ -417,22 +351,47 @@ namespace Keyblock
                    const std::vector<std::string> &overrides)
   {
     file = file_name;
+    const SceneText text(file_name, overrides);
     ParameterHandler names;
     declare_names(names);
-    parse_all(names, file_name, overrides, true);
+    text.parse(names, true);
     make_items(excavations, read_names(names, "Excavations"));
-    make_items(joints, read_names(names, "Joints"));
+    make_items(joint_sets, read_names(names, "Joint sets"));
     make_items(materials, read_names(names, "Materials"));
     make_items(supports, read_names(names, "Supports"));
     make_items(tractions, read_names(names, "Tractions"));
     make_items(stages, read_names(names, "Stages"));
     make_items(monitors, read_names(names, "Monitors"));
+    joints.clear();
     prm = std::make_shared<ParameterHandler>();
     declare(*prm);
-    parse_all(*prm, file_name, overrides, false);
+    text.parse(*prm, false);
+    check_domain(*this);
+    joints = make_joints(*this, read_names(names, "Joints"), text);
+    note_joints(*prm, joints);
     for (const auto &stage : stages)
       stage->complete();
     cross_check();
+  }
+
+
+
+  template <int dim>
+  std::string
+  Scene<dim>::print_entries(const bool has_descriptions) const
+  {
+    std::ostringstream out;
+    prm->print_parameters(out,
+                          (has_descriptions ? ParameterHandler::Text
+                                            : ParameterHandler::ShortPRM) |
+                            ParameterHandler::KeepDeclarationOrder);
+    std::string text         = out.str();
+    const std::string header = "subsection Joints\n";
+    const auto section       = text.compare(0, header.size(), header) == 0
+                                 ? 0
+                                 : text.find("\n" + header);
+    text.insert(text.find("\nend", section) + 1, print_joints(joints));
+    return text;
   }
 
 
@@ -442,9 +401,7 @@ namespace Keyblock
   Scene<dim>::write_used(const std::string &file_name) const
   {
     std::ofstream out(file_name);
-    prm->print_parameters(out,
-                          ParameterHandler::Text |
-                            ParameterHandler::KeepDeclarationOrder);
+    out << print_entries(true);
     AssertThrow(out.flush(),
                 InputError("The file '" + file_name +
                            "' cannot be written; check free space and "
@@ -457,11 +414,7 @@ namespace Keyblock
   std::string
   Scene<dim>::used_entries() const
   {
-    std::ostringstream out;
-    prm->print_parameters(out,
-                          ParameterHandler::ShortPRM |
-                            ParameterHandler::KeepDeclarationOrder);
-    return out.str();
+    return print_entries(false);
   }
 
 
@@ -472,7 +425,7 @@ namespace Keyblock
   {
     ParameterHandler prm;
     prm.declare_entry("Dimension", "2", dealii::Patterns::Integer(2, 3));
-    parse_all(prm, file_name, overrides, true);
+    SceneText(file_name, overrides).parse(prm, true);
     return prm.get_integer("Dimension");
   }
 
@@ -484,6 +437,7 @@ namespace Keyblock
     Scene<3> scene;
     make_items(scene.excavations, {"NAME"});
     make_items(scene.joints, {"NAME"});
+    make_items(scene.joint_sets, {"NAME"});
     make_items(scene.materials, {"NAME"});
     make_items(scene.supports, {"NAME"});
     make_items(scene.tractions, {"NAME"});

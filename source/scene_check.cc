@@ -6,6 +6,7 @@
 #include <keyblock/expression.h>
 #include <keyblock/polygon.h>
 #include <keyblock/scene.h>
+#include <keyblock/scene_check.h>
 
 #include <cmath>
 #include <filesystem>
@@ -29,16 +30,6 @@ namespace Keyblock
       AssertThrow(condition, InputError(sentence));
     }
 
-    template <int dim>
-    void
-    check_expression(const std::string &text,
-                     const unsigned int n_components,
-                     const std::string &entry)
-    {
-      if (!text.empty())
-        Expression<dim>(text, n_components, entry);
-    }
-
     void
     require_simple(const std::vector<Point<2>> &corners,
                    const std::string &entry)
@@ -52,67 +43,88 @@ namespace Keyblock
 
     template <int dim>
     void
-    check_domain(const Scene<dim> &scene)
+    check_expression(const std::string &text,
+                     const unsigned int n_components,
+                     const std::string &entry)
     {
-      const Domain<dim> &domain   = scene.domain;
-      const Meshing<dim> &meshing = scene.meshing;
-      if (domain.shape == "box")
-        {
-          require(domain.size.size() == dim,
-                  "The entry 'Domain/Size' has " +
-                    std::to_string(domain.size.size()) +
-                    " numbers where the box needs " + std::to_string(dim) +
-                    "; give one length per axis.");
-          for (const double length : domain.size)
-            require(length > 0.,
-                    "The entry 'Domain/Size' contains " + number(length) +
-                      "; lengths must be positive.");
-        }
-      if (domain.shape == "parallelepiped")
-        {
-          require(domain.edges.size() == dim,
-                  "The entry 'Domain/Edges' has " +
-                    std::to_string(domain.edges.size()) +
-                    " vectors where the parallelepiped needs " +
-                    std::to_string(dim) + "; separate vectors by ';'.");
-          Tensor<2, dim> frame;
-          for (unsigned int d = 0; d < dim; ++d)
-            frame[d] = domain.edges[d];
-          require(determinant(frame) > 0.,
-                  "The vectors of 'Domain/Edges' span a volume of " +
-                    number(determinant(frame)) +
-                    "; order them right-handed and not in one plane.");
-        }
-      if (domain.shape == "polygon")
-        {
-          require(dim == 2 && domain.polygon.size() >= 3,
-                  "The entry 'Domain/Shape' is polygon, which needs Dimension "
-                  "2 and at least three corners in 'Domain/Polygon'; found " +
-                    std::to_string(domain.polygon.size()) + ".");
-          require(meshing.generator == "gmsh",
-                  "The entry 'Mesh/Generator' is " + meshing.generator +
-                    ", which cannot mesh a polygon; set it to gmsh.");
-          if constexpr (dim == 2)
-            require_simple(domain.polygon, "Domain/Polygon");
-        }
-      require((domain.shape == "file") == (meshing.generator == "file"),
-              "The entries 'Domain/Shape' (" + domain.shape +
-                ") and 'Mesh/Generator' (" + meshing.generator +
-                ") contradict each other; set both to file or neither.");
-      if (domain.shape == "file")
-        {
-          require(!domain.file.empty(),
-                  "The entry 'Domain/File' is empty; name the mesh file.");
-          const auto beside =
-            std::filesystem::path(scene.file).parent_path() / domain.file;
-          require(std::filesystem::exists(beside) ||
-                    std::filesystem::exists(domain.file),
-                  "The mesh file '" + domain.file +
-                    "' of the entry 'Domain/File' does not exist; give a path "
-                    "relative to the scene file.");
-        }
+      if (!text.empty())
+        Expression<dim>(text, n_components, entry);
     }
 
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  check_domain(const Scene<dim> &scene)
+  {
+    const Domain<dim> &domain   = scene.domain;
+    const Meshing<dim> &meshing = scene.meshing;
+    if (domain.shape == "box")
+      {
+        require(domain.size.size() == dim,
+                "The entry 'Domain/Size' has " +
+                  std::to_string(domain.size.size()) +
+                  " numbers where the box needs " + std::to_string(dim) +
+                  "; give one length per axis.");
+        for (const double length : domain.size)
+          require(length > 0.,
+                  "The entry 'Domain/Size' contains " + number(length) +
+                    "; lengths must be positive.");
+      }
+    if (domain.shape == "parallelepiped")
+      {
+        require(domain.edges.size() == dim,
+                "The entry 'Domain/Edges' has " +
+                  std::to_string(domain.edges.size()) +
+                  " vectors where the parallelepiped needs " +
+                  std::to_string(dim) + "; separate vectors by ';'.");
+        Tensor<2, dim> frame;
+        for (unsigned int d = 0; d < dim; ++d)
+          frame[d] = domain.edges[d];
+        require(determinant(frame) > 0.,
+                "The vectors of 'Domain/Edges' span a volume of " +
+                  number(determinant(frame)) +
+                  "; order them right-handed and not in one plane.");
+      }
+    if (domain.shape == "polygon")
+      {
+        require(dim == 2 && domain.polygon.size() >= 3,
+                "The entry 'Domain/Shape' is polygon, which needs Dimension "
+                "2 and at least three corners in 'Domain/Polygon'; found " +
+                  std::to_string(domain.polygon.size()) + ".");
+        require(meshing.generator == "gmsh",
+                "The entry 'Mesh/Generator' is " + meshing.generator +
+                  ", which cannot mesh a polygon; set it to gmsh.");
+        if constexpr (dim == 2)
+          require_simple(domain.polygon, "Domain/Polygon");
+      }
+    require((domain.shape == "file") == (meshing.generator == "file"),
+            "The entries 'Domain/Shape' (" + domain.shape +
+              ") and 'Mesh/Generator' (" + meshing.generator +
+              ") contradict each other; set both to file or neither.");
+    if (domain.shape == "file")
+      {
+        require(!domain.file.empty(),
+                "The entry 'Domain/File' is empty; name the mesh file.");
+        const auto beside =
+          std::filesystem::path(scene.file).parent_path() / domain.file;
+        require(std::filesystem::exists(beside) ||
+                  std::filesystem::exists(domain.file),
+                "The mesh file '" + domain.file +
+                  "' of the entry 'Domain/File' does not exist; give a path "
+                  "relative to the scene file.");
+      }
+  }
+
+  template void check_domain(const Scene<2> &);
+  template void check_domain(const Scene<3> &);
+
+
+
+  namespace
+  {
     template <int dim>
     void
     check_meshing(const Scene<dim> &scene)
@@ -225,8 +237,11 @@ namespace Keyblock
     check_joint(const Joint<dim> &joint)
     {
       const std::string section = "Joints/" + joint.name;
+      const std::string entry =
+        (joint.origin.empty() ? "The" : joint.origin + ": the") + " entry '" +
+        section;
       require(joint.normal_entry.empty() || joint.normal_entry.size() == dim,
-              "The entry '" + section + "/Normal' has " +
+              entry + "/Normal' has " +
                 std::to_string(joint.normal_entry.size()) + " numbers; give " +
                 std::to_string(dim) + " or none.");
       if (!joint.normal_entry.empty())
@@ -235,24 +250,22 @@ namespace Keyblock
           for (const double component : joint.normal_entry)
             square += component * component;
           require(square > 0.,
-                  "The entry '" + section +
-                    "/Normal' is the zero vector; give a direction.");
+                  entry + "/Normal' is the zero vector; give a direction.");
         }
       if (dim == 2 && joint.normal_entry.empty() && joint.extent != "polygon")
         require(joint.dip_direction == 90. || joint.dip_direction == 270.,
-                "The entry '" + section + "/Dip direction' is " +
-                  number(joint.dip_direction) +
+                entry + "/Dip direction' is " + number(joint.dip_direction) +
                   "; in 2D it is 90 (descends to +x) or 270 (to -x).");
       if (joint.extent == "disc")
         require(joint.radius > 0.,
-                "The entry '" + section +
+                entry +
                   "/Radius' is 0; give the radius of the disc in metres.");
       if (joint.extent == "polygon")
         {
           const bool is_enough =
             dim == 2 ? joint.vertices.size() == 2 : joint.vertices.size() >= 3;
           require(is_enough,
-                  "The entry '" + section + "/Vertices' has " +
+                  entry + "/Vertices' has " +
                     std::to_string(joint.vertices.size()) +
                     " corners; give two ends in 2D, at least three corners "
                     "in 3D.");
@@ -271,19 +284,19 @@ namespace Keyblock
       const double tangent =
         std::tan(joint.friction_angle * dealii::numbers::PI / 180.);
       require(joint.tensile_strength * tangent <= joint.cohesion * (1. + 1e-9),
-              "The entry '" + section + "/Tensile strength' is " +
+              entry + "/Tensile strength' is " +
                 number(joint.tensile_strength) +
                 " Pa, beyond the apex cohesion / tan(friction angle) = " +
                 number(joint.cohesion / tangent) +
                 " Pa; lower it or raise 'Cohesion'.");
       require(joint.kinetic_friction_angle <= joint.friction_angle,
-              "The entry '" + section + "/Kinetic friction angle' is " +
+              entry + "/Kinetic friction angle' is " +
                 number(joint.kinetic_friction_angle) +
                 " deg, above 'Friction angle' = " +
                 number(joint.friction_angle) +
                 " deg; sliding friction cannot exceed static friction.");
       require(joint.residual_cohesion <= joint.cohesion,
-              "The entry '" + section + "/Residual cohesion' is " +
+              entry + "/Residual cohesion' is " +
                 number(joint.residual_cohesion) + " Pa, above 'Cohesion' = " +
                 number(joint.cohesion) + " Pa; lower it.");
     }
@@ -507,14 +520,15 @@ namespace Keyblock
         }
     }
 
+    /** Whether there is a joint or a set of that name. */
     template <int dim>
     bool
     has_joint(const Scene<dim> &scene, const std::string &name)
     {
-      for (const auto &joint : scene.joints)
-        if (joint->name == name)
-          return true;
-      return false;
+      return !scene.joints_called(name).empty() ||
+             std::any_of(scene.joint_sets.begin(),
+                         scene.joint_sets.end(),
+                         [&](const auto &set) { return set->name == name; });
     }
 
     template <int dim>
@@ -537,7 +551,8 @@ namespace Keyblock
       for (const std::string &name : safety.joints)
         require(has_joint(scene, name),
                 "The entry 'Safety factor/Joints' names '" + name +
-                  "', which is not in 'Joints/Names'.");
+                  "', which is not in 'Joints/Names', nor another joint or a "
+                  "set.");
       require(!safety.is_wanted() || scene.contact.method != "none",
               "The entry 'Safety factor/Blocks' needs contact; set "
               "'Contact/Method' to exact.");
@@ -592,7 +607,8 @@ namespace Keyblock
                 has_joint(*this, monitor->joint),
               "The monitor '" + monitor->name + "' names the joint '" +
                 monitor->joint +
-                "', which is not in 'Joints/Names'; correct 'Monitors/" +
+                "', which is not in 'Joints/Names', nor another joint or a "
+                "set; correct 'Monitors/" +
                 monitor->name + "/Joint'.");
     for (const auto &monitor : monitors)
       require(monitor->kind != "support" ||
@@ -644,9 +660,14 @@ namespace Keyblock
     require(form == "none" || !stages.empty(),
             "The entry 'Check/Closed form' is " + form +
               ", but 'Stages/Names' is empty; name a stage to measure.");
-    require(checks.joint.empty() || has_joint(*this, checks.joint),
+    const auto n_checked = joints_called(checks.joint).size();
+    require(checks.joint.empty() || n_checked > 0,
             "The entry 'Check/Joint' is '" + checks.joint +
-              "', which is not in 'Joints/Names'.");
+              "', which is not in 'Joints/Names', nor another joint or a set.");
+    require(checks.joint.empty() || n_checked == 1,
+            "The entry 'Check/Joint' is '" + checks.joint + "', a set of " +
+              std::to_string(n_checked) +
+              " joints, but closed forms are of a single one; name it.");
   }
 
   template void Scene<2>::cross_check() const;

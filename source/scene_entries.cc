@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Every entry of a scene file: its name, default, range, unit and meaning.
+// Every entry of a scene file: its name, default, range, unit and meaning;
+// those of joints are in joint_entries.cc.
 #include <keyblock/scene.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -52,6 +53,11 @@ namespace Keyblock
       "that touches one is infinite. Names left, right, bottom, "
       "top, front, back, all, none, or `id N` for a "
       "boundary of a mesh file.");
+    prm.add_parameter("Origin",
+                      origin,
+                      "Coordinates of the model's origin in the grid of the "
+                      "table Joints/File: they are subtracted from the table's "
+                      "coordinates, so that the model has small numbers [m].");
   }
 
   template <int dim>
@@ -154,61 +160,6 @@ namespace Keyblock
     prm.add_parameter("Backfill material",
                       backfill_material,
                       "Name of the material it is filled with.");
-  }
-
-  template <int dim>
-  void
-  Joint<dim>::declare(ParameterHandler &prm)
-  {
-    prm.add_parameter("Point", point, "A point on the joint [m].");
-    prm.add_parameter("Normal",
-                      normal_entry,
-                      "Normal vector; empty: from Dip and Dip direction.");
-    prm.add_parameter("Dip",
-                      dip,
-                      "Angle below the horizontal [deg].",
-                      Double(0., 90.));
-    prm.add_parameter("Dip direction",
-                      dip_direction,
-                      "Azimuth towards which the joint descends, clockwise "
-                      "from north (+y) [deg]; in 2D 90 (+x) or 270 (-x).",
-                      Double(0., 360.));
-    prm.add_parameter("Extent",
-                      extent,
-                      "infinite; disc: Radius about Point (in 2D a segment of "
-                      "that half length); polygon: Vertices (in 2D the two "
-                      "ends).",
-                      Selection("infinite|disc|polygon"));
-    prm.add_parameter("Radius",
-                      radius,
-                      "Radius of the disc [m].",
-                      not_negative);
-    prm.add_parameter("Vertices",
-                      vertices,
-                      "Corners of the polygon on the plane, in order [m]; with "
-                      "them Point and Normal may be left out.");
-    prm.add_parameter("Friction angle",
-                      friction_angle,
-                      "Static friction angle [deg].",
-                      friction_range);
-    prm.add_parameter("Kinetic friction angle",
-                      kinetic_friction_angle,
-                      "Friction angle while sliding [deg]; -1: the static one.",
-                      Double(-1., 89.9));
-    prm.add_parameter("Cohesion", cohesion, "Cohesion [Pa].", not_negative);
-    prm.add_parameter("Tensile strength",
-                      tensile_strength,
-                      "Tensile strength [Pa], at most cohesion / tan(friction "
-                      "angle).",
-                      not_negative);
-    prm.add_parameter("Residual cohesion",
-                      residual_cohesion,
-                      "Cohesion left after the bond broke [Pa].",
-                      not_negative);
-    prm.add_parameter("Water pressure",
-                      water_pressure,
-                      "A formula in x, y (z): pressure of water in the joint, "
-                      "which pushes both sides apart [Pa]; empty: none.");
   }
 
   template <int dim>
@@ -579,7 +530,8 @@ namespace Keyblock
                       "inside [-].");
     prm.add_parameter("Joint",
                       joint,
-                      "Name of the joint, or all for every contact point.");
+                      "Name of a joint or of a set of joints, or all for "
+                      "every contact point.");
     prm.add_parameter("Support", support, "Name of the support.");
   }
 
@@ -601,7 +553,8 @@ namespace Keyblock
                       Selection("of the block|all"));
     prm.add_parameter("Joints",
                       joints,
-                      "Reduce only these joints; empty: no restriction.");
+                      "Reduce only these joints, or sets of joints; empty: no "
+                      "restriction.");
     prm.add_parameter("Reduce rock",
                       reduces_rock,
                       "Divide the strength of mohr_coulomb rock as well.");
@@ -783,8 +736,6 @@ namespace Keyblock
   template struct Meshing<3>;
   template struct Excavation<2>;
   template struct Excavation<3>;
-  template struct Joint<2>;
-  template struct Joint<3>;
   template struct Material<2>;
   template struct Material<3>;
   template struct Support<2>;

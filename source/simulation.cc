@@ -3,6 +3,7 @@
 
 #include <keyblock/block_theory.h>
 #include <keyblock/mpi.h>
+#include <keyblock/network_output.h>
 #include <keyblock/teams.h>
 
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <set>
 
 namespace Keyblock
 {
@@ -90,9 +92,10 @@ namespace Keyblock
     for (unsigned int d = 0; d < dim; ++d)
       place << (d ? ", " : "") << conditions->stable_step.place[d];
     report.stable_step_place = place.str();
-    report.step_ratio =
-      measure_step_spread(conditions->frequency, cells.mesh_cell, split.mesh)
-        .ratio();
+    const StepSpread<dim> spread =
+      measure_step_spread(conditions->frequency, cells.mesh_cell, split.mesh);
+    report.step_ratio         = spread.ratio();
+    report.stable_step_joints = names_of_joints_at(split.mesh, spread.cell);
   }
 
 
@@ -126,14 +129,47 @@ namespace Keyblock
 
 
 
+  /** Names of the joints that touch the vertices of a cell, or empty. */
+  template <int dim>
+  std::string
+  Simulation<dim>::names_of_joints_at(const Mesh<dim> &mesh,
+                                      const unsigned int cell) const
+  {
+    std::set<unsigned int> joints;
+    const auto touches = [&](const unsigned int vertex) {
+      const auto &corners = mesh.cells[cell];
+      return std::any_of(corners.begin(), corners.end(), [&](const auto v) {
+        return mesh.vertices[v] == mesh.vertices[vertex];
+      });
+    };
+    if (cell != none)
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          if (mesh.joint[c][f] != none && joints.count(mesh.joint[c][f]) == 0)
+            {
+              const auto vertices = mesh.face_vertices(c, f);
+              if (std::any_of(vertices.begin(), vertices.end(), touches))
+                joints.insert(mesh.joint[c][f]);
+            }
+    std::string names;
+    for (const unsigned int j : joints)
+      names += (names.empty() ? "" : ", ") + scene.joints[j]->name;
+    return names;
+  }
+
+
+
   template <int dim>
   void
   Simulation<dim>::print_stable_step(std::ostream &out) const
   {
     const TimeStepping &stepping = scene.time_stepping;
     out << "        stable time step " << conditions->stable_step.limit(Stage())
-        << " s, set by the cell at (" << report.stable_step_place
-        << ")\n        least over median step of "
+        << " s, set by the cell at (" << report.stable_step_place << ")"
+        << (report.stable_step_joints.empty()
+              ? ""
+              : " beside " + report.stable_step_joints)
+        << "\n        least over median step of "
         << "the cells " << report.step_ratio << '\n';
     if (report.step_ratio < least_step_ratio)
       out << "Warning: The least stable step of a cell is " << report.step_ratio
@@ -236,6 +272,11 @@ namespace Keyblock
                              "' cannot be made (" + error.message() +
                              "); choose another by --output."));
       scene.write_used(folder + "used.prm");
+      if (!scene.joints.empty())
+        {
+          write_joint_table(folder + "joints.csv", scene);
+          write_joint_planes(folder + "joints.vtu", scene, split.mesh.vertices);
+        }
       for (const std::string &warning : scene.warnings())
         std::cout << "Warning: " << warning << '\n';
       print_set_up(std::cout);
@@ -372,6 +413,7 @@ namespace Keyblock
     report.capped_groups  = sum_over_ranks(contact ? contact->n_capped : 0);
     monitors->write_csv(folder + "history.csv");
     output->write_summary(quality,
+                          mesh_report,
                           report,
                           stage_reports,
                           monitors->history,

@@ -101,11 +101,10 @@ namespace Keyblock
     StrengthReduction reduction;
     reduction.block = scene.safety.reduced_joints == "all" ? none : block;
     if (!scene.safety.joints.empty())
-      for (const auto &joint : scene.joints)
-        reduction.joints.push_back(std::find(scene.safety.joints.begin(),
-                                             scene.safety.joints.end(),
-                                             joint->name) !=
-                                   scene.safety.joints.end());
+      reduction.joints.assign(scene.joints.size(), false);
+    for (const std::string &name : scene.safety.joints)
+      for (const unsigned int joint : scene.joints_called(name))
+        reduction.joints[joint] = true;
     reduction.share = 1. / factor;
     run.contact->reduce_strength(reduction);
     if (scene.safety.reduces_rock)

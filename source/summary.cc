@@ -146,6 +146,56 @@ namespace Keyblock
     }
 
     template <int dim>
+    void
+    put_exact_measures(const Block<dim> &block,
+                       const Scene<dim> &scene,
+                       Tree &tree)
+    {
+      Tree areas;
+      put(tree, "exact_volume", block.exact.volume);
+      put(tree, "exact_weight", 9.81 * block.exact_mass());
+      for (const auto &[joint, area] : block.exact.joint_area)
+        put(areas, scene.joints[joint]->name, area);
+      if (!areas.empty())
+        tree.add_child("exact_joint_areas", areas);
+    }
+
+    template <int dim>
+    Tree
+    mesh_report_as_tree(const MeshReport<dim> &report, const Scene<dim> &scene)
+    {
+      Tree tree, merged;
+      put(tree, "way", report.way);
+      put(tree, "reason", report.reason);
+      put(tree, "largest_shift", report.largest_shift);
+      put(tree, "largest_shift_in_cells", report.largest_shift_in_cells);
+      put(tree, "percentile_99", report.percentile_99);
+      put(tree, "percentile_99_in_cells", report.percentile_99_in_cells);
+      put(tree, "area_ratio_of_finite_joints", report.area_ratio);
+      put(tree, "lost_blocks", report.n_lost_blocks);
+      put(tree, "largest_lost_volume", report.largest_lost_volume);
+      if (report.n_lost_blocks > 0)
+        tree.add_child("largest_lost_place",
+                       list_of<dim>(report.largest_lost_place));
+      const auto names = [&scene](const std::vector<unsigned int> &joints) {
+        std::string text;
+        for (const unsigned int j : joints)
+          text += (text.empty() ? "" : ", ") + scene.joints[j]->name;
+        return text;
+      };
+      put(tree, "joints_lost", names(report.lost));
+      put(tree, "joints_outside", names(report.outside));
+      for (const auto &pair : report.merged)
+        put(merged,
+            scene.joints[pair.joint]->name + " " +
+              scene.joints[pair.other]->name,
+            pair.area);
+      if (!merged.empty())
+        tree.add_child("merged_areas", merged);
+      return tree;
+    }
+
+    template <int dim>
     Tree
     blocks_as_tree(const Blocks<dim> &blocks,
                    const Scene<dim> &scene,
@@ -165,6 +215,8 @@ namespace Keyblock
           put(tree, "removable", block.is_removable);
           put(tree, "cells", block.n_cells);
           put(tree, "volume", block.volume);
+          if (block.exact.is_known)
+            put_exact_measures(block, scene, tree);
           put(tree, "mass", block.mass);
           put(tree, "weight", 9.81 * block.mass);
           put(tree,
@@ -193,6 +245,7 @@ namespace Keyblock
   template <int dim>
   void
   Output<dim>::write_summary(const MeshQuality &quality,
+                             const MeshReport<dim> &mesh_report,
                              const RunReport &run,
                              const std::vector<StageReport> &stages,
                              const History &history,
@@ -227,6 +280,7 @@ namespace Keyblock
     put(run_tree, "time_step", run.time_step);
     put(run_tree, "time_step_set_at", run.stable_step_place);
     put(run_tree, "step_ratio", run.step_ratio);
+    put(run_tree, "time_step_set_beside", run.stable_step_joints);
     put(run_tree, "added_mass", total_added_fraction(run.mass_scaling));
     put(run_tree, "simulated_time", run.simulated_time);
     put(run_tree, "wall_time", run.wall_time);
@@ -284,6 +338,8 @@ namespace Keyblock
       }
     root.add_child("program", program);
     root.add_child("scene", scene_tree);
+    if (!mesh_report.way.empty())
+      root.add_child("mesh", mesh_report_as_tree(mesh_report, scene));
     root.add_child("run", run_tree);
     root.add_child("energy",
                    energies_as_tree(stages.empty() ? Energies()
@@ -316,6 +372,7 @@ namespace Keyblock
   }
 
   template void Output<2>::write_summary(const MeshQuality &,
+                                         const MeshReport<2> &,
                                          const RunReport &,
                                          const std::vector<StageReport> &,
                                          const History &,
@@ -324,6 +381,7 @@ namespace Keyblock
                                          const std::vector<unsigned int> &,
                                          const Geostress *) const;
   template void Output<3>::write_summary(const MeshQuality &,
+                                         const MeshReport<3> &,
                                          const RunReport &,
                                          const std::vector<StageReport> &,
                                          const History &,

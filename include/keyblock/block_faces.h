@@ -13,7 +13,7 @@ namespace Keyblock
   std::vector<BlockFace<dim>> list_faces(const Scene<dim> &scene,
                                          const SplitMesh<dim> &split,
                                          const Conditions<dim> &conditions,
-                                         const unsigned int block);
+                                         const Block<dim> &block);
 
   /** Gravity and seismic load of @p block at @p time [N]. */
   template <int dim>

@@ -14,7 +14,7 @@ namespace Keyblock
 {
   /** All joints of one orientation. */
   template <int dim>
-  struct JointSet
+  struct ParallelJoints
   {
     std::string name;
     Tensor<1, dim> normal;       ///< unit, upwards
@@ -49,7 +49,7 @@ namespace Keyblock
   template <int dim>
   struct BlockTheory
   {
-    std::vector<JointSet<dim>> sets;
+    std::vector<ParallelJoints<dim>> sets;
     std::vector<JointPyramid> pyramids; ///< all 2^n, by code
     std::vector<FreeFace<dim>> faces;
     BlockTheorySettings settings;
@@ -61,7 +61,7 @@ namespace Keyblock
   /** Normals of the sets, pointing into the block of that @p code. */
   template <int dim>
   std::vector<Tensor<1, dim>>
-  inward_normals(const std::vector<JointSet<dim>> &sets,
+  inward_normals(const std::vector<ParallelJoints<dim>> &sets,
                  const std::string &code);
 
   /**
@@ -72,9 +72,10 @@ namespace Keyblock
    * joint pyramid itself is not empty (Shi's theorem, Goodman and Shi 1985).
    */
   template <int dim>
-  BlockTheory<dim> find_block_theory(const std::vector<JointSet<dim>> &sets,
-                                     const Tensor<1, dim> &gravity,
-                                     const BlockTheorySettings &settings);
+  BlockTheory<dim>
+  find_block_theory(const std::vector<ParallelJoints<dim>> &sets,
+                    const Tensor<1, dim> &gravity,
+                    const BlockTheorySettings &settings);
 
   /**
    * The same for the infinite joints of @p scene and its gravity at the origin
@@ -96,7 +97,7 @@ namespace Keyblock
 
   /** Largest block of the joint pyramid @p code, which must be removable in the
    * roof, in a flat roof of the width in @p settings. */
-  RoofWedge find_largest_roof_wedge(const std::vector<JointSet<3>> &sets,
+  RoofWedge find_largest_roof_wedge(const std::vector<ParallelJoints<3>> &sets,
                                     const std::string &code,
                                     const BlockTheorySettings &settings);
 

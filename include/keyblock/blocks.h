@@ -52,6 +52,35 @@ namespace Keyblock
 
     /** Largest extent of the cell centres plus a cell [m]. */
     double size = 0.;
+
+    /** The block as its planes bound it, where joints were bent to fit the
+     * mesh (measure_exactly()). */
+    struct Measures
+    {
+      bool is_known = false;
+      double volume = 0.;                        ///< [m^dim]
+      std::map<unsigned int, double> joint_area; ///< in the plane [m^(dim-1)]
+      std::map<unsigned int, double> bent_area;  ///< of the same faces as bent
+    };
+    Measures exact;
+
+    /** Mass with the exact volume, if it is known [kg], per metre in 2D. */
+    double
+    exact_mass() const
+    {
+      return exact.is_known ? mass * exact.volume / volume : mass;
+    }
+
+    /** Area of joint @p joint in its plane over that in the mesh [-]. */
+    double
+    area_ratio(const unsigned int joint) const
+    {
+      const auto plane = exact.joint_area.find(joint);
+      const auto bent  = exact.bent_area.find(joint);
+      return plane != exact.joint_area.end() && bent->second > 0.
+               ? plane->second / bent->second
+               : 1.;
+    }
   };
 
   template <int dim>

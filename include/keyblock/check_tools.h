@@ -101,9 +101,9 @@ namespace Keyblock
                                         "Initial state/Gravity");
           gravity = formula.vector(Point<dim>(), time.back());
         }
-      for (const auto &entry : input.scene.joints)
-        if (entry->name == input.scene.checks.joint)
-          joint = entry.get();
+      for (const unsigned int j :
+           input.scene.joints_called(input.scene.checks.joint))
+        joint = input.scene.joints[j].get();
       if (joint)
         {
           normal   = joint->normal();

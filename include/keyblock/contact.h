@@ -79,8 +79,10 @@ namespace Keyblock
     /** Turn predicted velocities of all local nodes into final ones. */
     void solve(const ContactStep &step);
 
-    /** Sums over the points of @p joint, or with `none` over all points. */
-    JointSums<dim> sum_over_joint(const unsigned int joint) const;
+    /** Sums over the points of @p joints, shear being the sum of what each of
+     * them bears; without any joint over all points, without shear. */
+    JointSums<dim>
+    sum_over_joints(const std::vector<unsigned int> &joints) const;
 
     /** Numbers of open, sliding, sticking and intact points over all ranks. */
     JointSums<dim> count_points() const;

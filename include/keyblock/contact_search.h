@@ -41,7 +41,9 @@ namespace Keyblock
   class ContactSearch
   {
   public:
-    ContactSearch(const SplitMesh<dim> &split, const Blocks<dim> &blocks);
+    ContactSearch(const SplitMesh<dim> &split,
+                  const Blocks<dim> &blocks,
+                  const Scene<dim> &scene);
 
     unsigned int
     n_slots() const
@@ -84,6 +86,11 @@ namespace Keyblock
     std::vector<unsigned int> slot_of_vertex;
     std::vector<unsigned int> block_of_slot;
 
+    /** Where each slot is at the start [m]: its vertex, but in the planes of
+     * the joints of its faces, which the mesh may have bent. So bent faces do
+     * not interlock. */
+    std::vector<Point<dim>> place_of_slot;
+
     /** Slots of each surface face, outward by the right-hand rule. */
     std::vector<typename Mesh<dim>::FaceVertices> face_slots;
 
@@ -112,7 +119,9 @@ namespace Keyblock
       unsigned int master, slave;
     };
 
-    void find_ridges(const Mesh<dim> &mesh);
+    void place_slots(const Mesh<dim> &mesh, const Scene<dim> &scene);
+
+    void find_ridges();
 
     void search_ridges(
       const std::vector<double> &position,
@@ -191,7 +200,7 @@ namespace Keyblock
   };
 
   template <>
-  void ContactSearch<3>::find_ridges(const Mesh<3> &mesh);
+  void ContactSearch<3>::find_ridges();
   template <>
   void ContactSearch<3>::search_ridges(
     const std::vector<double> &position,

@@ -40,6 +40,12 @@ namespace Keyblock
      * perimeter of a polygon; 1e300 for an infinite joint [m]. */
     double half_width() const;
 
+    /** Length (2D) or area (3D) of a finite joint [m^(dim-1)]. */
+    double area() const;
+
+    /** Points of a finite joint that reach farthest [m]. */
+    std::vector<Point<dim>> outermost_points() const;
+
     bool
     is_infinite() const
     {

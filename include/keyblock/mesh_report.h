@@ -27,6 +27,10 @@ namespace Keyblock
     double largest_shift = 0., largest_shift_in_cells = 0.;
     double percentile_99 = 0., percentile_99_in_cells = 0.;
 
+    /** Area of the finite joints wholly in the model over what the scene gives
+     * them, in the mean [-]; 1 if there are none. */
+    double area_ratio = 1.;
+
     /** Joints that share faces, and how much area [m^(dim-1)]. */
     struct Merged
     {

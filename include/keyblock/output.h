@@ -48,6 +48,7 @@ namespace Keyblock
     double element_steps       = 0.;
     unsigned int capped_groups = 0;
     std::string stable_step_place;
+    std::string stable_step_joints; ///< that touch the cell there
     double step_ratio = 1.; ///< least over median of the cells at the start
     std::vector<MassScaling> mass_scaling; ///< at the end, by block
   };
@@ -76,6 +77,7 @@ namespace Keyblock
     void write_vtu(const double time);
 
     void write_summary(const MeshQuality &quality,
+                       const MeshReport<dim> &mesh_report,
                        const RunReport &run,
                        const std::vector<StageReport> &stages,
                        const History &history,

@@ -31,6 +31,7 @@ namespace Keyblock
     std::vector<Point<dim>> polygon;
     std::string file;
     std::vector<std::string> truncated_boundaries = {"all"};
+    Point<dim> origin; ///< grid coordinates of the model's (0, 0, 0) [m]
 
     void declare(ParameterHandler &prm);
   };
@@ -85,11 +86,26 @@ namespace Keyblock
     void declare(ParameterHandler &prm);
   };
 
+  /** How strong a joint is, and the water in it. */
+  struct JointStrength
+  {
+    double friction_angle         = 30.; ///< static [deg]
+    double kinetic_friction_angle = -1.; ///< [deg]; -1: the static one
+    double cohesion               = 0.;  ///< [Pa]
+    double tensile_strength       = 0.;  ///< [Pa]
+    double residual_cohesion      = 0.;  ///< [Pa]
+    std::string water_pressure;          ///< formula [Pa]; empty: none
+
+    void declare_strength(ParameterHandler &prm);
+  };
+
   /** A plane of weakness: where it is and how strong it is. */
   template <int dim>
-  struct Joint
+  struct Joint : public JointStrength
   {
     std::string name;
+    std::string set;    ///< name of the set it belongs to; empty: none
+    std::string origin; ///< for messages: the row of the table; empty: entries
     Point<dim> point;
     std::vector<double> normal_entry;
     double dip           = 0.;
@@ -97,12 +113,6 @@ namespace Keyblock
     std::string extent   = "infinite";
     double radius        = 0.;
     std::vector<Point<dim>> vertices;
-    double friction_angle         = 30.;
-    double kinetic_friction_angle = -1.;
-    double cohesion               = 0.;
-    double tensile_strength       = 0.;
-    double residual_cohesion      = 0.;
-    std::string water_pressure;
 
     /** Unit normal, pointing up (to +x for a vertical joint): minus to plus. */
     Tensor<1, dim> normal() const;
@@ -113,6 +123,59 @@ namespace Keyblock
     /** Whether @p p, taken to lie on the plane, is within the joint's extent
      * widened by @p tolerance [m]. */
     bool is_within_extent(const Point<dim> &p, const double tolerance) const;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** Joints besides those of `Joints/Names`. */
+  struct JointNetwork
+  {
+    std::string file;
+    bool is_resolved = false;
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /**
+   * Joints that belong together: their strength and, if Spacing, P32 or P10
+   * is given, the statistics that they are made from.
+   */
+  template <int dim>
+  struct JointSet
+  {
+    std::string name;
+    double dip           = 0.;
+    double dip_direction = 90.;
+    double concentration = -1.; ///< Fisher's or von Mises' kappa; -1: parallel
+
+    // how many; at most one of the three is positive
+    double spacing          = 0.; ///< mean, along the mean normal [m]
+    std::string spacing_law = "exponential";
+    double jitter           = 0.; ///< share of a constant spacing [-]
+    double intensity        = 0.; ///< P32 [m2/m3]; in 2D P21 [m/m2]
+    double frequency        = 0.; ///< P10 along the mean normal [1/m]
+
+    // how large
+    std::string radius_law  = "infinite";
+    double radius_mean      = 0.;
+    double radius_deviation = 0.;
+    double radius_minimum   = 0.;
+    double radius_maximum   = 0.;
+    double radius_exponent  = 3.;
+
+    // where
+    std::vector<double> region_corner;
+    std::vector<double> region_size;
+    unsigned int seed = 1;
+
+    JointStrength strength;
+
+    /** Whether joints are made, and not only given their strength. */
+    bool
+    is_made() const
+    {
+      return spacing > 0. || intensity > 0. || frequency > 0.;
+    }
 
     void declare(ParameterHandler &prm);
   };
@@ -446,7 +509,9 @@ namespace Keyblock
     OutputSettings output;
 
     std::vector<std::unique_ptr<Excavation<dim>>> excavations;
-    std::vector<std::unique_ptr<Joint<dim>>> joints;
+    JointNetwork network;
+    std::vector<std::unique_ptr<JointSet<dim>>> joint_sets;
+    std::vector<std::unique_ptr<Joint<dim>>> joints; ///< from all sources
     std::vector<std::unique_ptr<Material<dim>>> materials;
     std::vector<std::unique_ptr<Support<dim>>> supports;
     std::vector<std::unique_ptr<Traction<dim>>> tractions;
@@ -467,6 +532,10 @@ namespace Keyblock
     /** Index into materials of the one called @p name, or their number. */
     unsigned int material_index(const std::string &name) const;
 
+    /** Indices into joints of the one called @p name, or of all those of the
+     * set of that name; empty: there is neither. */
+    std::vector<unsigned int> joints_called(const std::string &name) const;
+
     /** What is allowed and probably not meant, one sentence each. */
     std::vector<std::string> warnings() const;
 
@@ -476,14 +545,18 @@ namespace Keyblock
     /** Declare everything, one example of each named thing included. */
     void declare(ParameterHandler &prm);
 
-    /** Write all entries with the values used. */
+    /** Write all entries with the values used; every joint, also those of
+     * tables and sets, is written out, so that the file needs neither. */
     void write_used(const std::string &file_name) const;
 
     /** The same as text, without descriptions. */
     std::string used_entries() const;
 
   private:
-    std::shared_ptr<ParameterHandler> prm; ///< as read
+    /** All entries as text, every joint written out. */
+    std::string print_entries(const bool has_descriptions) const;
+
+    std::shared_ptr<ParameterHandler> prm; ///< as read, all but the joints
   };
 
   /** The value of `Dimension` in the file: 2 or 3. Throws InputError. */

@@ -109,6 +109,8 @@ namespace Keyblock
     void make_geometry();
     void print_set_up(std::ostream &out);
     void print_stable_step(std::ostream &out) const;
+    std::string names_of_joints_at(const Mesh<dim> &mesh,
+                                   const unsigned int cell) const;
 
     /** What mass scaling does in the present stage, if that is news. */
     void print_mass_scaling(std::ostream &out);

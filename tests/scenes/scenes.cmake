@@ -1,4 +1,5 @@
 keyblock_scene(tutorial/sliding_block)
+keyblock_scene(tutorial/joint_network)
 keyblock_scene(verification/resting)
 keyblock_scene(verification/incline_25)
 keyblock_scene(verification/incline_30)

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Joints cut into a mesh: the cells stay right side out and fill the domain,
+// surfaces stay where they are, sides and volumes are those of the planes.
+#include <boost/test/unit_test.hpp>
+
+#include <keyblock/block_measures.h>
+#include <keyblock/joint_cut.h>
+#include <keyblock/mpi.h>
+#include <keyblock/simulation.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <random>
+#include <sstream>
+
+using namespace Keyblock;
+
+namespace
+{
+  /** A cube or square of side 4 m of regular pieces, halves (2D) or sixths
+   * (3D) of cells, its outer facets marked. */
+  template <int dim>
+  SimplexMesh<dim>
+  block_of_simplices(const unsigned int n)
+  {
+    SimplexMesh<dim> mesh;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const double place : {0., 4.})
+        {
+          Surface<dim> side;
+          side.point[d]  = place;
+          side.normal[d] = 1.;
+          mesh.surfaces.push_back(side);
+        }
+    const unsigned int n_layers = dim == 3 ? n : 0;
+    const auto vertex = [n](unsigned int i, unsigned int j, unsigned int k) {
+      return i + (n + 1) * (j + (n + 1) * k);
+    };
+    for (unsigned int k = 0; k <= n_layers; ++k)
+      for (unsigned int j = 0; j <= n; ++j)
+        for (unsigned int i = 0; i <= n; ++i)
+          {
+            Point<dim> p;
+            p[0]       = 4. * i / n;
+            p[dim - 1] = 4. * k / n;
+            p[1]       = 4. * j / n;
+            mesh.add_vertex(p, 4. / n);
+            unsigned int n_sides = 0;
+            for (const unsigned int c : {i, j, k})
+              n_sides += c == 0 || c == n;
+            mesh.is_fixed.back() = n_sides == 3 || (dim == 2 && n_sides == 3);
+          }
+    const auto add = [&mesh](typename SimplexMesh<dim>::CellVertices cell) {
+      if (mesh.volume(cell) < 0.)
+        std::swap(cell[0], cell[1]);
+      mesh.add_cell(cell);
+    };
+    for (unsigned int k = 0; k < std::max(1u, n_layers); ++k)
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          if constexpr (dim == 2)
+            {
+              add({{vertex(i, j, 0),
+                    vertex(i + 1, j, 0),
+                    vertex(i + 1, j + 1, 0)}});
+              add({{vertex(i, j, 0),
+                    vertex(i + 1, j + 1, 0),
+                    vertex(i, j + 1, 0)}});
+            }
+          else
+            for (const auto &[a, b] :
+                 std::vector<std::pair<unsigned int, unsigned int>>{
+                   {1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}})
+              {
+                const auto corner = [&](const unsigned int c) {
+                  return vertex(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
+                };
+                add({{corner(0), corner(7), corner(a), corner(b)}});
+              }
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      for (unsigned int i = 0; i <= dim; ++i)
+        if (mesh.neighbor(c, i) == no_index)
+          for (unsigned int s = 0; s < 2 * dim; ++s)
+            {
+              bool is_on = true;
+              for (const unsigned int v : mesh.facet(c, i))
+                is_on =
+                  is_on &&
+                  std::abs(mesh.surfaces[s].distance(mesh.vertices[v])) < 1e-12;
+              if (is_on)
+                mesh.add_mark(mesh.facet(c, i), {s, true});
+            }
+    return mesh;
+  }
+
+  /** A scene with @p n joints drawn from @p seed, in or across the block. */
+  template <int dim>
+  void
+  add_joints(Scene<dim> &scene, const unsigned int n, const unsigned int seed)
+  {
+    std::mt19937 bits(seed);
+    const auto draw = [&bits](const double low, const double high) {
+      return low + (high - low) * (bits() / 4294967296.);
+    };
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        auto joint  = std::make_unique<Joint<dim>>();
+        joint->name = "j" + std::to_string(j);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            joint->point[d] = draw(0., 4.);
+            joint->normal_entry.push_back(draw(-1., 1.));
+          }
+        joint->extent = j % 2 ? "disc" : "infinite";
+        joint->radius = draw(0.5, 2.);
+        scene.joints.push_back(std::move(joint));
+      }
+  }
+
+  /** Cells right side out that fill the block; each facet between two cells or
+   * on the outside; vertices on the surfaces of the model they are bound to. */
+  template <int dim>
+  void
+  check_mesh(const SimplexMesh<dim> &mesh)
+  {
+    double volume = 0., least = 1e300;
+    std::map<typename SimplexMesh<dim>::Facet, unsigned int> n_cells;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      if (mesh.cells[c].is_alive)
+        {
+          volume += mesh.volume(mesh.cells[c].vertices);
+          least = std::min(least, mesh.volume(mesh.cells[c].vertices));
+          for (unsigned int i = 0; i <= dim; ++i)
+            ++n_cells[mesh.facet(c, i)];
+        }
+    BOOST_TEST(least > 0.);
+    BOOST_TEST(std::abs(volume / std::pow(4., dim) - 1.) < 1e-12);
+    unsigned int n_wrong = 0;
+    for (const auto &[facet, n] : n_cells)
+      {
+        bool is_outside  = false;
+        const auto found = mesh.marks.find(facet);
+        if (found != mesh.marks.end())
+          for (const auto &mark : found->second)
+            is_outside = is_outside || mark.surface < 2 * dim;
+        n_wrong += n != (is_outside ? 1 : 2);
+      }
+    BOOST_TEST(n_wrong == 0);
+    double off = 0.;
+    for (const auto &[facet, list] : mesh.marks)
+      {
+        BOOST_TEST(n_cells.count(facet) == 1);
+        for (const auto &mark : list)
+          if (!mesh.surfaces[mark.surface].is_joint())
+            for (const unsigned int v : facet)
+              off = std::max(off,
+                             std::abs(mesh.surfaces[mark.surface].distance(
+                               mesh.vertices[v])));
+      }
+    BOOST_TEST(off < 1e-12);
+  }
+
+  template <int dim>
+  void
+  check_cut()
+  {
+    for (unsigned int seed = 1; seed <= 10; ++seed)
+      {
+        Scene<dim> scene;
+        add_joints(scene, 3 + 2 * seed, seed);
+        SimplexMesh<dim> mesh = block_of_simplices<dim>(dim == 2 ? 8 : 4);
+        const auto report     = cut_joints(mesh, scene, 0.2, 1.);
+        check_mesh(mesh);
+        BOOST_TEST(report.largest_shift_in_cells < 0.6);
+        double least = 1.;
+        for (const auto &cell : mesh.cells)
+          if (cell.is_alive)
+            least = std::min(least, mesh.quality(cell.vertices));
+        BOOST_TEST(least > 0.01);
+        // sides: the cells beside a facet lie where its mark says, in the mean
+        double right = 0., wrong = 0.;
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          for (unsigned int i = 0; i <= dim && mesh.cells[c].is_alive; ++i)
+            {
+              const auto found = mesh.marks.find(mesh.facet(c, i));
+              if (found == mesh.marks.end())
+                continue;
+              for (const auto &mark : found->second)
+                if (mesh.surfaces[mark.surface].is_joint())
+                  {
+                    const bool is_plus =
+                      mesh.is_on_positive_side(c, i) == mark.plus_is_positive;
+                    const double height = mesh.surfaces[mark.surface].distance(
+                      mesh.vertices[mesh.cells[c].vertices[i]]);
+                    (is_plus == (height > 0.) ? right : wrong) += 1.;
+                  }
+            }
+        BOOST_TEST(right > 0.);
+        BOOST_TEST(wrong <= 0.02 * right);
+      }
+  }
+
+  template <int dim>
+  std::string
+  write_scene(const std::string &joints, const std::string &mesh)
+  {
+    const std::string name =
+      "cut_" + std::to_string(dim) + "_" + std::to_string(n_ranks());
+    if (is_root())
+      std::ofstream(name + ".prm")
+        << "set Dimension = " << dim << "\nsubsection Domain\n set Size = "
+        << (dim == 2 ? "12, 12" : "12, 12, 12")
+        << "\n set Truncated boundaries = left\nend\nsubsection Mesh\n set "
+           "Generator = gmsh\n"
+        << mesh << "end\nsubsection Materials\n set Names = rock\nend\n"
+        << "subsection Output\n set Write VTU = false\nend\n"
+        << joints;
+    MPI_Barrier(world());
+    return name;
+  }
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(joint_cut)
+
+BOOST_AUTO_TEST_CASE(mesh_stays_sound_2d)
+{
+  check_cut<2>();
+}
+
+BOOST_AUTO_TEST_CASE(mesh_stays_sound_3d)
+{
+  check_cut<3>();
+}
+
+// Two planes a hair apart cannot be meshed exactly; one corner block is bounded
+// by planes alone, and its volume is that of the planes whatever was bent.
+BOOST_AUTO_TEST_CASE(exact_volume_of_a_bent_block)
+{
+  const std::string name = write_scene<3>(
+    "subsection Joints\n set Names = a, b, c, near\n"
+    " subsection a\n  set Point = 5.3, 0, 0\n  set Normal = 1, 0, 0\n end\n"
+    " subsection b\n  set Point = 0, 6.1, 0\n  set Normal = 0, 1, 0.1\n end\n"
+    " subsection c\n  set Point = 0, 0, 5.7\n  set Normal = 0, 0, 1\n end\n"
+    " subsection near\n  set Point = 5.300001, 0, 0\n  set Normal = 1, 0, 0\n"
+    " end\nend\n",
+    " set Size = 1\n");
+  Scene<3> scene;
+  scene.read(name + ".prm", {});
+  const Mesh<3> mesh     = make_mesh(scene);
+  const Blocks<3> blocks = find_blocks(mesh, scene);
+  if (is_root())
+    {
+      BOOST_TEST(mesh.report.way == "cut");
+      BOOST_TEST(mesh.report.merged.size() == 1);
+    }
+  // right of a: y = 6.1 - z / 10 on plane b, z from 0 to 5.7 or on to 12
+  const double width = 12. - 5.3;
+  const auto below   = [](const double from, const double to) {
+    return 6.1 * (to - from) - 0.05 * (to * to - from * from);
+  };
+  const std::vector<double> volumes = {width * below(0., 5.7),
+                                       width * below(5.7, 12.),
+                                       width * (12. * 5.7 - below(0., 5.7)),
+                                       width * (12. * 6.3 - below(5.7, 12.))};
+  for (const double volume : volumes)
+    {
+      double nearest = 1e300;
+      for (const auto &block : blocks.blocks)
+        if (block.exact.is_known)
+          nearest = std::min(nearest, std::abs(block.exact.volume - volume));
+      BOOST_TEST(nearest < 1e-5); // the hair's breadth times an area
+    }
+}
+
+// The mesh is the same on any number of ranks and every time.
+BOOST_AUTO_TEST_CASE(network_is_meshed_on_all_ranks_alike)
+{
+  std::ostringstream joints;
+  joints << "subsection Joints\n set Names = ";
+  for (unsigned int j = 0; j < 30; ++j)
+    joints << (j ? ", j" : "j") << j;
+  joints << "\n";
+  std::mt19937 bits(7);
+  for (unsigned int j = 0; j < 30; ++j)
+    {
+      joints << " subsection j" << j << "\n  set Extent = disc\n  set Point = "
+             << 12. * (bits() / 4294967296.) << ", "
+             << 12. * (bits() / 4294967296.)
+             << "\n  set Dip = " << 90. * (bits() / 4294967296.)
+             << "\n  set Radius = " << 1. + 3. * (bits() / 4294967296.)
+             << "\n end\n";
+    }
+  joints << "end\n";
+  const std::string name =
+    write_scene<2>(joints.str(), " set Size = 0.5\n set Snap = 0.2\n");
+  Scene<2> scene;
+  scene.read(name + ".prm", {});
+  const Mesh<2> first = make_mesh(scene), second = make_mesh(scene);
+  BOOST_TEST(first.n_cells() > 500);
+  BOOST_TEST((first.cells == second.cells));
+  BOOST_TEST((first.vertices == second.vertices));
+  BOOST_TEST((first.side == second.side));
+  double checksum = 0.;
+  for (unsigned int v = 0; v < first.vertices.size(); ++v)
+    checksum += (v + 1.) * (first.vertices[v][0] + 2. * first.vertices[v][1]);
+  BOOST_TEST(max_over_ranks(checksum) == min_over_ranks(checksum));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
