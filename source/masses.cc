@@ -78,16 +78,16 @@ namespace Keyblock
 
 
   template <int dim>
-  template <typename Factor>
+  template <typename Density>
   std::vector<double>
-  Conditions<dim>::sum_masses(const Factor &factor) const
+  Conditions<dim>::sum_masses(const Density &density) const
   {
     std::vector<double> mass(dim * numbering.n_local(), 0.);
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       {
         const unsigned int mesh_cell = cells.mesh_cell[c];
         const auto share             = lumped_mass<dim>(corners_of(mesh_cell),
-                                            factor(c) * density_of(mesh_cell));
+                                            density(c, density_of(mesh_cell)));
         for (int v = 0; v < (1 << dim); ++v)
           for (int d = 0; d < dim; ++d)
             mass[dim * cells.nodes[c][v] + d] += share[v];
@@ -107,7 +107,8 @@ namespace Keyblock
   void
   Conditions<dim>::set_up_mass()
   {
-    fields.weighing_mass = sum_masses([](const unsigned int) { return 1.; });
+    fields.weighing_mass = sum_masses(
+      [](const unsigned int, const double density) { return density; });
     scale_density(false);
   }
 
@@ -118,14 +119,16 @@ namespace Keyblock
   Conditions<dim>::scale_density(const bool is_scaled)
   {
     if (is_scaled)
-      fields.mass = sum_masses([&](const unsigned int cell) {
-        const double ratio = frequency[cell] / lowest_frequency;
-        return ratio * ratio;
-      });
+      fields.mass =
+        sum_masses([&](const unsigned int cell, const double density) {
+          const double ratio = frequency[cell] / lowest_frequency;
+          return density * ratio * ratio;
+        });
     else if (is_any_scaled(mass_scaling))
-      fields.mass = sum_masses([&](const unsigned int cell) {
-        return scaling_of(cell)->factor(frequency[cell]);
-      });
+      fields.mass =
+        sum_masses([&](const unsigned int cell, const double density) {
+          return density * scaling_of(cell)->factor(frequency[cell]);
+        });
     else
       fields.mass = fields.weighing_mass;
     fields.inverse_mass.resize(fields.mass.size());

@@ -203,9 +203,9 @@ namespace Keyblock
     std::array<std::array<double, dim>, 1 << dim>
     corners_of(const unsigned int mesh_cell) const;
 
-    /** Mass by node [kg], with density times @p factor(cell). */
-    template <typename Factor>
-    std::vector<double> sum_masses(const Factor &factor) const;
+    /** Mass by node [kg], with @p density(cell, true density) [kg/m3]. */
+    template <typename Density>
+    std::vector<double> sum_masses(const Density &density) const;
     void set_up_far_field();
     void bound_step_by_far_field();
     void set_up_mass();
