@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/mesh_report.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <ostream>
 
@@ -23,6 +24,29 @@ namespace Keyblock
       for (unsigned int i = 0; i < joints.size() && i < most_names; ++i)
         out << (i ? ", " : "") << scene.joints[joints[i]]->name;
       out << (joints.size() > most_names ? ", ..." : "") << ".\n";
+    }
+
+    template <int dim>
+    void
+    print_merged(std::ostream &out,
+                 const MeshReport<dim> &report,
+                 const Scene<dim> &scene)
+    {
+      constexpr unsigned int most_pairs = 5;
+      auto merged                       = report.merged;
+      std::stable_sort(merged.begin(),
+                       merged.end(),
+                       [](const auto &a, const auto &b) {
+                         return a.area > b.area;
+                       });
+      for (unsigned int i = 0; i < merged.size() && i < most_pairs; ++i)
+        out << "        joints " << scene.joints[merged[i].joint]->name
+            << " and " << scene.joints[merged[i].other]->name << " share "
+            << merged[i].area << (dim == 2 ? " m" : " m2") << ", which "
+            << scene.joints[merged[i].joint]->name << " rules\n";
+      if (merged.size() > most_pairs)
+        out << "        and so do " << merged.size() - most_pairs
+            << " more pairs of joints: summary.json lists them\n";
     }
   } // namespace
 
@@ -51,11 +75,7 @@ namespace Keyblock
           out << "        finite joints have " << report.area_ratio
               << " of their area in the mean\n";
       }
-    for (const auto &merged : report.merged)
-      out << "        joints " << scene.joints[merged.joint]->name << " and "
-          << scene.joints[merged.other]->name << " share " << merged.area
-          << (dim == 2 ? " m" : " m2") << ", which "
-          << scene.joints[merged.joint]->name << " rules\n";
+    print_merged(out, report, scene);
     if (report.n_lost_blocks > 0)
       {
         out << "Warning: " << report.n_lost_blocks
