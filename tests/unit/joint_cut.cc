@@ -225,12 +225,14 @@ BOOST_AUTO_TEST_SUITE(joint_cut)
 
 BOOST_AUTO_TEST_CASE(mesh_stays_sound_2d)
 {
-  check_cut<2>();
+  if (is_root()) // nothing here is shared
+    check_cut<2>();
 }
 
 BOOST_AUTO_TEST_CASE(mesh_stays_sound_3d)
 {
-  check_cut<3>();
+  if (is_root())
+    check_cut<3>();
 }
 
 // Two planes a hair apart cannot be meshed exactly; one corner block is bounded
