@@ -229,13 +229,9 @@ namespace Keyblock
                    std::back_inserter(outside),
                    is_outside);
       gmsh::model::removeEntities(outside);
-      const auto drop = [&is_outside](vectorpair &list) {
+      for (vectorpair &list : model.joints)
         list.erase(std::remove_if(list.begin(), list.end(), is_outside),
                    list.end());
-      };
-      drop(model.excavations);
-      for (vectorpair &list : model.joints)
-        drop(list);
     }
   } // namespace
 
@@ -276,13 +272,10 @@ namespace Keyblock
         occ::fragment(model.domain, tools, all_pieces, pieces_of);
         model.domain = pieces_of[0];
       }
-    for (unsigned int i = 1; i < pieces_of.size(); ++i)
-      if (i <= scene.excavations.size())
-        model.excavations.insert(model.excavations.end(),
-                                 pieces_of[i].begin(),
-                                 pieces_of[i].end());
-      else
-        model.joints.push_back(pieces_of[i]);
+    // the excavations' pieces are known by their places
+    for (unsigned int i = 1 + scene.excavations.size(); i < pieces_of.size();
+         ++i)
+      model.joints.push_back(pieces_of[i]);
     occ::synchronize();
     clip(model);
     return model;

@@ -6,6 +6,7 @@
 #include <keyblock/excavation_region.h>
 #include <keyblock/gmsh_model.h>
 #include <keyblock/joint_cut.h>
+#include <keyblock/joint_extent.h>
 #include <keyblock/mesh_cut.h>
 #include <keyblock/mesh_improvement.h>
 #include <keyblock/mesh_size.h>
@@ -190,13 +191,8 @@ namespace Keyblock
         if (!model.joints.empty())
           for (unsigned int j = 0; j < scene.joints.size(); ++j)
             {
-              Surface<dim> surface;
-              surface.point  = scene.joints[j]->extent == "polygon"
-                                 ? scene.joints[j]->vertices[0]
-                                 : scene.joints[j]->point;
-              surface.normal = scene.joints[j]->normal();
-              surface.joint  = j;
-              result.surfaces.push_back(surface);
+              const JointExtent<dim> extent(*scene.joints[j]);
+              result.surfaces.push_back({extent.origin, extent.normal, 0., j});
               for (const auto &[dimension, tag] : model.joints[j])
                 joints_of_entity[tag].push_back(j);
             }

@@ -16,7 +16,7 @@ namespace Keyblock
   template <int dim>
   struct GmshModel
   {
-    gmsh::vectorpair domain, excavations;
+    gmsh::vectorpair domain;
 
     /** Pieces of each joint, by index of the joint; empty if the model was
      * built without joints. */
