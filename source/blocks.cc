@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/block_measures.h>
+#include <keyblock/block_resolution.h>
 #include <keyblock/blocks.h>
 
 #include <algorithm>
@@ -388,6 +389,7 @@ namespace Keyblock
       }
     classify(result, mesh, scene);
     measure_exactly(result, mesh);
+    measure_widths(result, mesh, scene);
     return result;
   }
 
@@ -418,6 +420,9 @@ namespace Keyblock
             std::abs(block.exact.volume - block.volume) > 1e-9 * block.volume)
           out << " (exactly " << std::setprecision(6) << block.exact.volume
               << (dim == 2 ? " m2)" : " m3)");
+        if (block.exposed_stage != none && is_too_coarse(block, scene))
+          out << " (only " << std::setprecision(2) << block.cells_across()
+              << " cells across)";
         out << '\n';
       }
   }

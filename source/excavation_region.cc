@@ -54,6 +54,31 @@ namespace Keyblock
     return depth;
   }
 
+  template <int dim>
+  double
+  narrowest_side(const Excavation<dim> &excavation)
+  {
+    if (excavation.shape == "formula")
+      return 1e300;
+    if (excavation.shape == "circle")
+      return 2. * excavation.radius;
+    if (excavation.shape == "box")
+      return *std::min_element(excavation.size.begin(), excavation.size.end());
+    Point<2> low = excavation.vertices[0], high = low;
+    for (const Point<2> &p : excavation.vertices)
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          low[d]  = std::min(low[d], p[d]);
+          high[d] = std::max(high[d], p[d]);
+        }
+    const double side = std::min(high[0] - low[0], high[1] - low[1]);
+    return excavation.shape == "extruded polygon"
+             ? std::min(side, excavation.to - excavation.from)
+             : side;
+  }
+
   template double depth_inside(const Excavation<2> &, const Point<2> &);
   template double depth_inside(const Excavation<3> &, const Point<3> &);
+  template double narrowest_side(const Excavation<2> &);
+  template double narrowest_side(const Excavation<3> &);
 } // namespace Keyblock

@@ -140,6 +140,12 @@ namespace Keyblock
                       "Constant spacing: each joint is moved at random by up "
                       "to half this share of the spacing to either side [-].",
                       fraction);
+    prm.add_parameter("Persistence",
+                      persistence,
+                      "Spacing of planes that are not jointed all over: the "
+                      "share of their area that is [-]. P32 (P21) is then "
+                      "Persistence over the spacing; for finite joints.",
+                      Double(1e-6, 1.));
     prm.add_parameter(dim == 2 ? "P21" : "P32",
                       intensity,
                       "Instead of Spacing: mean area of joints per volume "

@@ -147,6 +147,12 @@ namespace Keyblock
           "/Spacing law' is constant, which "
           "only infinite joints can have; set 'Radius law' to infinite or "
           "'Spacing law' to exponential.");
+      require(set.persistence == 1. ||
+                (set.spacing > 0. && set.radius_law != "infinite"),
+              "The entry '" + section + "/Persistence' is " +
+                exact_text(set.persistence) +
+                ", which goes with 'Spacing' and finite joints; give both "
+                "'Spacing' and 'Radius law', or leave it out.");
       require(set.region_corner.size() == set.region_size.size() &&
                 (set.region_size.empty() || set.region_size.size() == dim),
               "The entries '" + section +
@@ -312,7 +318,8 @@ namespace Keyblock
   {
     if (set.intensity > 0.)
       return set.intensity;
-    return (set.frequency > 0. ? set.frequency : 1. / set.spacing) /
+    return (set.frequency > 0. ? set.frequency
+                               : set.persistence / set.spacing) /
            mean_cosine<dim>(set.concentration);
   }
 

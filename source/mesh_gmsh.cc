@@ -53,6 +53,10 @@ namespace Keyblock
      * altitude [-]. */
     constexpr double least_thinness = 0.1;
 
+    /** So is one whose thinnest cell has this part of what cuts would give:
+     * its joints are where they should be. */
+    constexpr double acceptable_part = 0.5;
+
     /** Cells of exact meshes below this quality are mended. */
     constexpr double wanted_quality = 0.35;
 
@@ -127,10 +131,14 @@ namespace Keyblock
 
     template <int dim>
     MeshSize<dim>
-    wanted_size(const Scene<dim> &scene, const GmshModel<dim> &model)
+    wanted_size(const Scene<dim> &scene,
+                const std::vector<SizeDemand<dim>> &demands,
+                const GmshModel<dim> &model)
     {
       const Tensor<1, 3> sides = model.high - model.low;
-      return MeshSize<dim>(scene, std::max({sides[0], sides[1], sides[2]}));
+      return MeshSize<dim>(scene,
+                           std::max({sides[0], sides[1], sides[2]}),
+                           demands);
     }
 
     /** Gmsh's elements with what they lie on. */
@@ -437,11 +445,13 @@ namespace Keyblock
      */
     template <int dim>
     MarkedMesh<dim>
-    mesh_exactly(const Scene<dim> &scene, const bool must_be)
+    mesh_exactly(const Scene<dim> &scene,
+                 const std::vector<SizeDemand<dim>> &demands,
+                 const bool must_be)
     {
       const GmshSession session;
       const GmshModel<dim> model = build_gmsh_model<dim>(scene, true);
-      const MeshSize<dim> size   = wanted_size(scene, model);
+      const MeshSize<dim> size   = wanted_size(scene, demands, model);
       set_sizes<dim>(size,
                      dim == 2 ? quadrilateral_coarsening
                               : simplex_coarsening<dim>);
@@ -460,11 +470,13 @@ namespace Keyblock
     /** Joints cut into a mesh of domain and excavations. */
     template <int dim>
     MarkedMesh<dim>
-    mesh_by_cuts(const Scene<dim> &scene, MeshReport<dim> &report)
+    mesh_by_cuts(const Scene<dim> &scene,
+                 const std::vector<SizeDemand<dim>> &demands,
+                 MeshReport<dim> &report)
     {
       const GmshSession session;
       const GmshModel<dim> model = build_gmsh_model<dim>(scene, false);
-      const MeshSize<dim> size   = wanted_size(scene, model);
+      const MeshSize<dim> size   = wanted_size(scene, demands, model);
       set_sizes<dim>(size, simplex_coarsening<dim>);
       if constexpr (dim == 2)
         require_meshed(mesh_surfaces());
@@ -477,55 +489,113 @@ namespace Keyblock
       return to_marked_mesh(mesh);
     }
 
-    /** Put the new vertices in the middle of chords onto their circles. */
+    /** Put the new vertices in the middle of chords onto their circles, unless
+     * that turns a thin cell beside them bad. */
     template <int dim>
     void
     bend_outlines(Mesh<dim> &mesh)
     {
+      constexpr double least_jacobian = 0.05;
+      std::map<unsigned int, Point<dim>> straight;
       for (const auto &face : mesh.marked_faces)
         if (mesh.surfaces[face.surface].radius > 0.)
           for (const unsigned int v : face.vertices)
-            mesh.vertices[v] -=
-              mesh.surfaces[face.surface].distance(mesh.vertices[v]) *
-              mesh.surfaces[face.surface].normal_at(mesh.vertices[v]);
+            {
+              const Surface<dim> &circle = mesh.surfaces[face.surface];
+              const double distance      = circle.distance(mesh.vertices[v]);
+              if (std::abs(distance) < 1e-12 * circle.radius)
+                continue;
+              straight[v] = mesh.vertices[v];
+              mesh.vertices[v] -= distance * circle.normal_at(mesh.vertices[v]);
+            }
+      bool has_changed = !straight.empty();
+      while (has_changed)
+        {
+          has_changed = false;
+          for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+            for (const unsigned int v : mesh.cells[c])
+              {
+                const auto entry = straight.find(v);
+                if (entry != straight.end() &&
+                    mesh.scaled_jacobian(c) < least_jacobian)
+                  {
+                    mesh.vertices[v] = entry->second;
+                    straight.erase(entry);
+                    has_changed = true;
+                  }
+              }
+        }
     }
 
-    /** Joints that lie on the same faces, and the area they share. */
+    /** Joints that lie on the same faces, the area they share, and the rock
+     * that was between them. */
     template <int dim>
     void
-    list_merged_joints(const MarkedMesh<dim> &marked, MeshReport<dim> &report)
+    list_merged_joints(const MarkedMesh<dim> &marked,
+                       const Scene<dim> &scene,
+                       MeshReport<dim> &report)
     {
-      std::map<std::vector<unsigned int>, std::set<unsigned int>> joints_on;
+      std::map<std::vector<unsigned int>, std::vector<unsigned int>> on_face;
       for (const MixedMesh::Element &face : marked.mixed.marked_faces)
         if (marked.surfaces[face.id].is_joint())
           {
             std::vector<unsigned int> key = face.vertices;
             std::sort(key.begin(), key.end());
-            joints_on[key].insert(marked.surfaces[face.id].joint);
+            on_face[key].push_back(face.id);
           }
       std::map<std::pair<unsigned int, unsigned int>, double> shared;
-      for (const auto &[vertices, joints] : joints_on)
-        for (const unsigned int j : joints)
-          if (j != *joints.begin())
+      for (auto &[vertices, surfaces] : on_face)
+        {
+          if (surfaces.size() < 2)
+            continue;
+          const auto joint_of = [&marked](const unsigned int s) {
+            return marked.surfaces[s].joint;
+          };
+          std::sort(surfaces.begin(),
+                    surfaces.end(),
+                    [&](const unsigned int s, const unsigned int t) {
+                      return rules(scene, joint_of(s), joint_of(t));
+                    });
+          const Point<3> &a = marked.mixed.vertices[vertices[0]],
+                         &b = marked.mixed.vertices[vertices[1]],
+                         &c = marked.mixed.vertices[vertices.back()];
+          const double area = dim == 2
+                                ? a.distance(b)
+                                : 0.5 * cross_product_3d(b - a, c - a).norm();
+          Tensor<1, dim> sum;
+          for (const unsigned int v : vertices)
+            sum += in_model<dim>(marked.mixed.vertices[v]);
+          const Point<dim> center(sum / double(vertices.size()));
+          double low = 1e300, high = -1e300;
+          for (const unsigned int s : surfaces)
             {
-              const Point<3> &a = marked.mixed.vertices[vertices[0]],
-                             &b = marked.mixed.vertices[vertices[1]],
-                             &c = marked.mixed.vertices[vertices.back()];
-              shared[{*joints.begin(), j}] +=
-                dim == 2 ? a.distance(b)
-                         : 0.5 * cross_product_3d(b - a, c - a).norm();
+              if (s != surfaces.front())
+                shared[{joint_of(surfaces.front()), joint_of(s)}] += area;
+              const double place =
+                marked.surfaces[s].distance(center) *
+                (marked.surfaces[s].normal *
+                       marked.surfaces[surfaces.front()].normal <
+                     0.
+                   ? -1.
+                   : 1.);
+              low  = std::min(low, place);
+              high = std::max(high, place);
             }
+          report.lost_rock.push_back({center, high - low});
+        }
       for (const auto &[pair, area] : shared)
         report.merged.push_back({pair.first, pair.second, area});
     }
 
     template <int dim>
     Mesh<dim>
-    to_mesh(const MarkedMesh<dim> &marked, const std::string &remedy)
+    to_mesh(const MarkedMesh<dim> &marked,
+            const Scene<dim> &scene,
+            const std::string &remedy)
     {
       Mesh<dim> mesh =
         cut_mesh<dim>(marked.mixed, "The mesh made by Gmsh", remedy);
-      list_merged_joints(marked, mesh.report);
+      list_merged_joints(marked, scene, mesh.report);
       mesh.surfaces = marked.surfaces;
       bend_outlines(mesh);
       return mesh;
@@ -536,7 +606,8 @@ namespace Keyblock
 
   template <int dim>
   Mesh<dim>
-  make_gmsh_mesh(const Scene<dim> &scene)
+  make_gmsh_mesh(const Scene<dim> &scene,
+                 const std::vector<SizeDemand<dim>> &demands)
   {
     const double snap = scene.meshing.snap;
     std::ostringstream remedy;
@@ -545,19 +616,22 @@ namespace Keyblock
            << (snap > 0. ? "" : ", or give 'Mesh/Snap' its default");
 
     std::string reason;
+    Mesh<dim> exact;
+    double thinness     = 0.; // of the exact mesh, if there is one
     const bool is_exact = snap == 0. || scene.joints.empty();
     if (is_exact || scene.joints.size() <= most_exact_joints<dim>)
       {
-        Mesh<dim> mesh;
         reason = reason_of_failure([&]() {
-          mesh = to_mesh(mesh_exactly(scene, is_exact), remedy.str());
+          exact = to_mesh(mesh_exactly(scene, demands, is_exact),
+                          scene,
+                          remedy.str());
         });
         if (reason.empty())
           {
-            mesh.report.way       = "exact";
-            const double thinness = least_over_median_thickness(mesh);
+            exact.report.way = "exact";
+            thinness         = least_over_median_thickness(exact);
             if (is_exact || thinness >= least_thinness)
-              return mesh;
+              return exact;
             std::ostringstream text;
             text << "the thinnest cell would have " << std::setprecision(2)
                  << thinness << " of the usual thickness";
@@ -575,19 +649,29 @@ namespace Keyblock
                std::to_string(most_exact_joints<dim>);
     Mesh<dim> mesh;
     MeshReport<dim> report;
-    const std::string failure = reason_of_failure(
-      [&]() { mesh = to_mesh(mesh_by_cuts(scene, report), remedy.str()); });
+    const std::string failure = reason_of_failure([&]() {
+      mesh = to_mesh(mesh_by_cuts(scene, demands, report), scene, remedy.str());
+    });
+    if (thinness > 0. &&
+        (!failure.empty() ||
+         thinness >= acceptable_part * least_over_median_thickness(mesh)))
+      return exact;
     AssertThrow(failure.empty(),
                 InputError("Gmsh could not mesh the domain with its " +
                            std::to_string(scene.excavations.size()) +
                            " excavations (" + failure + "); " + remedy.str() +
                            "."));
-    report.merged      = mesh.report.merged;
+    report.merged = mesh.report.merged;
+    report.lost_rock.insert(report.lost_rock.end(),
+                            mesh.report.lost_rock.begin(),
+                            mesh.report.lost_rock.end());
     mesh.report        = report;
     mesh.report.reason = reason;
     return mesh;
   }
 
-  template Mesh<2> make_gmsh_mesh(const Scene<2> &);
-  template Mesh<3> make_gmsh_mesh(const Scene<3> &);
+  template Mesh<2> make_gmsh_mesh(const Scene<2> &,
+                                  const std::vector<SizeDemand<2>> &);
+  template Mesh<3> make_gmsh_mesh(const Scene<3> &,
+                                  const std::vector<SizeDemand<3>> &);
 } // namespace Keyblock

@@ -167,7 +167,7 @@ namespace Keyblock
   {
     if (mesh.is_fixed[vertex])
       return false;
-    const auto locked = mesh.locked_directions(vertex);
+    const auto locked = mesh.locked_directions(vertex, may_leave_joints);
     if (locked.size() >= dim)
       return false;
     Point<dim> mean;
@@ -199,12 +199,26 @@ namespace Keyblock
           std::min(length, longest_move * size) / norm * direction;
         mesh.return_to_circles(vertex);
         const double now = mesh.least_quality_at(vertex, best);
-        if (now > best)
+        if (now > best && (!may_leave_joints || is_near_its_joints(vertex)))
           best = now;
         else
           mesh.vertices[vertex] = before;
       }
     return best > gain * start;
+  }
+
+
+
+  template <int dim>
+  bool
+  MeshImprovement<dim>::is_near_its_joints(const unsigned int vertex) const
+  {
+    for (const unsigned int s : mesh.bound_to[vertex])
+      if (mesh.surfaces[s].is_joint() &&
+          std::abs(mesh.surfaces[s].distance(mesh.vertices[vertex])) >
+            allowed_bend * mesh.target_size[vertex])
+        return false;
+    return true;
   }
 
 
@@ -646,6 +660,22 @@ namespace Keyblock
             }
         }
     return false;
+  }
+
+
+
+  template <int dim>
+  void
+  MeshImprovement<dim>::improve_by_bending(const double wanted_quality,
+                                           const unsigned int n_passes,
+                                           const double allowed_bend)
+  {
+    const double usual = this->allowed_bend;
+    this->allowed_bend = allowed_bend;
+    may_leave_joints   = true;
+    improve(wanted_quality, n_passes);
+    may_leave_joints   = false;
+    this->allowed_bend = usual;
   }
 
 

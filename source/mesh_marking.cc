@@ -14,6 +14,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 namespace Keyblock
@@ -180,12 +181,89 @@ namespace Keyblock
 
 
 
+    /** The piece between outlines that each cell belongs to, if the mesh knows
+     * what its faces lie on; else each cell is a piece. Returns their number.
+     */
+    template <int dim>
+    unsigned int
+    list_pieces(const Mesh<dim> &mesh, std::vector<unsigned int> &piece)
+    {
+      piece.assign(mesh.n_cells(), none);
+      unsigned int n = 0;
+      if (mesh.surfaces.empty())
+        {
+          for (unsigned int &p : piece)
+            p = n++;
+          return n;
+        }
+      std::set<typename Mesh<dim>::FaceVertices> outlines;
+      for (const auto &face : mesh.marked_faces)
+        if (!mesh.surfaces[face.surface].is_joint())
+          {
+            auto key = face.vertices;
+            std::sort(key.begin(), key.end());
+            outlines.insert(key);
+          }
+      std::vector<unsigned int> front;
+      for (unsigned int seed = 0; seed < mesh.n_cells(); ++seed)
+        {
+          if (piece[seed] != none)
+            continue;
+          piece[seed] = n;
+          front       = {seed};
+          while (!front.empty())
+            {
+              const unsigned int c = front.back();
+              front.pop_back();
+              for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+                {
+                  auto key = mesh.face_vertices(c, f);
+                  std::sort(key.begin(), key.end());
+                  if (outlines.count(key) == 0)
+                    mesh.for_each_across(c, f, [&](const unsigned int other) {
+                      if (piece[other] == none)
+                        {
+                          piece[other] = n;
+                          front.push_back(other);
+                        }
+                    });
+                }
+            }
+          ++n;
+        }
+      return n;
+    }
+
+
+
+    /** Whether a cell reaches across the outline of an excavation. */
+    template <int dim>
+    bool
+    crosses(const Mesh<dim> &mesh,
+            const unsigned int cell,
+            const Excavation<dim> &excavation,
+            const bool is_inside)
+    {
+      const double size = std::pow(mesh.cell_volume(cell), 1. / dim);
+      for (const unsigned int v : mesh.cells[cell])
+        {
+          const double depth = depth_inside(excavation, mesh.vertices[v]);
+          if (is_inside ? depth < -1e-4 * size : depth > 1e-4 * size)
+            return true;
+        }
+      return false;
+    }
+
+
+
     template <int dim>
     void
     mark_excavations(Mesh<dim> &mesh, const Scene<dim> &scene)
     {
       mesh.excavation_stage.assign(mesh.n_cells(), 0);
       mesh.excavation.assign(mesh.n_cells(), none);
+      std::vector<unsigned int> piece;
+      const unsigned int n_pieces = list_pieces(mesh, piece);
       for (unsigned int e = 0; e < scene.excavations.size(); ++e)
         {
           const auto &excavation = scene.excavations[e];
@@ -194,25 +272,22 @@ namespace Keyblock
                                         1,
                                         "Excavations/" + excavation->name +
                                           "/Formula");
+          std::vector<double> volume_inside(n_pieces, 0.); // minus the rest
+          for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+            {
+              const Point<dim> center = mesh.cell_center(c);
+              const double depth      = is_formula
+                                          ? formula.value(center, 0., 0)
+                                          : depth_inside(*excavation, center);
+              volume_inside[piece[c]] +=
+                depth > 0. ? mesh.cell_volume(c) : -mesh.cell_volume(c);
+            }
           unsigned int n_hits = 0;
           for (unsigned int c = 0; c < mesh.n_cells(); ++c)
             {
-              const bool is_inside =
-                (is_formula
-                   ? formula.value(mesh.cell_center(c), 0., 0)
-                   : depth_inside(*excavation, mesh.cell_center(c))) > 0.;
-              const double size = std::pow(mesh.cell_volume(c), 1. / dim);
-              bool is_cut       = false;
-              for (const unsigned int v : mesh.cells[c])
-                {
-                  if (is_formula)
-                    break;
-                  const double depth =
-                    depth_inside(*excavation, mesh.vertices[v]);
-                  is_cut = is_cut || (is_inside ? depth < -1e-4 * size
-                                                : depth > 1e-4 * size);
-                }
-              AssertThrow(!is_cut,
+              const bool is_inside = volume_inside[piece[c]] > 0.;
+              AssertThrow(is_formula || !mesh.surfaces.empty() ||
+                            !crosses(mesh, c, *excavation, is_inside),
                           InputError(
                             "The mesh does not follow the outline of the "
                             "excavation '" +
@@ -269,7 +344,7 @@ namespace Keyblock
      * first of the scene. */
     template <int dim>
     void
-    mark_known_joints(Mesh<dim> &mesh)
+    mark_known_joints(Mesh<dim> &mesh, const Scene<dim> &scene)
     {
       std::map<typename Mesh<dim>::FaceVertices,
                const typename Mesh<dim>::MarkedFace *>
@@ -283,7 +358,7 @@ namespace Keyblock
             auto key = face.vertices;
             std::sort(key.begin(), key.end());
             const auto entry = known.emplace(key, &face).first;
-            if (joint_of(face) < joint_of(*entry->second))
+            if (rules(scene, joint_of(face), joint_of(*entry->second)))
               entry->second = &face;
           }
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
@@ -473,14 +548,15 @@ namespace Keyblock
 
   template <int dim>
   Mesh<dim>
-  make_mesh(const Scene<dim> &scene)
+  make_mesh(const Scene<dim> &scene,
+            const std::vector<SizeDemand<dim>> &demands)
   {
     Mesh<dim> mesh;
     on_root([&]() {
       if (scene.meshing.generator == "structured")
         mesh = make_structured_mesh(scene);
       else if (scene.meshing.generator == "gmsh")
-        mesh = make_gmsh_mesh(scene);
+        mesh = make_gmsh_mesh(scene, demands);
       else
         mesh = read_mesh(scene);
       if (scene.meshing.is_refined())
@@ -506,7 +582,7 @@ namespace Keyblock
     no_side.fill(0);
     mesh.side.assign(mesh.n_cells(), no_side);
     if (scene.meshing.generator == "gmsh")
-      mark_known_joints(mesh);
+      mark_known_joints(mesh, scene);
     else
       for (unsigned int j = 0; j < scene.joints.size(); ++j)
         mark_joint(mesh, *scene.joints[j], j, scene.meshing.joint_tolerance);
@@ -515,6 +591,8 @@ namespace Keyblock
 
 
 
-  template Mesh<2> make_mesh(const Scene<2> &);
-  template Mesh<3> make_mesh(const Scene<3> &);
+  template Mesh<2> make_mesh(const Scene<2> &,
+                             const std::vector<SizeDemand<2>> &);
+  template Mesh<3> make_mesh(const Scene<3> &,
+                             const std::vector<SizeDemand<3>> &);
 } // namespace Keyblock

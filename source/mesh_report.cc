@@ -61,6 +61,9 @@ namespace Keyblock
     if (report.way.empty() || scene.joints.empty())
       return;
     out << std::setprecision(3);
+    if (report.n_passes > 1)
+      out << "        meshed " << report.n_passes
+          << " times for 'Mesh/Cells across blocks'\n";
     if (report.way == "exact")
       out << "        joints are where the scene has them\n";
     else
@@ -86,6 +89,17 @@ namespace Keyblock
         for (unsigned int d = 0; d < dim; ++d)
           out << (d ? ", " : "") << report.largest_lost_place[d];
         out << ") m; lower 'Mesh/Size' there to keep them.\n";
+      }
+    if (!report.gaps.empty())
+      {
+        const auto &gap = *report.gaps.begin();
+        out << "        " << report.gaps.size()
+            << (report.gaps.size() == 1 ? " joint ends" : " joints end")
+            << " less than half an edge before another one and "
+            << (report.gaps.size() == 1 ? "does" : "do")
+            << " not close against it (" << scene.joints[gap.joint]->name
+            << " before " << scene.joints[gap.other]->name
+            << (report.gaps.size() == 1 ? ")\n" : ", ...)\n");
       }
     print_names(out,
                 report.lost,

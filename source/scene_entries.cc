@@ -6,6 +6,8 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 
+#include <tuple>
+
 namespace Keyblock
 {
   namespace
@@ -78,11 +80,18 @@ namespace Keyblock
                       gradings,
                       "Structured: for each edge, either `uniform` or a ratio "
                       "of the last cell's length to the first's.");
-    prm.add_parameter("Size", size, "Gmsh: cell size far away [m].", positive);
-    prm.add_parameter("Size at excavation",
-                      size_at_excavation,
-                      "Gmsh: cell size on the excavation [m]; 0 means Size.",
+    prm.add_parameter("Size",
+                      size,
+                      "Gmsh: cell size far away [m]; 0 means a twentieth (2D) "
+                      "or a twelfth (3D) of the domain's longest side.",
                       not_negative);
+    prm.add_parameter(
+      "Size at excavation",
+      size_at_excavation,
+      "Gmsh: cell size on the excavation [m]; 0 means Size, or, "
+      "if Cells across blocks or no Size is given, at most a "
+      "tenth of the narrowest excavation.",
+      not_negative);
     prm.add_parameter("Size at joints",
                       size_at_joints,
                       "Gmsh: cell size on joints [m]; 0 means no request.",
@@ -91,6 +100,20 @@ namespace Keyblock
                       grading_distance,
                       "Gmsh: distance over which the size grows to Size [m]; 0 "
                       "means a quarter of the domain.",
+                      not_negative);
+    prm.add_parameter(
+      "Cells across blocks",
+      cells_across,
+      "Gmsh: how many cells finite blocks near excavations (all, if nothing is "
+      "dug) are to have across their least width: the scene is meshed again "
+      "with smaller cells where blocks have fewer, at most three times. 0: "
+      "sizes do not depend on blocks.",
+      Double(0., 50.));
+    prm.add_parameter("Least size",
+                      least_size,
+                      "Gmsh: the smallest cell size that Cells across blocks "
+                      "may ask for [m]; 0 means a quarter of Size at "
+                      "excavation.",
                       not_negative);
     prm.add_parameter("Joint tolerance",
                       joint_tolerance,
@@ -119,6 +142,13 @@ namespace Keyblock
       refinement_levels,
       "A formula in x, y (z): how often cells are halved whose centre is "
       "there. A box: `2 * (abs(x) < 5) * (abs(y) < 8)`.");
+  }
+
+  bool
+  JointStrength::is_weaker_than(const JointStrength &other) const
+  {
+    return std::tie(friction_angle, cohesion) <
+           std::tie(other.friction_angle, other.cohesion);
   }
 
   template <int dim>

@@ -330,12 +330,14 @@ namespace Keyblock
 
   template <int dim>
   std::vector<Tensor<1, dim>>
-  SimplexMesh<dim>::locked_directions(const unsigned int v) const
+  SimplexMesh<dim>::locked_directions(const unsigned int v,
+                                      const bool may_leave_joints) const
   {
     std::vector<Tensor<1, dim>> locked;
     for (const bool is_joint : {false, true})
       for (const unsigned int s : bound_to[v])
-        if (surfaces[s].is_joint() == is_joint)
+        if (surfaces[s].is_joint() == is_joint &&
+            !(is_joint && may_leave_joints))
           {
             // twice, since the first time may leave little but rounding
             const Tensor<1, dim> n =

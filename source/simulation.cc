@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/simulation.h>
 
+#include <keyblock/block_resolution.h>
 #include <keyblock/block_theory.h>
 #include <keyblock/mpi.h>
 #include <keyblock/network_output.h>
@@ -13,6 +14,7 @@
 #include <iomanip>
 #include <iostream>
 #include <set>
+#include <tuple>
 
 namespace Keyblock
 {
@@ -52,12 +54,11 @@ namespace Keyblock
   void
   Simulation<dim>::make_geometry()
   {
-    mesh        = make_mesh(scene);
-    quality     = measure_quality(mesh);
-    mesh_report = mesh.report;
-    blocks      = find_blocks(mesh, scene);
-    split       = split_mesh(mesh, blocks, scene);
-    mesh        = Mesh<dim>();
+    std::tie(mesh, blocks) = make_mesh_for_blocks(scene);
+    quality                = measure_quality(mesh);
+    mesh_report            = mesh.report;
+    split                  = split_mesh(mesh, blocks, scene);
+    mesh                   = Mesh<dim>();
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Blocks that fail in a stage, and the safety factors at its end.
+#include <keyblock/block_resolution.h>
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
 #include <keyblock/teams.h>
@@ -264,6 +265,10 @@ namespace Keyblock
               << factor.limit_mode << ")";
     if (factor.stress_ratio > 0.)
       std::cout << ", stress ratio " << factor.stress_ratio;
+    const Block<dim> &block = blocks.blocks[factor.block];
+    if (is_too_coarse(block, scene))
+      std::cout << "; only " << std::setprecision(2) << block.cells_across()
+                << " cells across, not " << scene.meshing.cells_across;
     std::cout << "; " << factor.trials.size() << " trials, "
               << std::setprecision(3) << seconds << " s" << std::endl;
   }

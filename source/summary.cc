@@ -172,6 +172,8 @@ namespace Keyblock
       put(tree, "percentile_99", report.percentile_99);
       put(tree, "percentile_99_in_cells", report.percentile_99_in_cells);
       put(tree, "area_ratio_of_finite_joints", report.area_ratio);
+      put(tree, "area_ratio_of_large_joints", report.area_ratio_of_large);
+      put(tree, "passes", report.n_passes);
       put(tree, "lost_blocks", report.n_lost_blocks);
       put(tree, "largest_lost_volume", report.largest_lost_volume);
       if (report.n_lost_blocks > 0)
@@ -192,6 +194,13 @@ namespace Keyblock
             pair.area);
       if (!merged.empty())
         tree.add_child("merged_areas", merged);
+      Tree gaps;
+      for (const auto &gap : report.gaps)
+        gaps.push_back({"",
+                        Tree(scene.joints[gap.joint]->name + " before " +
+                             scene.joints[gap.other]->name)});
+      if (!gaps.empty())
+        tree.add_child("open_ends", gaps);
       return tree;
     }
 
@@ -215,6 +224,11 @@ namespace Keyblock
           put(tree, "removable", block.is_removable);
           put(tree, "cells", block.n_cells);
           put(tree, "volume", block.volume);
+          if (!block.is_infinite)
+            {
+              put(tree, "width", block.width);
+              put(tree, "cells_across", block.cells_across());
+            }
           if (block.exact.is_known)
             put_exact_measures(block, scene, tree);
           put(tree, "mass", block.mass);

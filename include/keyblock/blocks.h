@@ -4,6 +4,7 @@
 
 #include <keyblock/mesh.h>
 
+#include <cmath>
 #include <iosfwd>
 #include <map>
 #include <string>
@@ -52,6 +53,16 @@ namespace Keyblock
 
     /** Largest extent of the cell centres plus a cell [m]. */
     double size = 0.;
+
+    /** Least extent along the normals of its faces [m]; 0 if infinite. */
+    double width = 0.;
+
+    /** Width over the mean size of the cells [-]. */
+    double
+    cells_across() const
+    {
+      return width / std::pow(volume / n_cells, 1. / dim);
+    }
 
     /** The block as its planes bound it, where joints were bent to fit the
      * mesh (measure_exactly()). */

@@ -12,6 +12,10 @@ namespace Keyblock
    */
   template <int dim>
   double depth_inside(const Excavation<dim> &excavation, const Point<dim> &p);
+
+  /** Least side [m] of the box around an excavation, 1e300 for a formula. */
+  template <int dim>
+  double narrowest_side(const Excavation<dim> &excavation);
 } // namespace Keyblock
 
 #endif

@@ -6,6 +6,7 @@
 #include <deal.II/base/point.h>
 
 #include <keyblock/mesh_report.h>
+#include <keyblock/mesh_size.h>
 #include <keyblock/scene.h>
 #include <keyblock/surface.h>
 
@@ -189,10 +190,12 @@ namespace Keyblock
    * sort its cells along a Hilbert curve, find neighbours, and mark materials,
    * excavations, joints and outer boundaries.
    * Throws InputError if the mesh does not follow a joint or an excavation, if
-   * a joint misses the domain, or if a file cannot be read.
+   * a joint misses the domain, or if a file cannot be read. @p demands: smaller
+   * cells than the section Mesh asks for (Gmsh only, known on rank 0).
    */
   template <int dim>
-  Mesh<dim> make_mesh(const Scene<dim> &scene);
+  Mesh<dim> make_mesh(const Scene<dim> &scene,
+                      const std::vector<SizeDemand<dim>> &demands = {});
 
   /** Equal cells in a box or parallelepiped. */
   template <int dim>
@@ -203,7 +206,8 @@ namespace Keyblock
    * fails, with the joints cut into a mesh of the rest (cut_joints()). Throws
    * InputError if Mesh/Snap forbids to cut what cannot be exact. */
   template <int dim>
-  Mesh<dim> make_gmsh_mesh(const Scene<dim> &scene);
+  Mesh<dim> make_gmsh_mesh(const Scene<dim> &scene,
+                           const std::vector<SizeDemand<dim>> &demands);
 
   /** A mesh from Domain/File, non-quadrilateral cells cut. */
   template <int dim>

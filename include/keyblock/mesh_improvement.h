@@ -37,6 +37,12 @@ namespace Keyblock
                  const unsigned int n_passes,
                  const unsigned int first_cell = 0);
 
+    /** The same, but vertices may also leave the planes of their joints, as far
+     * as @p allowed_bend (over the target size) in all [-]. */
+    void improve_by_bending(const double wanted_quality,
+                            const unsigned int n_passes,
+                            const double allowed_bend);
+
     /** Put vertices back into the planes of their joints where no cell falls
      * below @p least_quality for it (or all around become better). */
     void flatten(const double least_quality);
@@ -74,8 +80,12 @@ namespace Keyblock
     std::vector<std::pair<Facet, std::vector<Mark>>>
     marks_at(const unsigned int vertex) const;
 
+    /** Whether a vertex is no farther from its joints than it may be. */
+    bool is_near_its_joints(const unsigned int vertex) const;
+
     SimplexMesh<dim> &mesh;
-    const double allowed_bend;
+    double allowed_bend;
+    bool may_leave_joints = false;
     std::mt19937 bits;
   };
 } // namespace Keyblock

@@ -7,7 +7,9 @@
 #include <keyblock/scene.h>
 
 #include <iosfwd>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace Keyblock
@@ -31,6 +33,10 @@ namespace Keyblock
      * them, in the mean [-]; 1 if there are none. */
     double area_ratio = 1.;
 
+    /** The same of those whose radius (half length, half width) is at least two
+     * edges of the simplices that they were cut into. */
+    double area_ratio_of_large = 1.;
+
     /** Joints that share faces, and how much area [m^(dim-1)]. */
     struct Merged
     {
@@ -47,7 +53,43 @@ namespace Keyblock
     unsigned int n_lost_blocks = 0;
     double largest_lost_volume = 0.; ///< [m^dim]
     Point<dim> largest_lost_place;
+
+    /** Rock between joints that became no block of its own. */
+    struct LostRock
+    {
+      Point<dim> place;
+      double thickness; ///< about [m]
+    };
+    std::vector<LostRock> lost_rock;
+
+    /** A joint whose rim ends less than half an edge of the simplices before
+     * another joint and does not close against it. */
+    struct Gap
+    {
+      unsigned int joint, other;
+      bool
+      operator<(const Gap &g) const
+      {
+        return std::tie(joint, other) < std::tie(g.joint, g.other);
+      }
+    };
+    std::set<Gap> gaps;
+
+    /** How often the scene was meshed for Mesh/Cells across blocks. */
+    unsigned int n_passes = 1;
   };
+
+  /** Whether joint @p a rules where it shares faces with joint @p b: the
+   * weaker, of equal ones the first. */
+  template <int dim>
+  bool
+  rules(const Scene<dim> &scene, const unsigned int a, const unsigned int b)
+  {
+    const JointStrength &first = *scene.joints[a], &second = *scene.joints[b];
+    if (first.is_weaker_than(second) || second.is_weaker_than(first))
+      return first.is_weaker_than(second);
+    return a < b;
+  }
 
   /** The report for people, one sentence each; nothing for other meshes. */
   template <int dim>

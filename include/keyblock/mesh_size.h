@@ -5,30 +5,48 @@
 #include <keyblock/joint_extent.h>
 #include <keyblock/scene.h>
 
+#include <memory>
 #include <vector>
 
 namespace Keyblock
 {
+  /** Cells of at most a size [m] around places [m]. */
+  template <int dim>
+  struct SizeDemand
+  {
+    std::vector<Point<dim>> places;
+    double size;
+  };
+
   /**
-   * The cell size that the section Mesh asks for at each place: it grows
-   * linearly with the distance from excavations and joints to Mesh/Size. If no
-   * size at joints is given, finite ones that such cells would miss get smaller
-   * ones, not smaller than those at excavations.
+   * The cell size that is wanted at each place: it grows linearly with the
+   * distance from excavations, joints and the places of demands to Mesh/Size.
+   * If no size at joints is given, finite ones that such cells would miss get
+   * smaller ones, not smaller than those at excavations.
    */
   template <int dim>
   class MeshSize
   {
   public:
-    /** @p longest_side: of the domain [m]; a quarter of it stands for a
-     * Mesh/Grading distance that is not given. */
-    MeshSize(const Scene<dim> &scene, const double longest_side);
+    /** @p longest_side: of the domain [m]; a part of it stands for a
+     * Mesh/Grading distance and a Mesh/Size that are not given. */
+    MeshSize(const Scene<dim> &scene,
+             const double longest_side,
+             const std::vector<SizeDemand<dim>> &demands = {});
+    ~MeshSize();
 
     /** Wanted cell size [m] at @p p. */
     double operator()(const Point<dim> &p) const;
 
+    /** The smallest size that a demand may have [m]. */
+    double least() const;
+
   private:
     const Scene<dim> &scene;
-    double distance; ///< over which sizes grow [m]
+    double distance;      ///< over which sizes grow [m]
+    double far;           ///< [m]
+    double at_excavation; ///< [m]
+
     /** A joint at which cells are to be smaller. */
     struct SizeAtJoint
     {
@@ -36,6 +54,9 @@ namespace Keyblock
       double size; ///< [m]
     };
     std::vector<SizeAtJoint> joints;
+
+    struct SizeAtPlaces;
+    std::vector<std::unique_ptr<SizeAtPlaces>> places;
   };
 } // namespace Keyblock
 

@@ -43,10 +43,12 @@ namespace Keyblock
     std::string generator = "structured";
     std::vector<unsigned int> cells;
     std::vector<std::string> gradings;
-    double size               = 1.;
+    double size               = 0.;
     double size_at_excavation = 0.;
     double size_at_joints     = 0.;
     double grading_distance   = 0.;
+    double cells_across       = 0.;
+    double least_size         = 0.;
     double joint_tolerance    = 1e-6;
     double snap               = 0.2;
 
@@ -95,6 +97,10 @@ namespace Keyblock
     double tensile_strength       = 0.;  ///< [Pa]
     double residual_cohesion      = 0.;  ///< [Pa]
     std::string water_pressure;          ///< formula [Pa]; empty: none
+
+    /** Which of two joints rules where they share faces: that with the lower
+     * friction angle, of equal ones that with the lower cohesion. */
+    bool is_weaker_than(const JointStrength &other) const;
 
     void declare_strength(ParameterHandler &prm);
   };
@@ -152,6 +158,7 @@ namespace Keyblock
     double spacing          = 0.; ///< mean, along the mean normal [m]
     std::string spacing_law = "exponential";
     double jitter           = 0.; ///< share of a constant spacing [-]
+    double persistence      = 1.; ///< jointed share of the planes spaced so [-]
     double intensity        = 0.; ///< P32 [m2/m3]; in 2D P21 [m/m2]
     double frequency        = 0.; ///< P10 along the mean normal [1/m]
 

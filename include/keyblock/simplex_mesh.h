@@ -127,8 +127,11 @@ namespace Keyblock
                             const double bound = -1e300) const;
 
     /** Orthonormal directions in which the vertex must not move: normals of
-     * the surfaces it is bound to, those of the model first. */
-    std::vector<Tensor<1, dim>> locked_directions(const unsigned int v) const;
+     * the surfaces it is bound to, those of the model first, and unless it
+     * @p may_leave_joints those of joints. */
+    std::vector<Tensor<1, dim>>
+    locked_directions(const unsigned int v,
+                      const bool may_leave_joints = false) const;
 
     /** @p direction without its part along locked directions. */
     static Tensor<1, dim>
@@ -184,6 +187,21 @@ namespace Keyblock
       return sum / list.size();
     }
   };
+
+  /** The edges (3D) or ends (2D) of a facet. */
+  template <int dim, typename Action>
+  void
+  for_each_ridge(const typename SimplexMesh<dim>::Facet &facet,
+                 const Action &action)
+  {
+    if constexpr (dim == 2)
+      for (const unsigned int v : facet)
+        action(std::array<unsigned int, 1>{{v}});
+    else
+      for (unsigned int i = 0; i < 3; ++i)
+        action(std::array<unsigned int, 2>{
+          {facet[i == 0 ? 1 : 0], facet[i == 2 ? 1 : 2]}});
+  }
 } // namespace Keyblock
 
 #endif

@@ -444,6 +444,19 @@ BOOST_AUTO_TEST_CASE(discs_and_planes_in_a_domain)
   BOOST_TEST(!notched.meets(trace));
 }
 
+BOOST_AUTO_TEST_CASE(persistence_is_the_jointed_share)
+{
+  JointSet<3> set = set_of_discs();
+  set.intensity = set.frequency = 0.;
+  set.spacing                   = 2.;
+  const double whole            = intensity_of(set);
+  set.persistence               = 0.3;
+  BOOST_TEST(intensity_of(set) == 0.3 * whole,
+             boost::test_tools::tolerance(1e-14));
+  set.radius_law = "infinite";
+  BOOST_CHECK_THROW(make_joints_of_set(set, cube<3>(10.)), InputError);
+}
+
 BOOST_AUTO_TEST_CASE(seeds_and_names_of_sets)
 {
   JointSet<3> set   = set_of_discs();
