@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 """Meshes random joint networks around a tunnel and tabulates how well.
 
-usage: contrib/networks.py [--kinds traces,discs,planes] [--numbers 20,50]
+usage: contrib/networks.py [--kinds traces,discs,planes,lines,faces] [--numbers 20,50]
          [--seeds 1-5] [--least 0.05] [--run] [--residual 1e-9] [--ranks N]
          [--keyblock build/keyblock] [--keep FOLDER]
          [-- arguments for keyblock]
 
 traces: 2D, a horseshoe 10 m wide in 80 m, two sets of traces of 3 to 20 m;
 discs, planes: 3D, a tunnel of 6 m, 30 m long, in a cube of 40 m, three sets.
+lines (2D), faces (3D): all that a mesh can stumble over: joints of every extent
+through corners of excavations and of the domain, on their sides, ends on other
+joints, at 1 degree to each other, twice at the same place or almost, tiny ones;
+around a horseshoe, a box, a circle, two excavations, or none.
 The stable step is compared with the cell size at the excavation over the
 velocity of pressure waves. With --run the tunnel is dug until all is at rest
 or blocks move off. Exits with 1 if a scene was refused or crashed, has a ratio
@@ -30,7 +34,8 @@ VELOCITY = math.sqrt(YOUNG * (1 - POISSON) / ((1 + POISSON) * (1 - 2 * POISSON))
 SIZE_AT_EXCAVATION = {2: 0.5, 3: 1.2}
 SETS = [(60, 30), (55, 150), (25, 280)]  # dip, dip direction in 3D
 NUMBERS = {"traces": [20, 50, 100, 200, 400], "discs": [5, 10, 20, 50, 100],
-           "planes": [3, 5, 8, 12, 20]}
+           "planes": [3, 5, 8, 12, 20], "lines": [5, 15, 40], "faces": [3, 8, 20]}
+CORNERS = {2: ((-40, -40), (80, 80)), 3: ((-20, 0, -20), (40, 40, 40))}
 
 
 def text(values):
@@ -67,21 +72,101 @@ def faces(n, rng, has_rim):
     return joints
 
 
+def horseshoe():
+    arch = [(5 * math.cos(a * math.pi / 12), 5 * math.sin(a * math.pi / 12)) for a in range(13)]
+    return [(-5, -5), (5, -5)] + arch
+
+
+def outlines(dim, rng):
+    """Excavations as entries, and corners of theirs."""
+    kind = rng.choice(["horseshoe", "box", "circle", "two", "none"] if dim == 2 else
+                      ["box", "horseshoe", "two", "none"])
+    if kind == "horseshoe":
+        corners = horseshoe()
+        vertices = "Vertices = " + "; ".join(text(p) for p in corners)
+        if dim == 3:
+            return ([["Shape = extruded polygon", vertices, "From = 5", "To = 35"]],
+                    [(x, rng.choice([5, 20, 35]), z) for x, z in corners])
+        return [[vertices]], corners
+    if kind == "circle":
+        return [["Shape = circle", "Center = 0, 0", "Radius = 5"]], [(5, 0), (0, 5), (-5, 0)]
+    boxes = {"box": [((-3, 5, -3), (6, 30, 6))], "none": [],
+             "two": [((-9, 5, -3), (6, 30, 6)), ((2, 0, -5), (7, 25, 10))]}[kind]
+    if dim == 2:
+        boxes = [((c[0], c[2]), (s[0], s[2])) for c, s in boxes]
+    corners = [tuple(c + s * rng.choice([0, 1]) for c, s in zip(corner, size))
+               for corner, size in boxes for _ in range(6)]
+    return [["Shape = box", f"Corner = {text(c)}", f"Size = {text(s)}"] for c, s in boxes], corners
+
+
+def awkward_joints(dim, n, rng, corners):
+    """Joints as entries: places that others have, and random ones."""
+    low, size = CORNERS[dim]
+    places = list(corners) + [tuple(c + s * rng.choice([0, 1]) for c, s in zip(low, size))
+                              for _ in range(3)]
+    directions, joints = [], []
+    for _ in range(n):
+        inside = tuple(c + s * rng.uniform(0.1, 0.9) for c, s in zip(low, size))
+        on_side = list(inside)
+        axis = rng.randrange(dim)
+        on_side[axis] = low[axis] + size[axis] * rng.choice([0, 1])
+        point = rng.choice([inside, inside, inside, tuple(on_side), rng.choice(places)])
+        if rng.random() < 0.15:  # almost there
+            point = tuple(c + rng.choice([1e-9, 1e-6, 5e-4, 0.01]) for c in point)
+        if directions and rng.random() < 0.25:  # parallel or almost
+            dip, direction = rng.choice(directions)
+            dip += rng.choice([0., 0., 1., -1., 1e-5])
+        else:
+            dip = rng.choice([0., 90., 45., rng.uniform(0, 90), rng.uniform(0, 90)])
+            direction = rng.choice([0., 90., 180., rng.uniform(0, 360)])
+        dip = min(90., abs(dip))
+        directions.append((dip, direction))
+        length = rng.choice([0.2, rng.uniform(2, 30), rng.uniform(2, 30)])
+        a, b = math.radians(dip), math.radians(direction)
+        if dim == 2:
+            sign = 1 if direction < 180 else -1
+            along = [(sign * math.cos(a), -math.sin(a))]
+        else:  # dip vector and strike
+            along = [(math.sin(b) * math.cos(a), math.cos(b) * math.cos(a), -math.sin(a)),
+                     (math.cos(b), -math.sin(b), 0.)]
+        extent = rng.choice(["infinite", "disc", "polygon", "polygon"])
+        if extent == "polygon":
+            start = 0. if rng.random() < 0.5 else -length / 2  # the place is an end or the middle
+            width = rng.uniform(0.2, 1.) * length
+            ends = [tuple(p + start * u for p, u in zip(point, along[0])),
+                    tuple(p + (start + length) * u for p, u in zip(point, along[0]))]
+            if dim == 3:
+                ends += [tuple(p + width * v for p, v in zip(e, along[1])) for e in reversed(ends)]
+            places += ends
+            joints.append(["Extent = polygon", "Vertices = " + "; ".join(text(p) for p in ends)])
+        else:
+            angles = ([f"Dip = {dip:.9g}", f"Dip direction = {direction:.9g}"] if dim == 3 else
+                      [f"Normal = {text((-along[0][1], along[0][0]))}"])
+            joints.append([f"Point = {text(point)}", f"Extent = {extent}"] + angles +
+                          ([f"Radius = {length / 2:.9g}"] if extent == "disc" else []))
+            places.append(point)
+    return joints
+
+
 def scene(kind, n, seed):
     """The text of a scene file."""
     rng = random.Random(f"{kind} {n} {seed}")
-    dim = 2 if kind == "traces" else 3
-    joints = traces(n, rng) if dim == 2 else faces(n, rng, kind == "discs")
+    dim = 2 if kind in ("traces", "lines") else 3
+    excavations = None
+    if kind in ("lines", "faces"):
+        excavations, corners = outlines(dim, rng)
+        joints = awkward_joints(dim, n, rng, corners)
+    else:
+        joints = traces(n, rng) if dim == 2 else faces(n, rng, kind == "discs")
     if dim == 2:
-        corner, size, top = (-40, -40), (80, 80), 40.
-        arch = [(5 * math.cos(a * math.pi / 12), 5 * math.sin(a * math.pi / 12))
-                for a in range(13)]
-        outline = [(-5, -5), (5, -5)] + arch
-        excavation = ["Vertices = " + "; ".join(text(p) for p in outline)]
+        corner, size = CORNERS[2]
+        top = 40.
+        excavation = ["Vertices = " + "; ".join(text(p) for p in horseshoe())]
         mesh = ["Size = 3", "Size at joints = 1", "Grading distance = 20"]
         sides = "left, right"
     else:
-        corner, size, top = (-20, 0, -20), (40, 40, 40), 20.
+        corner, size = CORNERS[3]
+        top = 20.
         excavation = ["Shape = box", "Corner = -3, 5, -3", "Size = 6, 30, 6"]
         mesh = ["Size = 4", "Grading distance = 15"]
         sides = "left, right, front, back"
@@ -114,7 +199,9 @@ def scene(kind, n, seed):
         + group("", "Stages", [("dig", ["Kind = quasi-static", "Unbalanced ratio = 1e-4",
                                         "Ramp unbalance = 5e-3", "Maximum steps = 30000"])])
         + section("Output", ["Write VTU = false", "History interval = 50"])
-        + group("", "Excavations", [("tunnel", excavation + ["Stage = dig"])])
+        + group("", "Excavations", [(f"tunnel {i}", e + ["Stage = dig"]) for i, e in
+                                    enumerate([excavation] if excavations is None
+                                              else excavations)])
         + group("", "Joints", [(f"j{i}", entries + ["Friction angle = 30"])
                                for i, entries in enumerate(joints)]))
 
@@ -141,7 +228,7 @@ def run(program, folder, kind, n, seed, full, arguments, ranks):
         return f"exit {result.returncode}: {last[-1] if last else ''}", 0., cpu, None
     step = next(float(line.split()[3]) for line in result.stdout.splitlines()
                 if "stable time step" in line)
-    dim = 2 if kind == "traces" else 3
+    dim = 2 if kind in ("traces", "lines") else 3
     summary = None
     if full:
         summary = json.loads((folder / name / "summary.json").read_text())

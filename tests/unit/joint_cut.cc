@@ -309,4 +309,154 @@ BOOST_AUTO_TEST_CASE(network_is_meshed_on_all_ranks_alike)
   BOOST_TEST(max_over_ranks(checksum) == min_over_ranks(checksum));
 }
 
+namespace
+{
+  /** What planes make of the cube or square of side 12 m, by points in it. */
+  template <int dim>
+  struct Arrangement
+  {
+    struct Region
+    {
+      double volume = 0., inradius = 0.; ///< [m^dim, m]
+    };
+    using Code = std::vector<signed char>;
+    std::map<Code, Region> regions;
+
+    Arrangement(const std::vector<std::unique_ptr<Joint<dim>>> &planes,
+                const unsigned int n_planes,
+                const unsigned int n_points)
+    {
+      const double spacing        = 12. / n_points;
+      const unsigned int n_layers = dim == 3 ? n_points : 1;
+      for (unsigned int k = 0; k < n_layers; ++k)
+        for (unsigned int j = 0; j < n_points; ++j)
+          for (unsigned int i = 0; i < n_points; ++i)
+            {
+              Point<dim> p;
+              p[0]       = (i + 0.5) * spacing;
+              p[dim - 1] = (k + 0.5) * spacing;
+              p[1]       = (j + 0.5) * spacing;
+              double gap = 12.;
+              for (unsigned int d = 0; d < dim; ++d)
+                gap = std::min({gap, p[d], 12. - p[d]});
+              Code code;
+              for (unsigned int q = 0; q < n_planes; ++q)
+                {
+                  const double distance = planes[q]->distance(p);
+                  code.push_back(distance > 0. ? 1 : -1);
+                  gap = std::min(gap, std::abs(distance));
+                }
+              Region &region = regions[code];
+              region.volume += std::pow(spacing, dim);
+              region.inradius = std::max(region.inradius, gap);
+            }
+    }
+  };
+
+  /** Cut random planes into a mesh: regions of at least a simplex and three
+   * snaps are blocks, and no block of a fifth of a simplex is none. */
+  template <int dim>
+  void
+  check_arrangement(const unsigned int seed, const unsigned int n_planes)
+  {
+    constexpr double size = dim == 2 ? 0.4 : 0.6, snap = 0.2;
+    const double edge    = (dim == 2 ? 2.6 : 3.) * size,
+                 simplex = (dim == 2 ? 0.433 : 0.1179) * std::pow(edge, dim);
+    std::mt19937 bits(seed);
+    const auto random = [&bits](const double low, const double high) {
+      return low + (high - low) * (bits() / 4294967296.);
+    };
+    std::ostringstream names, joints;
+    for (unsigned int j = 0; j < n_planes; ++j)
+      {
+        names << "j" << j << ", ";
+        std::ostringstream place, near, normal;
+        place.precision(12);
+        near.precision(12);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double x = random(2.5, 9.5);
+            place << (d ? ", " : "") << x;
+            near << (d ? ", " : "") << x + 1e-5;
+            normal << (d ? ", " : "") << random(-1., 1.);
+          }
+        joints << " subsection j" << j << "\n  set Point = " << place.str()
+               << "\n  set Normal = " << normal.str() << "\n end\n";
+        if (j == 0) // once more a hair away: now nothing can be exact
+          joints << " subsection near\n  set Point = " << near.str()
+                 << "\n  set Normal = " << normal.str() << "\n end\n";
+      }
+    std::ostringstream mesh_entries;
+    mesh_entries << " set Size = " << size << "\n set Snap = " << snap << "\n";
+    const std::string name =
+      write_scene<dim>("subsection Joints\n set Names = " + names.str() +
+                         "near\n" + joints.str() + "end\n",
+                       mesh_entries.str());
+    Scene<dim> scene;
+    scene.read(name + ".prm", {});
+    const Mesh<dim> mesh     = make_mesh(scene);
+    const Blocks<dim> blocks = find_blocks(mesh, scene);
+    if (is_root())
+      BOOST_REQUIRE(mesh.report.way == "cut");
+    const Arrangement<dim> exact(scene.joints, n_planes, dim == 2 ? 500 : 80);
+
+    using Code      = typename Arrangement<dim>::Code;
+    const auto code = sign_code(mesh, scene);
+    std::vector<std::map<Code, double>> volume(blocks.blocks.size());
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      volume[blocks.block_of_cell[c]]
+            [Code(code[c].begin(), code[c].begin() + n_planes)] +=
+        mesh.cell_volume(c);
+    std::map<Code, unsigned int> n_blocks;
+    for (unsigned int b = 0; b < volume.size(); ++b)
+      {
+        const auto largest = std::max_element(volume[b].begin(),
+                                              volume[b].end(),
+                                              [](const auto &x, const auto &y) {
+                                                return x.second < y.second;
+                                              });
+        // where thin blocks are bent, the side of a face tells more
+        Code known = largest->first;
+        for (const auto &[joint, side] : blocks.blocks[b].joint_side)
+          if (joint < n_planes)
+            known[joint] = side;
+        const bool exists = exact.regions.count(known) > 0;
+        ++n_blocks[known];
+        if (blocks.blocks[b].volume > 0.2 * simplex)
+          BOOST_TEST(exists,
+                     "seed " << seed << ": a block of "
+                             << blocks.blocks[b].volume << " at "
+                             << blocks.blocks[b].centroid << " is none");
+      }
+    unsigned int n_wanted = 0;
+    for (const auto &[region_code, region] : exact.regions)
+      if (region.volume > simplex && 2. * region.inradius > 3. * snap * edge)
+        {
+          ++n_wanted;
+          // two: its ends, where it is too thin in the middle
+          BOOST_TEST(n_blocks[region_code] >= 1,
+                     "seed " << seed << ": no block where a region of "
+                             << region.volume << " with an inradius of "
+                             << region.inradius << " is");
+        }
+    BOOST_TEST(n_wanted > n_planes);
+    BOOST_TEST_MESSAGE("seed " << seed << ": " << n_wanted << " of "
+                               << exact.regions.size()
+                               << " regions are large enough, "
+                               << blocks.blocks.size() << " blocks");
+  }
+} // namespace
+
+BOOST_AUTO_TEST_CASE(random_lines_make_their_blocks)
+{
+  for (unsigned int seed = 1; seed <= 10; ++seed)
+    check_arrangement<2>(seed, 4 + seed);
+}
+
+BOOST_AUTO_TEST_CASE(random_planes_make_their_blocks)
+{
+  for (unsigned int seed = 1; seed <= 5; ++seed)
+    check_arrangement<3>(seed, 2 + seed);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
