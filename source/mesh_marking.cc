@@ -196,6 +196,11 @@ namespace Keyblock
             p = n++;
           return n;
         }
+      const auto key_of = [&mesh](const unsigned int c, const unsigned int f) {
+        auto key = mesh.face_vertices(c, f);
+        std::sort(key.begin(), key.end());
+        return key;
+      };
       std::set<typename Mesh<dim>::FaceVertices> outlines;
       for (const auto &face : mesh.marked_faces)
         if (!mesh.surfaces[face.surface].is_joint())
@@ -204,6 +209,10 @@ namespace Keyblock
             std::sort(key.begin(), key.end());
             outlines.insert(key);
           }
+      // of a face beside smaller cells only its parts are marked
+      for (const auto &h : mesh.hanging_faces)
+        if (outlines.count(key_of(h.fine_cell, h.fine_face)) > 0)
+          outlines.insert(key_of(h.coarse_cell, h.coarse_face));
       std::vector<unsigned int> front;
       for (unsigned int seed = 0; seed < mesh.n_cells(); ++seed)
         {
@@ -216,18 +225,14 @@ namespace Keyblock
               const unsigned int c = front.back();
               front.pop_back();
               for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-                {
-                  auto key = mesh.face_vertices(c, f);
-                  std::sort(key.begin(), key.end());
-                  if (outlines.count(key) == 0)
-                    mesh.for_each_across(c, f, [&](const unsigned int other) {
-                      if (piece[other] == none)
-                        {
-                          piece[other] = n;
-                          front.push_back(other);
-                        }
-                    });
-                }
+                if (outlines.count(key_of(c, f)) == 0)
+                  mesh.for_each_across(c, f, [&](const unsigned int other) {
+                    if (piece[other] == none)
+                      {
+                        piece[other] = n;
+                        front.push_back(other);
+                      }
+                  });
             }
           ++n;
         }

@@ -163,6 +163,7 @@ namespace Keyblock
         surfaces = coarse.surfaces;
         report   = coarse.report;
         marks.assign(1, {});
+        list_of_face.assign(tree.n_raw_faces(), 0);
         std::map<typename Mesh<dim>::FaceVertices,
                  std::vector<const typename Mesh<dim>::MarkedFace *>>
           marked;
@@ -188,7 +189,7 @@ namespace Keyblock
             for (const auto *mark : found->second)
               list.push_back(
                 {mark->surface, !turn_alike<dim>(vertices, mark->vertices)});
-            face->set_user_index(marks.size());
+            list_of_face[face->index()] = marks.size();
             marks.push_back(list);
           }
       }
@@ -197,17 +198,29 @@ namespace Keyblock
       void
       pass_marks_on()
       {
-        if (marks.size() > 1)
-          for (auto face = tree.begin_face(); face != tree.end_face(); ++face)
-            if (face->user_index() > 0 && face->has_children())
-              face->recursively_set_user_index(face->user_index());
+        list_of_face.resize(tree.n_raw_faces(), 0);
+        for (auto face = tree.begin_face(); face != tree.end_face(); ++face)
+          if (list_of_face[face->index()] > 0)
+            pass_on_to_children(face);
+      }
+
+      template <typename Face>
+      void
+      pass_on_to_children(const Face &face)
+      {
+        if (face->has_children())
+          for (unsigned int i = 0; i < face->n_children(); ++i)
+            {
+              list_of_face[face->child_index(i)] = list_of_face[face->index()];
+              pass_on_to_children(face->child(i));
+            }
       }
 
       template <typename Face>
       const std::vector<MarkOfFace> &
       marks_of(const Face &face) const
       {
-        return marks[face->user_index()];
+        return marks[list_of_face[face->index()]];
       }
 
       /** Let new vertices on circular outlines go to the circle. */
@@ -435,7 +448,11 @@ namespace Keyblock
       dealii::Triangulation<dim> tree;
       std::vector<unsigned int> id_of_boundary;
       std::vector<Surface<dim>> surfaces; ///< as the generator knows them
-      std::vector<std::vector<MarkOfFace>> marks; ///< by the faces' user index
+
+      /** Index into marks of each face, by the face's index: refinement clears
+       * the user indices of the faces in 2D. */
+      std::vector<unsigned int> list_of_face;
+      std::vector<std::vector<MarkOfFace>> marks;
       MeshReport<dim> report;
     };
 

@@ -275,6 +275,32 @@ BOOST_AUTO_TEST_CASE(exact_volume_of_a_bent_block)
     }
 }
 
+// Halved cells have the joints and outlines of those they come from.
+BOOST_AUTO_TEST_CASE(refined_cells_keep_joints)
+{
+  const std::string joint =
+    "subsection Joints\n set Names = a\n subsection a\n  set Point = 6, 5.2\n"
+    "  set Normal = 0.3, 1\n end\nend\n";
+  const auto length_on_joint = [&joint](const std::string &mesh_entries) {
+    const std::string name =
+      write_scene<2>(joint, " set Size = 1\n" + mesh_entries);
+    Scene<2> scene;
+    scene.read(name + ".prm", {});
+    const Mesh<2> mesh = make_mesh(scene);
+    BOOST_TEST(find_blocks(mesh, scene).blocks.size() == 2);
+    double length = 0.;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      for (unsigned int f = 0; f < Mesh<2>::n_cell_faces; ++f)
+        if (mesh.joint[c][f] != none)
+          length += 0.5 * mesh.face_area_vector(c, f).norm();
+    return length;
+  };
+  const double exact = 12. * std::sqrt(1. + 0.09);
+  BOOST_TEST(length_on_joint("") == exact, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(length_on_joint(" set Refine at joints = 1, 0.4\n") == exact,
+             boost::test_tools::tolerance(1e-9));
+}
+
 // The mesh is the same on any number of ranks and every time.
 BOOST_AUTO_TEST_CASE(network_is_meshed_on_all_ranks_alike)
 {
