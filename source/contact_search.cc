@@ -16,6 +16,9 @@ namespace Keyblock
     /** Joints with a smaller sine between them count as one. */
     constexpr double least_sine = 1e-2;
 
+    /** Free faces with a larger sine between them make an edge. */
+    constexpr double least_sine_of_edge = 0.34;
+
     /** Shifts of vertices onto their joints that count as the mesh's bend, over
      * the size of a face [-]. */
     constexpr double least_bend = 1e-4, farthest_bend = 2.;
@@ -103,6 +106,19 @@ namespace Keyblock
         double size              = 0.;
         std::vector<Tensor<1, dim>> used;
         std::vector<unsigned int> joints;
+        // free faces stay where they are
+        for (const unsigned int f : faces_of_slot[slot])
+          if (interface.surface[f].joint == none)
+            {
+              const SurfaceFace<dim> &face = interface.surface[f];
+              const Tensor<1, dim> area =
+                mesh.face_area_vector(face.cell, face.face);
+              Tensor<1, dim> n = area / area.norm();
+              for (const auto &other : used)
+                n -= (n * other) * other;
+              if (used.size() < dim && n.norm() > least_sine_of_edge)
+                used.push_back(n / n.norm());
+            }
         for (const unsigned int f : faces_of_slot[slot])
           {
             const SurfaceFace<dim> &face = interface.surface[f];
