@@ -2,7 +2,7 @@
 """Finds safety factors of random blocks whose exact factors are known.
 
 usage: contrib/factors.py [--kinds incline,incline_3d] [--seeds 1-20] [--exact]
-         [--tolerance 0.002] [--keyblock build/keyblock] [--keep FOLDER]
+         [--tolerance 0] [--keyblock build/keyblock] [--keep FOLDER]
          [-- arguments for keyblock]
 
 incline, incline_3d: a block slides on a plane through a square (box) of random
@@ -130,7 +130,7 @@ def main():
     parser.add_argument("--kinds", default=",".join(KINDS))
     parser.add_argument("--seeds", default="1-20")
     parser.add_argument("--exact", action="store_true")
-    parser.add_argument("--tolerance", type=float, default=0.002)
+    parser.add_argument("--tolerance", type=float, default=0.)
     parser.add_argument("--keyblock", default=str(root / "build" / "keyblock"))
     parser.add_argument("--keep", default="")
     options = parser.parse_args(arguments)

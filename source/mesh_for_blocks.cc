@@ -142,7 +142,7 @@ namespace Keyblock
         ++n_made;
       }
     mesh.report.n_passes = n_made;
-    return {mesh, blocks};
+    return {std::move(mesh), std::move(blocks)};
   }
 
   template std::pair<Mesh<2>, Blocks<2>> make_mesh_for_blocks(const Scene<2> &);

@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/block_measures.h>
+#include <keyblock/block_resolution.h>
 #include <keyblock/joint_cut.h>
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
@@ -299,6 +300,71 @@ BOOST_AUTO_TEST_CASE(refined_cells_keep_joints)
   BOOST_TEST(length_on_joint("") == exact, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(length_on_joint(" set Refine at joints = 1, 0.4\n") == exact,
              boost::test_tools::tolerance(1e-9));
+}
+
+// A thin block between two parallel joints gets the cells it is to have across,
+// while the corner of the model keeps its large ones.
+BOOST_AUTO_TEST_CASE(thin_block_gets_cells_across)
+{
+  const std::string joints =
+    "subsection Joints\n set Names = a, b, c, d\n"
+    " subsection a\n  set Point = 6, 6\n  set Normal = 0, 1\n end\n"
+    " subsection b\n  set Point = 6, 7.1\n  set Normal = 0, 1\n end\n"
+    " subsection c\n  set Point = 5, 6\n  set Normal = 1, 0\n end\n"
+    " subsection d\n  set Point = 9, 6\n  set Normal = 1, 0.2\n end\nend\n";
+  const auto cells_across = [&joints](const std::string &entries,
+                                      double &largest_cell) {
+    const std::string name =
+      write_scene<2>(joints,
+                     " set Size = 2\n set Grading distance = 4\n" + entries);
+    Scene<2> scene;
+    scene.read(name + ".prm", {});
+    const auto [mesh, blocks] = make_mesh_for_blocks(scene);
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      largest_cell = std::max(largest_cell, mesh.cell_volume(c));
+    for (const auto &block : blocks.blocks)
+      if (!block.is_infinite && std::abs(block.width - 1.1) < 1e-9 &&
+          block.centroid[0] > 5. && block.centroid[0] < 9.)
+        return block.cells_across();
+    return 0.;
+  };
+  double before = 0., after = 0.;
+  const double few = cells_across("", before);
+  BOOST_TEST(few > 0.);
+  BOOST_TEST(few < 4.);
+  BOOST_TEST(
+    cells_across(" set Cells across blocks = 5\n set Least size = 0.1\n",
+                 after) >= 5.);
+  BOOST_TEST(after > 0.5 * before);
+}
+
+// Where two joints share faces the weaker rules, whichever comes first.
+BOOST_AUTO_TEST_CASE(weaker_joint_rules)
+{
+  for (const unsigned int weak : {0u, 1u})
+    {
+      std::ostringstream joints;
+      joints << "subsection Joints\n set Names = a, b\n";
+      for (const unsigned int j : {0u, 1u})
+        joints << " subsection " << (j ? "b" : "a") << "\n  set Point = 5, "
+               << (j ? 5.00001 : 5.)
+               << "\n  set Normal = 0.2, 1\n  set Friction angle = "
+               << (j == weak ? 20 : 35) << "\n end\n";
+      const std::string name =
+        write_scene<2>(joints.str() + "end\n", " set Size = 1\n");
+      Scene<2> scene;
+      scene.read(name + ".prm", {});
+      const Mesh<2> mesh   = make_mesh(scene);
+      unsigned int n_faces = 0;
+      for (const auto &faces : mesh.joint)
+        for (const unsigned int joint : faces)
+          if (joint != none)
+            {
+              ++n_faces;
+              BOOST_TEST(joint == weak);
+            }
+      BOOST_TEST(n_faces > 10);
+    }
 }
 
 // The mesh is the same on any number of ranks and every time.
