@@ -40,6 +40,8 @@ namespace Keyblock
     action(pair.is_converted);
     action(pair.is_welded);
     action(pair.is_removed);
+    action(pair.has_opened);
+    action(pair.bend_shear);
     action(pair.weld_shear);
     action(pair.weld_tension);
   }

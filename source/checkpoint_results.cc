@@ -20,6 +20,8 @@ namespace Keyblock
     action(trial.factor);
     action(trial.start);
     action(trial.is_stable);
+    action(trial.is_undecided);
+    action(trial.n_broken);
     action(trial.phase);
     action(trial.slip);
     action(trial.velocity);
@@ -38,6 +40,8 @@ namespace Keyblock
     action(factor.outcome);
     action(factor.lower);
     action(factor.upper);
+    action(factor.undecided_lower);
+    action(factor.undecided_upper);
     action(factor.limit_factor);
     action(factor.stress_ratio);
   }
@@ -59,6 +63,9 @@ namespace Keyblock
     action(report.points.sliding);
     action(report.points.sticking);
     action(report.points.intact);
+    action(report.largest_overlap);
+    for (double &coordinate : report.overlap_place)
+      action(coordinate);
     std::array<double, n_energy_terms> energies = report.energies.as_array();
     for (double &energy : energies)
       action(energy);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Contact: set-up and the order of the step.
 #include <keyblock/contact.h>
+#include <keyblock/mpi.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -39,6 +40,7 @@ namespace Keyblock
   {
     for (const auto &joint : scene.joints)
       {
+        has_cohesion.push_back(joint->cohesion_of_sliding() > 0.);
         static_tangent.push_back(tangent_of(joint->friction_angle));
         kinetic_tangent.push_back(
           joint->kinetic_friction_angle < 0.
@@ -56,10 +58,6 @@ namespace Keyblock
         for (int d = 0; d < dim; ++d)
           n[d] = interface.pairs[p].normal[d];
         normal.push_back(n);
-        for (const unsigned int v :
-             {interface.pairs[p].minus, interface.pairs[p].plus})
-          slave_area[{{search.slot_of_vertex[v], interface.pairs[p].joint}}] +=
-            interface.pairs[p].area;
       }
     is_removed_block.assign(blocks.blocks.size(), false);
     measure_slots();
@@ -118,6 +116,56 @@ namespace Keyblock
 
 
   template <int dim>
+  unsigned int
+  Contact<dim>::hold_bent_points(const std::vector<bool> &is_exposed)
+  {
+    // bends are measured to rounding and to what the mesh's cells make of them
+    constexpr double margin = 1.5;
+    const double kick       = present_kick();
+    unsigned int n_held     = 0;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const Pair<dim> &pair = interface.pairs[p];
+        const auto sides      = blocks_of_pair(p);
+        if (is_exposed[sides[0]] || is_exposed[sides[1]] ||
+            state[p].is_welded || state[p].is_removed)
+          continue;
+        const double in_plane = pair.area_vector * pair.normal;
+        const double bend =
+          (pair.area_vector - in_plane * pair.normal).norm() / pair.area;
+        const double pressure = dot<dim>(state[p].impulse, normal[p]) / kick;
+        const double shear =
+          norm<dim>(add<dim>(state[p].impulse, -pressure * kick, normal[p])) /
+          kick;
+        const PointStrength strength =
+          pair_strength(p, state[p].is_intact, kick);
+        const double missing = shear - strength.cohesion / kick -
+                               strength.static_friction * pressure;
+        if (pressure <= 0. || missing <= 0. ||
+            missing > margin * bend * pressure)
+          continue;
+        state[p].bend_shear = 1.001 * missing;
+        n_held += is_primary(group_of_pair[p]);
+      }
+    return sum_over_ranks(n_held);
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::release_bent_points()
+  {
+    for (PairState<dim> &pair : state)
+      {
+        pair.weld_shear += pair.bend_shear;
+        pair.bend_shear = 0.;
+      }
+  }
+
+
+
+  template <int dim>
   bool
   Contact<dim>::is_primary(const unsigned int group) const
   {
@@ -157,14 +205,16 @@ namespace Keyblock
     strength.kinetic_friction =
       share *
       (override_tangent >= 0. ? override_tangent : kinetic_tangent[p.joint]);
-    strength.cohesion = share *
-                        (is_intact ? joint.cohesion : joint.residual_cohesion) *
-                        p.area * kick;
+    if (is_intact || !state[pair].has_opened)
+      strength.cohesion =
+        share * (is_intact ? joint.cohesion : joint.cohesion_of_sliding()) *
+        p.area * kick;
     strength.tension =
       is_intact ? share * joint.tensile_strength * p.area * kick : 0.;
-    strength.cohesion += weld_share * state[pair].weld_shear * kick;
+    strength.cohesion +=
+      (state[pair].bend_shear + weld_share * state[pair].weld_shear) * kick;
     strength.tension += weld_share * state[pair].weld_tension * kick;
-    if (scene.contact.tie_all || state[pair].is_welded)
+    if (scene.contact.tie_all || state[pair].is_welded || is_tied)
       strength.cohesion = strength.tension = 1e100;
     return strength;
   }
@@ -411,6 +461,7 @@ namespace Keyblock
     if (!mobile_slots.empty())
       solve_mobile(step);
     last_kick = step.kick;
+    note_openings();
     scatter_slots();
     if (step.is_large && !mobile_slots.empty())
       correct_penetration();

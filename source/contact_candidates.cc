@@ -173,6 +173,11 @@ namespace Keyblock
           }
         return false;
       });
+    if (std::find(has_cohesion.begin(), has_cohesion.end(), true) !=
+        has_cohesion.end())
+      overlaps = search.list_overlaps(searched_position, has_cohesion);
+    shared_among = {};
+    covered_area.clear();
   }
 
 

@@ -349,7 +349,11 @@ namespace Keyblock
                          pair_strength(p, state[p].is_intact, step.kick)) > 0.)
         return false;
 
-    if (step.local_damping > 0. && is_free)
+    // mobile nodes are damped with all others, before contact, and so is a
+    // cluster that was none in the step before
+    const bool is_damped_here = is_free && !is_mobile_group[g];
+    if (step.local_damping > 0. && is_damped_here &&
+        fields.is_in_cluster[node_of_slot[corner.slots[0]]])
       {
         Vector<dim> old;
         for (int d = 0; d < dim; ++d)
@@ -368,7 +372,7 @@ namespace Keyblock
         for (int d = 0; d < dim; ++d)
           slot_velocity[dim * slot + d] = common[d];
         if (node_of_slot[slot] != none)
-          fields.is_in_cluster[node_of_slot[slot]] = is_free;
+          fields.is_in_cluster[node_of_slot[slot]] = is_damped_here;
       }
     if (step.keeps_ledger && (is_mobile_group[g] ? is_root() : is_primary(g)))
       for (unsigned int p = begin; p < end; ++p)

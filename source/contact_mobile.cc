@@ -49,7 +49,16 @@ namespace Keyblock
                                       const double reach)
   {
     const std::vector<SurfaceContact<dim>> previous = contacts;
-    search.evaluate(slot_position, reach, contacts);
+    double square                                   = 0.;
+    for (const unsigned int slot : mobile_slots)
+      {
+        double way = 0.;
+        for (unsigned int i = dim * slot; i < dim * (slot + 1); ++i)
+          way += (slot_position[i] - searched_position[i]) *
+                 (slot_position[i] - searched_position[i]);
+        square = std::max(square, way);
+      }
+    search.evaluate(slot_position, reach, std::sqrt(square), contacts);
     if (std::find(is_removed_block.begin(), is_removed_block.end(), true) !=
         is_removed_block.end())
       contacts.erase(
@@ -75,7 +84,6 @@ namespace Keyblock
       {
         if (!split.hanging.empty())
           put_masters_into(contact.point);
-        contact.point.strength = surface_strength(contact, step.kick);
         const auto range =
           std::equal_range(by_slave.begin(), by_slave.end(), &contact, before);
         for (auto it = range.first; it != range.second; ++it)
@@ -84,6 +92,9 @@ namespace Keyblock
             contact.point.impulse =
               add<dim>(Vector<dim>{}, scale, (*it)->point.impulse);
       }
+    share_areas();
+    for (SurfaceContact<dim> &contact : contacts)
+      contact.point.strength = surface_strength(contact, step.kick);
   }
 
 
@@ -108,9 +119,10 @@ namespace Keyblock
       tangent = kinetic = override_tangent;
     strength.static_friction  = tangent * share;
     strength.kinetic_friction = kinetic * share;
-    const auto area = slave_area.find({{contact.slave, contact.joint}});
-    if (area != slave_area.end())
-      strength.cohesion = scene.joints[contact.joint]->residual_cohesion *
+    const auto area =
+      covered_area.find({{contact.slave, contact.joint, contact.master_block}});
+    if (area != covered_area.end() && !contact.is_ridge)
+      strength.cohesion = scene.joints[contact.joint]->cohesion_of_sliding() *
                           area->second * kick * share;
     return strength;
   }

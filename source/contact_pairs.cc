@@ -59,7 +59,8 @@ namespace Keyblock
         if (was_sticking && !is_published_variant() &&
             violation<dim>(impulse, normal[single.pair], strength) <= 0.)
           {
-            if (step.local_damping > 0. && wm > 0. && wp > 0.)
+            if (step.local_damping > 0. && wm > 0. && wp > 0. &&
+                fields.is_in_cluster[single.plus])
               {
                 Vector<dim> old;
                 for (int d = 0; d < dim; ++d)

@@ -110,12 +110,12 @@ namespace Keyblock
   template <int dim>
   typename ContactSearch<dim>::Projection
   ContactSearch<dim>::project(const std::vector<double> &position,
-                              const unsigned int slave,
+                              const Vector<dim> &point,
                               const unsigned int face) const
   {
     constexpr unsigned int n = Mesh<dim>::n_face_vertices;
     const auto x             = corners_of(position, face);
-    const Vector<dim> p      = at<dim>(position, slave);
+    const Vector<dim> &p     = point;
 
     Projection result;
     result.face = face;
@@ -249,13 +249,29 @@ namespace Keyblock
   ContactSearch<dim>::add_contacts(
     const std::vector<double> &position,
     const double reach,
+    const double travelled,
     const Candidate &candidate,
     std::vector<SurfaceContact<dim>> &contacts) const
   {
-    std::vector<Projection> paired, inside, outside;
-    for (const unsigned int f : candidate.paired_faces)
+    const Vector<dim> place = at<dim>(position, candidate.slave);
+    std::vector<Projection> near, paired, inside, outside;
+    for (const CandidateFace &face : candidate.faces)
       {
-        const Projection projection = project(position, candidate.slave, f);
+        // both have moved since the search
+        if (face.clearance - 2. * travelled > reach)
+          continue;
+        if constexpr (dim == 3)
+          if (!could_touch(corners_of(position, face.face), place, reach))
+            continue;
+        const Projection projection = project(position, place, face.face);
+        if (projection.gap <= reach && projection.gap >= -face.largest_overlap)
+          near.push_back(projection);
+      }
+    if (near.empty())
+      return;
+    for (const CandidateFace &face : candidate.paired_faces)
+      {
+        const Projection projection = project(position, place, face.face);
         if (norm<dim>(projection.offset) < reach + 1e-5 * projection.size)
           paired.push_back(projection);
       }
@@ -267,19 +283,9 @@ namespace Keyblock
                                   is_convex(position, other, projection);
                          });
     };
-    for (const unsigned int f : candidate.faces)
-      {
-        if constexpr (dim == 3)
-          if (!could_touch(corners_of(position, f),
-                           at<dim>(position, candidate.slave),
-                           reach))
-            continue;
-        const Projection projection = project(position, candidate.slave, f);
-        if (projection.gap > reach || projection.gap < -0.5 * projection.size ||
-            is_covered_by_pair(projection))
-          continue;
+    for (const Projection &projection : near)
+      if (!is_covered_by_pair(projection))
         (projection.is_inside ? inside : outside).push_back(projection);
-      }
     const auto add_contact = [&](const Projection &projection,
                                  const Vector<dim> &normal,
                                  const double gap) {
@@ -357,7 +363,8 @@ namespace Keyblock
     const bool is_off        = distance > 1e-6 * nearest->size && gap > 0.;
     const Vector<dim> normal = is_off ? unit<dim>(nearest->offset) : mean;
     if ((is_off || distance < 0.1 * nearest->size) &&
-        opposes(position, candidate.slave, normal))
+        opposes(position, candidate.slave, normal) &&
+        can_stand_on(position, candidate.slave, normal))
       add_contact(*nearest, normal, is_off ? distance : gap);
   }
 
@@ -367,21 +374,45 @@ namespace Keyblock
   void
   ContactSearch<dim>::evaluate(const std::vector<double> &position,
                                const double reach,
+                               const double travelled,
                                std::vector<SurfaceContact<dim>> &contacts) const
   {
     contacts.clear();
     for (const Candidate &candidate : candidates)
-      add_contacts(position, reach, candidate, contacts);
+      add_contacts(position, reach, travelled, candidate, contacts);
+    drop_mirrored(contacts);
     if constexpr (dim == 3)
       add_ridge_contacts(position, reach, contacts);
   }
 
+  template std::array<Vector<2>, 2>
+  ContactSearch<2>::corners_of(const std::vector<double> &,
+                               const unsigned int) const;
+  template std::array<Vector<3>, 4>
+  ContactSearch<3>::corners_of(const std::vector<double> &,
+                               const unsigned int) const;
+  template ContactSearch<2>::Projection
+  ContactSearch<2>::project(const std::vector<double> &,
+                            const Vector<2> &,
+                            const unsigned int) const;
+  template bool ContactSearch<2>::opposes(const std::vector<double> &,
+                                          const unsigned int,
+                                          const Vector<2> &) const;
+  template ContactSearch<3>::Projection
+  ContactSearch<3>::project(const std::vector<double> &,
+                            const Vector<3> &,
+                            const unsigned int) const;
+  template bool ContactSearch<3>::opposes(const std::vector<double> &,
+                                          const unsigned int,
+                                          const Vector<3> &) const;
   template void
   ContactSearch<2>::evaluate(const std::vector<double> &,
+                             const double,
                              const double,
                              std::vector<SurfaceContact<2>> &) const;
   template void
   ContactSearch<3>::evaluate(const std::vector<double> &,
+                             const double,
                              const double,
                              std::vector<SurfaceContact<3>> &) const;
 } // namespace Keyblock

@@ -22,6 +22,21 @@ namespace Keyblock
     /** Shifts of vertices onto their joints that count as the mesh's bend, over
      * the size of a face [-]. */
     constexpr double least_bend = 1e-4, farthest_bend = 2.;
+
+    /** Overlap over the size of a face beyond which a node is not in contact
+     * with the face, but somewhere behind it [-]. */
+    constexpr double largest_overlap = 0.5;
+
+    /** The same for nodes that lay behind the face from the start, and how far
+     * over the size that has to be; over how far they lay behind it [-]. */
+    constexpr double overlap_from_behind = 0.05, least_behind = 1e-3,
+                     way_out = 0.5;
+
+    /** Sine of what an edge may dip below the plane on which its end stands. */
+    constexpr double dip_of_edges = 0.34;
+
+    /** Share of a face's corner in a point that counts as the corner. */
+    constexpr double share_of_corner = 0.9;
   } // namespace
 
 
@@ -69,21 +84,21 @@ namespace Keyblock
       }
     skin_width = 0.5 * smallest;
     place_slots(mesh, scene);
+    start_position.resize(dim * n_slots());
+    for (unsigned int slot = 0; slot < n_slots(); ++slot)
+      for (int d = 0; d < dim; ++d)
+        start_position[dim * slot + d] = place_of_slot[slot][d];
     if constexpr (dim == 3)
       find_ridges();
 
-    std::vector<double> position(dim * n_slots());
-    for (unsigned int slot = 0; slot < n_slots(); ++slot)
-      for (int d = 0; d < dim; ++d)
-        position[dim * slot + d] = place_of_slot[slot][d];
     for (unsigned int slot = 0; slot < n_slots(); ++slot)
       {
         bool is_edge = false;
         for (const unsigned int f : faces_of_slot[slot])
-          is_edge =
-            is_edge || dot<dim>(face_normal(position, f),
-                                face_normal(position, faces_of_slot[slot][0])) <
-                         cosine_of_sharp;
+          is_edge = is_edge || dot<dim>(face_normal(start_position, f),
+                                        face_normal(start_position,
+                                                    faces_of_slot[slot][0])) <
+                                 cosine_of_sharp;
         is_sharp.push_back(is_edge);
       }
   }
@@ -187,29 +202,141 @@ namespace Keyblock
 
 
   template <int dim>
+  dealii::BoundingBox<dim>
+  ContactSearch<dim>::box_of(const std::vector<double> &position,
+                             const unsigned int face,
+                             const double margin) const
+  {
+    std::pair<dealii::Point<dim>, dealii::Point<dim>> corners;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        double low = std::numeric_limits<double>::max(), high = -low;
+        for (const unsigned int slot : face_slots[face])
+          {
+            low  = std::min(low, position[dim * slot + d]);
+            high = std::max(high, position[dim * slot + d]);
+          }
+        corners.first[d]  = low - margin;
+        corners.second[d] = high + margin;
+      }
+    return dealii::BoundingBox<dim>(corners);
+  }
+
+
+
+  template <int dim>
+  double
+  ContactSearch<dim>::start_distance(const unsigned int slot,
+                                     const unsigned int face) const
+  {
+    Vector<dim> center{};
+    for (const unsigned int corner : face_slots[face])
+      center = add<dim>(center,
+                        1. / face_slots[face].size(),
+                        at<dim>(start_position, corner));
+    return dot<dim>(face_normal(start_position, face),
+                    difference<dim>(at<dim>(start_position, slot), center));
+  }
+
+
+
+  template <int dim>
+  typename ContactSearch<dim>::CandidateFace
+  ContactSearch<dim>::make_candidate(const std::vector<double> &position,
+                                     const unsigned int slave,
+                                     const unsigned int face) const
+  {
+    const Projection now = project(position, at<dim>(position, slave), face);
+    const double before  = -start_distance(slave, face);
+    CandidateFace result{face, largest_overlap * now.size, 0.};
+    if (before > least_behind * now.size)
+      result.largest_overlap =
+        std::min(way_out * before, overlap_from_behind * now.size);
+    const double distance = norm<dim>(now.offset);
+    if (now.gap > 0.)
+      result.clearance = distance;
+    // behind the face for good, or too far beside it
+    if (now.gap < -result.largest_overlap - skin_width ||
+        (!(now.gap < 0. && now.is_inside) &&
+         distance > skin_width + 1e-5 * now.size))
+      result.clearance = -1.;
+    return result;
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactSearch<dim>::can_stand_on(const std::vector<double> &position,
+                                   const unsigned int slot,
+                                   const Vector<dim> &normal) const
+  {
+    const Vector<dim> end = at<dim>(position, slot);
+    for (const unsigned int f : faces_of_slot[slot])
+      for (const unsigned int other : face_slots[f])
+        {
+          const Vector<dim> edge =
+            difference<dim>(at<dim>(position, other), end);
+          if (dot<dim>(edge, normal) < -dip_of_edges * norm<dim>(edge))
+            return false;
+        }
+    return true;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactSearch<dim>::drop_mirrored(
+    std::vector<SurfaceContact<dim>> &contacts) const
+  {
+    // the corner of its face that a contact stands on, or `none`
+    const auto corner_of = [](const SurfaceContact<dim> &contact) {
+      for (int k = 1; k < contact.point.n_nodes; ++k)
+        if (contact.point.weight[k] < -share_of_corner)
+          return contact.point.node[k];
+      return none;
+    };
+    const auto has_slave = [](const SurfaceContact<dim> &contact,
+                              const unsigned int slot) {
+      return contact.slave < slot;
+    };
+    // contacts are in the order of their slaves
+    const auto is_mirror = [&](const SurfaceContact<dim> &contact) {
+      const unsigned int corner = corner_of(contact);
+      if (corner == none ||
+          is_slave_block(block_of_slot[contact.slave], contact.master_block))
+        return false;
+      for (auto other = std::lower_bound(
+             contacts.begin(), contacts.end(), corner, has_slave);
+           other != contacts.end() && other->slave == corner;
+           ++other)
+        if (corner_of(*other) == contact.slave &&
+            dot<dim>(other->point.normal, contact.point.normal) < -0.99)
+          return true;
+      return false;
+    };
+    std::vector<bool> is_dropped;
+    for (const SurfaceContact<dim> &contact : contacts)
+      is_dropped.push_back(is_mirror(contact));
+    unsigned int n_kept = 0;
+    for (unsigned int i = 0; i < contacts.size(); ++i)
+      if (!is_dropped[i])
+        contacts[n_kept++] = contacts[i];
+    contacts.resize(n_kept);
+  }
+
+
+
+  template <int dim>
   void
   ContactSearch<dim>::search(
     const std::vector<double> &position,
     const std::function<bool(unsigned int, unsigned int)> &is_paired)
   {
-    using Box = dealii::BoundingBox<dim>;
-    std::vector<std::pair<Box, unsigned int>> boxes;
+    std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
     for (unsigned int f = 0; f < face_slots.size(); ++f)
-      {
-        std::pair<dealii::Point<dim>, dealii::Point<dim>> corners;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            double low = std::numeric_limits<double>::max(), high = -low;
-            for (const unsigned int slot : face_slots[f])
-              {
-                low  = std::min(low, position[dim * slot + d]);
-                high = std::max(high, position[dim * slot + d]);
-              }
-            corners.first[d]  = low - skin_width;
-            corners.second[d] = high + skin_width;
-          }
-        boxes.emplace_back(Box(corners), f);
-      }
+      boxes.emplace_back(box_of(position, f, skin_width), f);
     const auto tree = dealii::pack_rtree(boxes);
 
     candidates.clear();
@@ -221,6 +348,11 @@ namespace Keyblock
           p[d] = position[dim * slot + d];
         Candidate candidate{slot, {}, {}};
         const unsigned int block = block_of_slot[slot];
+        const auto is_a_slave_on = [&](const unsigned int f) {
+          return is_slave_block(block, interface.surface[f].block) ||
+                 (is_sharp[slot] &&
+                  can_stand_on(position, slot, face_normal(position, f)));
+        };
         for (const auto &hit :
              tree | bgi::adaptors::queried(bgi::intersects(p)))
           {
@@ -232,12 +364,19 @@ namespace Keyblock
               continue;
             if (block == other && interface.surface[f].joint == none)
               continue;
-            if (is_paired(slot, f))
-              candidate.paired_faces.push_back(f);
-            else if (is_slave_block(block, other) || is_sharp[slot])
-              candidate.faces.push_back(f);
+            const bool has_pair = is_paired(slot, f);
+            if (!has_pair && !is_a_slave_on(f))
+              continue;
+            const CandidateFace face = make_candidate(position, slot, f);
+            if (face.clearance >= 0.)
+              (has_pair ? candidate.paired_faces : candidate.faces)
+                .push_back(face);
           }
-        std::sort(candidate.faces.begin(), candidate.faces.end());
+        std::sort(candidate.faces.begin(),
+                  candidate.faces.end(),
+                  [](const CandidateFace &a, const CandidateFace &b) {
+                    return a.face < b.face;
+                  });
         if (!candidate.faces.empty())
           candidates.push_back(candidate);
       }
@@ -259,8 +398,8 @@ namespace Keyblock
         for (const unsigned int f : faces_of_slot[candidate.slave])
           for (const unsigned int slot : face_slots[f])
             is_used[slot] = true;
-        for (const unsigned int f : candidate.faces)
-          for (const unsigned int slot : face_slots[f])
+        for (const CandidateFace &candidate_face : candidate.faces)
+          for (const unsigned int slot : face_slots[candidate_face.face])
             is_used[slot] = true;
       }
     for (const RidgePair &pair : ridge_pairs)

@@ -11,7 +11,7 @@ namespace Keyblock
   std::vector<PairState<dim>>
   Contact<dim>::gather_pair_states() const
   {
-    constexpr unsigned int n = dim + 3;
+    constexpr unsigned int n = dim + 4;
     std::vector<double> packed(n * state.size(), 0.);
     for (unsigned int p = 0; p < state.size(); ++p)
       if (is_primary(group_of_pair[p]))
@@ -21,6 +21,7 @@ namespace Keyblock
           packed[n * p + dim]     = static_cast<int>(state[p].status);
           packed[n * p + dim + 1] = state[p].is_intact;
           packed[n * p + dim + 2] = state[p].is_converted;
+          packed[n * p + dim + 3] = state[p].has_opened;
         }
     sum_lists(packed);
     std::vector<PairState<dim>> result(state.size());
@@ -32,8 +33,10 @@ namespace Keyblock
           static_cast<ContactStatus>(std::lround(packed[n * p + dim]));
         result[p].is_intact    = packed[n * p + dim + 1] > 0.5;
         result[p].is_converted = packed[n * p + dim + 2] > 0.5;
+        result[p].has_opened   = packed[n * p + dim + 3] > 0.5;
         result[p].is_welded    = state[p].is_welded;
         result[p].is_removed   = state[p].is_removed;
+        result[p].bend_shear   = state[p].bend_shear;
         result[p].weld_shear   = state[p].weld_shear;
         result[p].weld_tension = state[p].weld_tension;
       }
@@ -233,6 +236,8 @@ namespace Keyblock
         if (sides[0] == sides[1] || state[p].is_converted ||
             state[p].is_removed || !is_primary(group_of_pair[p]))
           continue;
+        if (sides[0] == block || sides[1] == block)
+          sums[interface.pairs[p].joint].n_intact += state[p].is_intact;
         if (sides[1] == block)
           add(interface.pairs[p].joint,
               state[p].impulse,

@@ -348,7 +348,10 @@ namespace Keyblock
                   const auto found =
                     pairs.find({{before[minus], pair.joint, minus, plus}});
                   if (found != pairs.end())
-                    found->second.area += weight * pair.area;
+                    {
+                      found->second.area += weight * pair.area;
+                      found->second.area_vector += weight * pair.area_vector;
+                    }
                 });
             });
         }
@@ -388,10 +391,11 @@ namespace Keyblock
           const double size =
             std::pow(std::accumulate(areas.begin(), areas.end(), 0.),
                      1. / (dim - 1));
+          const Tensor<1, dim> area_vector =
+            result.mesh.face_area_vector(face.minus_cell, face.minus_face);
+          const Tensor<1, dim> direction = area_vector / area_vector.norm();
           const double in_plane =
-            part_in_plane(result.mesh.face_area_vector(face.minus_cell,
-                                                       face.minus_face),
-                          scene.joints[face.joint]->normal());
+            part_in_plane(area_vector, scene.joints[face.joint]->normal());
           for (unsigned int v = 0; v < minus.size(); ++v)
             for (const unsigned int p : plus)
               if (p != minus[v] && before[p] == before[minus[v]])
@@ -407,6 +411,7 @@ namespace Keyblock
                   if (welded != fans.unwelding_stage.end())
                     pair.unwelding_stage = welded->second;
                   pair.area += in_plane * areas[v];
+                  pair.area_vector += areas[v] * direction;
                   pair.face_size = std::max(pair.face_size, size);
                 }
         }

@@ -36,8 +36,10 @@ namespace Keyblock
                       not_negative);
     prm.add_parameter("Residual cohesion",
                       residual_cohesion,
-                      "Cohesion left after the bond broke [Pa].",
-                      not_negative);
+                      "Cohesion left where the joint has slid [Pa]; -1: as "
+                      "'Cohesion'. Below it the joint is brittle. Where it has "
+                      "opened there is none, nor tensile strength.",
+                      Double(-1.));
     prm.add_parameter("Water pressure",
                       water_pressure,
                       "A formula in x, y (z): pressure of water in the joint, "

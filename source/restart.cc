@@ -180,6 +180,9 @@ namespace Keyblock
     file.exchange("run/has_removed", present.has_removed);
     file.exchange("run/is_reported", present.is_reported);
     file.exchange("run/wants_factors", present.wants_factors);
+    file.exchange("run/slip_begin", present.slips.begin);
+    file.exchange("run/slip_steps", present.slips.steps);
+    file.exchange("run/slips", present.slips.slips);
     file.exchange("run/is_converged", is_converged);
     file.exchange("run/removal_stage", removal_stage);
     StateExchange<dim> state(file, split, *numbering);

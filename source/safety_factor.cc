@@ -19,6 +19,8 @@ namespace Keyblock
           return "falls freely";
         case SafetyFactor::Outcome::immovable:
           return "immovable";
+        case SafetyFactor::Outcome::undecided:
+          return "undecided";
       }
     return "";
   }
@@ -71,11 +73,19 @@ namespace Keyblock
             }
           stable = std::max(stable, factor);
         }
+      else if (trial.is_undecided)
+        {
+          ++n_undecided;
+          undecided_lower =
+            undecided_upper == 0. ? factor : std::min(undecided_lower, factor);
+          undecided_upper = std::max(undecided_upper, factor);
+        }
       else
         {
           unstable       = factor;
           unstable_start = trial.start;
         }
+      forget_undecided_outside();
       return trial.is_stable;
     }
 
@@ -103,20 +113,68 @@ namespace Keyblock
     bool
     is_open(const double factor) const
     {
-      return factor > stable && (unstable == 0. || factor < unstable);
+      return factor > stable && (unstable == 0. || factor < unstable) &&
+             (factor < undecided_lower || factor > undecided_upper);
     }
 
-    /** Whether the bracket is as narrow as asked for. */
+    /** Whether the bracket is as narrow as asked for, but for undecided
+     * factors in it; or does not get narrower. */
     bool
     is_done() const
     {
-      return unstable > 0. &&
-             unstable - stable <= owner.scene.safety.bracket * unstable;
+      if (unstable == 0.)
+        return false;
+      const double width = owner.scene.safety.bracket * unstable;
+      return undecided_upper == 0. ? unstable - stable <= width
+                                   : n_undecided >= most_undecided ||
+                                       (undecided_lower - stable <= width &&
+                                        unstable - undecided_upper <= width);
+    }
+
+    /** Whether so many trials were undecided that more are of no use. */
+    bool
+    is_hopeless() const
+    {
+      return n_undecided >= most_undecided;
+    }
+
+    /** The factor to try next in a closed bracket. */
+    double
+    next() const
+    {
+      const auto middle = [](const double a, const double b) {
+        return b > 2. * a ? std::sqrt(a * b) : 0.5 * (a + b);
+      };
+      if (undecided_upper == 0.)
+        return middle(stable, unstable);
+      return unstable - undecided_upper > undecided_lower - stable
+               ? middle(undecided_upper, unstable)
+               : middle(stable, undecided_lower);
     }
 
     double stable, unstable; ///< 0: none known
 
+    /** Factors without a verdict; 0: none. */
+    double undecided_lower = 0., undecided_upper = 0.;
+
   private:
+    /** Trials without a verdict after which a search ends. */
+    static constexpr unsigned int most_undecided = 6;
+
+    /** What holds or fails decides those below or above it. */
+    void
+    forget_undecided_outside()
+    {
+      if (undecided_upper == 0.)
+        return;
+      undecided_lower = std::max(undecided_lower, stable);
+      if (unstable > 0.)
+        undecided_upper = std::min(undecided_upper, unstable);
+      if (undecided_upper <= stable ||
+          (unstable > 0. && undecided_lower >= unstable))
+        undecided_lower = undecided_upper = 0.;
+    }
+
     /** Factor from which strength changes to @p factor: not through failure. */
     double
     start_of(const double factor) const
@@ -132,8 +190,9 @@ namespace Keyblock
     const Snapshot<dim> before, state;
     std::vector<Trial> &trials;
     std::unique_ptr<Snapshot<dim>> warm; ///< of the highest factor that held
-    double warm_start     = 0.;
-    double unstable_start = 0.; ///< of the trial that failed at `unstable`
+    double warm_start        = 0.;
+    double unstable_start    = 0.; ///< of the trial that failed at `unstable`
+    unsigned int n_undecided = 0;
   };
 
 
@@ -168,8 +227,10 @@ namespace Keyblock
       Search search(*this, block, number, known, result.trials);
       result.outcome =
         scene.safety.method == "sweep" ? sweep(search) : bisect(search, known);
-      result.lower = search.stable;
-      result.upper = search.unstable;
+      result.lower           = search.stable;
+      result.upper           = search.unstable;
+      result.undecided_lower = search.undecided_lower;
+      result.undecided_upper = search.undecided_upper;
       search.finish();
     }
     if (result.outcome != SafetyFactor::Outcome::immovable)
@@ -216,6 +277,8 @@ namespace Keyblock
           return Outcome::immovable;
         if (search.unstable > 0. && search.unstable <= settings.lowest)
           return Outcome::falls_freely;
+        if (search.is_hopeless())
+          return Outcome::undecided;
         if (search.stable == 0.)
           search.holds_at(std::max(settings.lowest, middle / (1. + spread)));
         else
@@ -273,9 +336,7 @@ namespace Keyblock
         if (outcome != SafetyFactor::Outcome::bracketed)
           return outcome;
         while (!search.is_done())
-          search.holds_at(search.unstable > 2. * search.stable
-                            ? std::sqrt(search.stable * search.unstable)
-                            : 0.5 * (search.stable + search.unstable));
+          search.holds_at(search.next());
         spread = settings.bracket;
     } while (!search.confirm());
     return SafetyFactor::Outcome::bracketed;
@@ -294,7 +355,7 @@ namespace Keyblock
         const double factor = first + i * settings.sweep_step;
         if (factor > settings.highest)
           return SafetyFactor::Outcome::immovable;
-        if (!search.holds_at(factor))
+        if (!search.holds_at(factor) && search.unstable > 0.)
           return search.stable > 0. ? SafetyFactor::Outcome::bracketed
                                     : SafetyFactor::Outcome::falls_freely;
       }

@@ -13,21 +13,43 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Slip over the size in the second half of the time so far, at a steady
+     * speed, by which a block has failed [-]. */
+    constexpr double steady_slip = 1e-3;
+  } // namespace
+
+
+
   template <int dim>
   bool
   Simulation<dim>::remove_failed_blocks(const Stage &stage,
-                                        const unsigned int index)
+                                        StageProgress<dim> &progress)
   {
+    const unsigned int index = progress.index;
     if (contact == nullptr || scene.safety.removal_slip == 0.)
       return false;
     std::vector<unsigned int> failed;
+    std::vector<double> slip(blocks.blocks.size(), 0.);
+    const auto can_fail = [&](const unsigned int b) {
+      return !blocks.blocks[b].is_infinite && !conditions->is_removed_block(b);
+    };
     for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
-      if (!blocks.blocks[b].is_infinite && !conditions->is_removed_block(b) &&
-          norm<dim>(contact->mean_slip(b)) >
-            scene.safety.removal_slip * blocks.blocks[b].size)
+      if (can_fail(b))
+        slip[b] = norm<dim>(contact->mean_slip(b));
+    if (conditions->is_ramping())
+      progress.slips.restart(progress.n_done);
+    const bool is_recorded = progress.slips.offer(progress.n_done, slip);
+    for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+      if (can_fail(b) &&
+          (slip[b] > scene.safety.removal_slip * blocks.blocks[b].size ||
+           (is_recorded &&
+            progress.slips.is_steady(b, steady_slip * blocks.blocks[b].size))))
         failed.push_back(b);
     if (failed.empty())
       return false;
+    progress.slips.restart(progress.n_done);
     const unsigned int number = index + 2;
     for (const unsigned int b : failed)
       {
@@ -259,6 +281,9 @@ namespace Keyblock
                 << factor.upper << "]";
     else
       std::cout << to_string(factor.outcome);
+    if (factor.undecided_upper > 0.)
+      std::cout << ", undecided from " << factor.undecided_lower << " to "
+                << factor.undecided_upper;
     if (!factor.failure_mode.empty())
       std::cout << ", " << factor.failure_mode;
     std::cout << "; limit equilibrium " << factor.limit_factor << " ("
@@ -266,6 +291,12 @@ namespace Keyblock
     if (factor.stress_ratio > 0.)
       std::cout << ", stress ratio " << factor.stress_ratio;
     const Block<dim> &block = blocks.blocks[factor.block];
+    unsigned int n_broken   = 0;
+    for (const Trial &trial : factor.trials)
+      if (trial.is_stable && trial.factor == factor.lower)
+        n_broken = trial.n_broken;
+    if (n_broken > 0)
+      std::cout << "; " << n_broken << " bonds broke in the last that held";
     if (is_too_coarse(block, scene))
       std::cout << "; only " << std::setprecision(2) << block.cells_across()
                 << " cells across, not " << scene.meshing.cells_across;
@@ -274,9 +305,9 @@ namespace Keyblock
   }
 
   template bool Simulation<2>::remove_failed_blocks(const Stage &,
-                                                    const unsigned int);
+                                                    StageProgress<2> &);
   template bool Simulation<3>::remove_failed_blocks(const Stage &,
-                                                    const unsigned int);
+                                                    StageProgress<3> &);
   template void Simulation<2>::find_safety_factors(const unsigned int,
                                                    const Snapshot<2> &,
                                                    const Snapshot<2> &);

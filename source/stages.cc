@@ -37,6 +37,18 @@ namespace Keyblock
     /** Static solves that refine each other, at most. */
     constexpr unsigned int maximum_refinements = 4;
 
+    /** Slip over the size of a block since about half of the stage with which
+     * it is on its way, however slow [-]. */
+    constexpr double least_creep = 1e-5;
+
+    std::string
+    short_number(const double value)
+    {
+      std::ostringstream text;
+      text << std::setprecision(2) << value;
+      return text.str();
+    }
+
     /** Number of steps of length @p dt [s] in a stage. */
     unsigned int
     plan_steps(const Stage &stage, const double dt)
@@ -75,9 +87,23 @@ namespace Keyblock
       }
     conditions->release_far_field();
     step->choose_step(1);
-    step->settle_contact();
     if (contact == nullptr)
       return;
+    contact->tie(true);
+    step->settle_contact();
+    contact->tie(false);
+    std::vector<bool> is_exposed;
+    for (const Block<dim> &block : blocks.blocks)
+      is_exposed.push_back(block.class_of_stage[std::min<std::size_t>(
+                             1, block.class_of_stage.size() - 1)] ==
+                           BlockClass::exposed);
+    const unsigned int n_held = contact->hold_bent_points(is_exposed);
+    if (is_root() && n_held > 0)
+      std::cout << "Joints  " << n_held
+                << " points whose faces the mesh has bent are held until rock "
+                   "is excavated or shaken"
+                << std::endl;
+    step->settle_contact();
     const JointSums<dim> points = contact->count_points();
     if (is_root() && points.n_open + points.n_sliding > 0)
       std::cout << "Joints  " << points.n_open + points.n_sliding
@@ -157,6 +183,8 @@ namespace Keyblock
         count_cells();
       }
     step->begin_stage(stage, number);
+    if (contact && (changes || !(stage.is_quasi_static() || stage.is_static())))
+      contact->release_bent_points();
     bool is_ramped = changes;
     for (const auto &support : scene.supports)
       is_ramped = is_ramped || (!support->displacement.empty() && number == 2);
@@ -253,7 +281,7 @@ namespace Keyblock
         // the ledger starts anew when a block is taken away
         progress.has_removed = stage.is_quasi_static() &&
                                i % removal_interval == 0 &&
-                               remove_failed_blocks(stage, index);
+                               remove_failed_blocks(stage, progress);
         if (stage.is_quasi_static() && i % pace_interval == 0 &&
             conditions->is_ramping())
           pace_ramp(stage);
@@ -299,7 +327,7 @@ namespace Keyblock
 
   template <int dim>
   std::string
-  Simulation<dim>::name_what_moves() const
+  Simulation<dim>::name_what_moves(const StageProgress<dim> &progress) const
   {
     // mean displacement and velocity of each block in this stage
     const unsigned int n_blocks = blocks.blocks.size();
@@ -328,6 +356,7 @@ namespace Keyblock
       double way;
       unsigned int id;
       bool is_moving;
+      double speed; ///< of a steady slip [m/s]; 0: not measured
     };
     std::vector<Mover> movers;
     for (unsigned int b = 0; b < n_blocks; ++b)
@@ -343,10 +372,21 @@ namespace Keyblock
           }
         way = std::sqrt(way) / sum[0];
         // a thousandth of its size and still going, or far, and come to rest
-        const bool is_moving =
-          way > 1e-3 * blocks.blocks[b].size && along > 0. && !is_converged;
-        if (is_moving || way > 0.05 * blocks.blocks[b].size)
-          movers.push_back({way, blocks.blocks[b].id, is_moving});
+        const double size    = blocks.blocks[b].size;
+        const bool is_moving = way > 1e-3 * size && along > 0. && !is_converged;
+        // or slowly, but as fast as ever
+        const auto motion =
+          contact == nullptr
+            ? SlipRecord::Motion{0., 0}
+            : progress.slips.motion_since(b,
+                                          progress.n_done,
+                                          norm<dim>(contact->mean_slip(b)));
+        const bool creeps = !is_converged && motion.way > least_creep * size;
+        const double speed =
+          creeps ? motion.way / (motion.n_steps * step->dt) : 0.;
+        if (is_moving || creeps || way > 0.05 * size)
+          movers.push_back(
+            {way, blocks.blocks[b].id, is_moving || creeps, speed});
       }
     // those that went farthest
     std::stable_sort(movers.begin(),
@@ -359,7 +399,10 @@ namespace Keyblock
     for (unsigned int i = 0; i < movers.size() && i < n_named; ++i)
       text << (i == 0 ? "" : "; ") << "block " << movers[i].id
            << (movers[i].is_moving ? " is moving off (" : " moved off (")
-           << std::setprecision(3) << movers[i].way << " m)";
+           << std::setprecision(3) << movers[i].way << " m"
+           << (movers[i].speed > 0.
+                 ? ", " + short_number(movers[i].speed) + " m/s)"
+                 : ")");
     if (movers.size() > n_named)
       text << "; and " << movers.size() - n_named << " more";
     return text.str();
@@ -389,8 +432,13 @@ namespace Keyblock
                                        points.n_sliding,
                                        points.n_sticking,
                                        points.n_intact};
+        const Overlap<dim> overlap  = contact->largest_overlap();
+        result.largest_overlap      = overlap.depth;
+        std::copy(overlap.place.begin(),
+                  overlap.place.end(),
+                  result.overlap_place.begin());
       }
-    result.remark = name_what_moves();
+    result.remark = name_what_moves(present);
     for (unsigned int b = 0; b < removal_stage.size(); ++b)
       if (removal_stage[b] == scene.stage_number(stage.name))
         result.remark +=

@@ -42,27 +42,20 @@ namespace Keyblock
      * mode: what is open then goes back to the first one, which damps [-]. */
     constexpr double watch_periods = 20.;
 
-    // acceleration of slip over that of a free body under the resultant [-]
+    // acceleration of slip over that of the block [-]
     constexpr double least_share = 0.3; ///< what the block slips on moves along
     constexpr double free_share  = 0.8; ///< the block moves by itself
     constexpr double most_share  = 1.25;
 
-    // change of a resultant that moves the block to failure [-]
+    // loss of acceleration of a block on its way to failure [-]
     constexpr double steady_alone = 0.1;  ///< of a block that moves by itself
     constexpr double steady_along = 0.01; ///< of one whose neighbours go along
 
-    /** Windows over which such a resultant must stay. */
+    /** Windows over which such an acceleration must stay. */
     constexpr unsigned int n_steady = 6;
 
     /** Times that a block which neither rests nor speeds up is looked at. */
-    constexpr unsigned int n_rounds = 3;
-
-    /** Whether two numbers above zero are one within @p tolerance [-]. */
-    bool
-    agree(const double x, const double y, const double tolerance)
-    {
-      return std::abs(x - y) < tolerance * std::max(x, y);
-    }
+    constexpr unsigned int n_rounds = 5;
   } // namespace
 
 
@@ -118,11 +111,14 @@ namespace Keyblock
   StrengthTrials<dim>::measure(const unsigned int block) const
   {
     // resultant of everything but damping, loads, and size of contact forces
-    std::vector<double> sums(2 * dim + 1, 0.);
+    std::vector<double> sums(3 * dim + 2, 0.);
     const Fields<dim> &fields = run.fields;
     for (const unsigned int node : nodes_of_block[block])
       for (unsigned int d = 0; d < dim; ++d)
         {
+          sums[2 * dim + 2 + d] +=
+            fields.mass[node] * fields.velocity[dim * node + d];
+          sums[2 * dim + 1] += fields.mass[node] / dim;
           const unsigned int i = dim * node + d;
           sums[d] +=
             fields.load[i] - fields.internal_force[i] + fields.contact_force[i];
@@ -137,10 +133,12 @@ namespace Keyblock
         weight += sums[dim + d] * sums[dim + d];
       }
     Motion motion;
-    motion.slip        = run.contact->mean_slip(block);
-    const double scale = std::max(std::sqrt(weight), 1e-3 * sums[2 * dim]);
-    motion.resultant   = std::sqrt(resultant);
-    motion.unbalanced  = scale > 0. ? motion.resultant / scale : 0.;
+    motion.slip = run.contact->mean_slip(block);
+    motion.load = std::max(std::sqrt(weight), 1e-3 * sums[2 * dim]);
+    motion.unbalanced =
+      motion.load > 0. ? std::sqrt(resultant) / motion.load : 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      motion.velocity[d] = sums[2 * dim + 2 + d] / sums[2 * dim + 1];
     return motion;
   }
 
@@ -206,6 +204,18 @@ namespace Keyblock
     for (const unsigned int node : nodes_of_block[block])
       mass += run.fields.mass[node];
     return sum_over_ranks(mass);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  StrengthTrials<dim>::n_intact(const unsigned int block) const
+  {
+    unsigned int n = 0;
+    for (const JointSums<dim> &sums : run.contact->sum_over_block(block))
+      n += sums.n_intact;
+    return n;
   }
 
 
@@ -337,7 +347,8 @@ namespace Keyblock
     displacement_before       = run.fields.displacement;
     joint_force.assign(scene.joints.size() + 1, 0.);
     Vector<dim> before = at_rest;
-    std::vector<double> velocity(1, 0.), resultant;
+    std::vector<double> velocity(1, 0.);
+    std::vector<Vector<dim>> block_velocity(1);
     for (unsigned int w = 1; w <= n_windows; ++w)
       {
         stop_if_asked();
@@ -356,7 +367,7 @@ namespace Keyblock
         // of the slip along the way so far
         velocity.push_back(slip > 0. ? dot<dim>(moved, way) / (slip * seconds)
                                      : 0.);
-        resultant.push_back(now.resultant);
+        block_velocity.push_back(now.velocity);
         trial.velocity     = velocity[w];
         trial.acceleration = (velocity[w] - velocity[w - 1]) / seconds;
         before             = now.slip;
@@ -368,17 +379,27 @@ namespace Keyblock
                            velocity[w - 2] > 0.;
         if (grows && slip > failure_slip * size)
           return Verdict::fails;
-        // a resultant that stays and moves the block as it would a free body;
-        // one whose neighbours go along may be held by their stiffness later
-        const double share = mass * trial.acceleration / now.resultant;
-        bool is_free       = grows && w >= n_steady &&
-                       !is_as_good_as_at_rest(trial) && share > least_share &&
-                       share < most_share;
-        const double change = share > free_share ? steady_alone : steady_along;
-        for (unsigned int k = 2; is_free && k <= n_steady; ++k)
-          is_free = agree(now.resultant, resultant[w - k], change);
-        if (is_free)
-          return Verdict::fails;
+        if (w > n_steady)
+          {
+            // forces that stay and move the block as they would a free body;
+            // one whose neighbours go along may be held by their stiffness
+            // later
+            const double span = n_steady * seconds;
+            const double early =
+              velocity[w - n_steady / 2] - velocity[w - n_steady];
+            const double late = velocity[w] - velocity[w - n_steady / 2];
+            const double own  = norm<dim>(
+              add<dim>(now.velocity, -1., block_velocity[w - n_steady]));
+            const double share = own > 0. ? (early + late) / own : 0.;
+            const double loss =
+              share > free_share ? steady_alone : steady_along;
+            if (velocity[w - n_steady] >= 0. && early > 0. &&
+                late > (1. - loss) * early && share > least_share &&
+                share < most_share &&
+                mass * own / span >
+                  resolution * scene.safety.bracket * now.load)
+              return Verdict::fails;
+          }
       }
     return Verdict::open;
   }
@@ -435,9 +456,7 @@ namespace Keyblock
         if (verdict != Verdict::open)
           return verdict;
       }
-    return trial.acceleration <= 0. || is_as_good_as_at_rest(trial)
-             ? Verdict::holds
-             : Verdict::fails;
+    return Verdict::open;
   }
 
 
@@ -458,16 +477,20 @@ namespace Keyblock
     run.conditions.scale_density(false);
     const double true_mass = mass_in_use(block);
     // forces on the block are measured at any step
-    const bool keeps_ledger  = run.step.keeps_ledger;
-    const bool skips_resting = run.step.skips_resting;
-    run.step.keeps_ledger    = false;
-    run.step.skips_resting   = false;
-    trial.is_stable = decide(block, number, first, trial) == Verdict::holds;
+    const bool keeps_ledger    = run.step.keeps_ledger;
+    const bool skips_resting   = run.step.skips_resting;
+    run.step.keeps_ledger      = false;
+    run.step.skips_resting     = false;
+    const unsigned int n_bonds = n_intact(block);
+    const Verdict verdict      = decide(block, number, first, trial);
+    trial.is_stable            = verdict == Verdict::holds;
+    trial.is_undecided         = verdict == Verdict::open;
+    trial.n_broken             = n_bonds - std::min(n_bonds, n_intact(block));
     for (; trial.n_steps < scene.safety.trial_steps; ++trial.n_steps)
       run.step.advance(false);
     run.step.keeps_ledger  = keeps_ledger;
     run.step.skips_resting = skips_resting;
-    if (!trial.is_stable)
+    if (verdict == Verdict::fails)
       last_failure = name_failure(block);
     // of the true masses
     const double ratio = mass_in_use(block) / true_mass;

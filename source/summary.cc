@@ -55,6 +55,16 @@ namespace Keyblock
       return list;
     }
 
+    template <int dim>
+    Point<dim>
+    make_point(const std::array<double, 3> &coordinates)
+    {
+      Point<dim> point;
+      for (unsigned int d = 0; d < dim; ++d)
+        point[d] = coordinates[d];
+      return point;
+    }
+
     Tree
     energies_as_tree(const Energies &e)
     {
@@ -95,6 +105,8 @@ namespace Keyblock
           put(tree, "factor", trial.factor);
           put(tree, "start", trial.start);
           put(tree, "stable", trial.is_stable);
+          put(tree, "undecided", trial.is_undecided);
+          put(tree, "broken_bonds", trial.n_broken);
           put(tree, "phase", trial.phase);
           put(tree, "slip", trial.slip);
           put(tree, "velocity", trial.velocity);
@@ -124,6 +136,11 @@ namespace Keyblock
           put(one, "lower", factor.lower);
           put(one, "upper", factor.upper);
           put(one, "value", factor.value());
+          if (factor.undecided_upper > 0.)
+            {
+              put(one, "undecided_lower", factor.undecided_lower);
+              put(one, "undecided_upper", factor.undecided_upper);
+            }
           put(one, "outcome", to_string(factor.outcome));
           put(one, "failure_mode", factor.failure_mode);
           one.add_child("trials", trials_as_tree(factor.trials));
@@ -325,6 +342,10 @@ namespace Keyblock
         put(tree, "open_points", stage.points.open);
         put(tree, "sliding_points", stage.points.sliding);
         put(tree, "sticking_points", stage.points.sticking);
+        put(tree, "largest_overlap", stage.largest_overlap);
+        if (stage.largest_overlap > 0.)
+          tree.add_child("largest_overlap_at",
+                         list_of(make_point<dim>(stage.overlap_place)));
         tree.add_child("energy", energies_as_tree(stage.energies));
         stage_list.push_back({"", tree});
       }

@@ -76,6 +76,25 @@ namespace Keyblock
      */
     void begin_stage(const unsigned int number);
 
+    /**
+     * Hold the points that, in the present state, only the mesh makes slide:
+     * where it has bent a joint's faces, pressure has a part along the joint.
+     * The next step is to be solved with tie(true) before, so that forces are
+     * known. Not where a block is exposed (collective).
+     * @return number of points held
+     */
+    unsigned int hold_bent_points(const std::vector<bool> &is_exposed);
+
+    /** Let those go along the ramp of the stage that begins. */
+    void release_bent_points();
+
+    /** Whether all points stick from now on, whatever their strength. */
+    void
+    tie(const bool ties)
+    {
+      is_tied = ties;
+    }
+
     /** Turn predicted velocities of all local nodes into final ones. */
     void solve(const ContactStep &step);
 
@@ -83,6 +102,13 @@ namespace Keyblock
      * them bears; without any joint over all points, without shear. */
     JointSums<dim>
     sum_over_joints(const std::vector<unsigned int> &joints) const;
+
+    /** The deepest node in another block (collective). */
+    Overlap<dim>
+    largest_overlap() const
+    {
+      return search.find_largest_overlap(gather_positions(), is_removed_block);
+    }
 
     /** Numbers of open, sliding, sticking and intact points over all ranks. */
     JointSums<dim> count_points() const;
@@ -109,6 +135,9 @@ namespace Keyblock
     unsigned int n_mobile     = 0; ///< slots solved on all ranks
 
   private:
+    /** Node, joint and the other side's block of a surface contact. */
+    using Footing = std::array<unsigned int, 3>;
+
     /** A group of one pair of nodes, solved on the fields themselves. */
     struct SinglePair
     {
@@ -159,6 +188,33 @@ namespace Keyblock
     /** Surface contacts nearer than @p reach [m], with their strengths and the
      * impulses of the step before. */
     void find_surface_contacts(const ContactStep &step, const double reach);
+    /** Give the areas where joints' faces lie on each other to the points that
+     * touch there: the sum over a joint is the area of contact, whatever
+     * touches what. */
+    void share_areas();
+
+    /** Give the nodes of a face that are in @p bearing their parts of an area
+     * that it shares with @p block; false if there is none of them. */
+    bool
+    share_overlap(const double area,
+                  const unsigned int face,
+                  const unsigned int block,
+                  const std::array<double, Mesh<dim>::n_face_vertices> &weight,
+                  const std::vector<Footing> &bearing);
+
+    /** Mark the pairs of joints with cohesion whose sides have come apart. */
+    void note_openings();
+
+    /** Whether the pair of @p slot on @p joint has opened. */
+    bool has_opened(const unsigned int slot, const unsigned int joint) const;
+
+    /** Whether a closed unconverted pair of @p slot on @p joint joins it to a
+     * block.
+     */
+    bool has_pair(const unsigned int slot,
+                  const unsigned int joint,
+                  const unsigned int block) const;
+
     PointStrength surface_strength(const SurfaceContact<dim> &contact,
                                    const double kick) const;
 
@@ -241,6 +297,7 @@ namespace Keyblock
     double default_tangent;
     double override_tangent = -1.;
     double weld_share       = 0.; ///< as in ContactStep
+    bool is_tied            = false;
     StrengthReduction reduction;
 
     std::vector<SinglePair> single_pairs;
@@ -252,8 +309,12 @@ namespace Keyblock
     ContactSearch<dim> search;
     std::vector<unsigned int> active_slots; ///< mobile and corner slots here
 
-    /** Area of a slave on a joint, for residual cohesion [m^(dim-1)]. */
-    std::map<std::array<unsigned int, 2>, double> slave_area;
+    std::vector<bool> has_cohesion;         ///< of sliding points, by joint
+    std::vector<FaceOverlap<dim>> overlaps; ///< of such joints, last search
+
+    /** Those within reach, and those that press, sorted. */
+    std::array<std::vector<Footing>, 2> shared_among;
+    std::map<Footing, double> covered_area; ///< [m^(dim-1)]
 
     // dim values per slot
     std::vector<double> slot_velocity, slot_old_velocity, slot_displacement,

@@ -5,6 +5,8 @@
 #include <keyblock/contact_solver.h>
 #include <keyblock/interface.h>
 
+#include <deal.II/base/bounding_box.h>
+
 #include <functional>
 
 namespace Keyblock
@@ -22,6 +24,25 @@ namespace Keyblock
     ContactPoint<dim> point;
   };
 
+  /** Where two faces of one joint lie on each other. */
+  template <int dim>
+  struct FaceOverlap
+  {
+    unsigned int slave_face, master_face; ///< indices into Interface::surface
+    double area;                          ///< [m^(dim-1)]
+
+    /** Shares of the faces' nodes at the overlap's centre. */
+    std::array<double, Mesh<dim>::n_face_vertices> slave_weight, master_weight;
+  };
+
+  /** How deep a node is in a block, beyond how deep it was at the start. */
+  template <int dim>
+  struct Overlap
+  {
+    double depth = 0.; ///< [m]
+    Vector<dim> place{};
+  };
+
   /**
    * Finds which surface node meets which face. All surface nodes of the split
    * mesh are numbered as `slots`, the same on every rank; positions of slots
@@ -34,8 +55,9 @@ namespace Keyblock
    * degrees) that cross: where both closest points are inside the ridges, and
    * their common normal is outside both bodies.
    *
-   * Not found: contact of a block with itself, but for the two sides of a joint
-   * that ends inside it.
+   * A node that lay behind a face from the start is beyond it, through rock,
+   * and not in contact with it before it has come out. Not found: contact of a
+   * block with itself, but for the two sides of a joint that ends inside it.
    */
   template <int dim>
   class ContactSearch
@@ -77,10 +99,31 @@ namespace Keyblock
       return !candidates.empty() || !ridge_pairs.empty();
     }
 
-    /** Contacts nearer than @p reach [m] at the present @p position. */
+    /**
+     * Contacts nearer than @p reach [m] at the present @p position.
+     * @param travelled how far candidate_slots() are from where they were at
+     *   the search, at most [m]; faces too far away for that are not looked at
+     */
     void evaluate(const std::vector<double> &position,
                   const double reach,
+                  const double travelled,
                   std::vector<SurfaceContact<dim>> &contacts) const;
+
+    /** Overlaps of the faces of @p joints (by index), which touch each other at
+     * @p position but for a tenth of their size. */
+    std::vector<FaceOverlap<dim>>
+    list_overlaps(const std::vector<double> &position,
+                  const std::vector<bool> &joints) const;
+
+    /** The deepest of all nodes, found without the list of candidates: a check
+     * of contact. Nodes behind faces from the start are left out as there. */
+    Overlap<dim>
+    find_largest_overlap(const std::vector<double> &position,
+                         const std::vector<bool> &is_removed_block) const;
+
+    /** How far a slot lay in front of a face's plane at the start [m]. */
+    double start_distance(const unsigned int slot,
+                          const unsigned int face) const;
 
     std::vector<unsigned int> vertex_of_slot;
     std::vector<unsigned int> slot_of_vertex;
@@ -99,11 +142,19 @@ namespace Keyblock
                             const unsigned int face) const;
 
   private:
+    /** A face that a slave may meet. */
+    struct CandidateFace
+    {
+      unsigned int face;
+      double largest_overlap; ///< what is deeper is beyond the face [m]
+      double clearance; ///< between them at the search; 0 if behind it [m]
+    };
+
     struct Candidate
     {
       unsigned int slave;
-      std::vector<unsigned int> faces;
-      std::vector<unsigned int>
+      std::vector<CandidateFace> faces;
+      std::vector<CandidateFace>
         paired_faces; ///< a pair contact stands for them
     };
 
@@ -149,13 +200,34 @@ namespace Keyblock
       double size;
     };
 
+    /** The face as a candidate of @p slave; clearance below zero if they cannot
+     * meet before the next search. */
+    CandidateFace make_candidate(const std::vector<double> &position,
+                                 const unsigned int slave,
+                                 const unsigned int face) const;
+
+    /** Whether the block around a slot lies in front of a plane through it with
+     * @p normal, so that the slot can stand on that plane. */
+    bool can_stand_on(const std::vector<double> &position,
+                      const unsigned int slot,
+                      const Vector<dim> &normal) const;
+
+    /** Drop contacts of a master's nodes on a slave's face where the slave has
+     * a node that stands on the master's face. */
+    void drop_mirrored(std::vector<SurfaceContact<dim>> &contacts) const;
+
     std::array<Vector<dim>, Mesh<dim>::n_face_vertices>
     corners_of(const std::vector<double> &position,
                const unsigned int face) const;
 
     Projection project(const std::vector<double> &position,
-                       const unsigned int slave,
+                       const Vector<dim> &point,
                        const unsigned int face) const;
+
+    /** Box around a face, widened by @p margin [m]. */
+    dealii::BoundingBox<dim> box_of(const std::vector<double> &position,
+                                    const unsigned int face,
+                                    const double margin) const;
 
     /** Whether two faces are in one plane, within 5 degrees. */
     static bool is_coplanar(const Projection &a, const Projection &b);
@@ -174,6 +246,7 @@ namespace Keyblock
 
     void add_contacts(const std::vector<double> &position,
                       const double reach,
+                      const double travelled,
                       const Candidate &candidate,
                       std::vector<SurfaceContact<dim>> &contacts) const;
 
@@ -188,7 +261,8 @@ namespace Keyblock
     std::vector<double> block_face_size; ///< mean [m]
     std::vector<double> block_volume;
     std::vector<bool> is_rigid_block;
-    std::vector<bool> is_sharp; ///< slot on an edge or corner
+    std::vector<bool> is_sharp;         ///< slot on an edge or corner
+    std::vector<double> start_position; ///< place_of_slot, dim values each
     std::vector<std::vector<unsigned int>> faces_of_slot;
     std::vector<Candidate> candidates;
     std::vector<Ridge> ridges;

@@ -17,6 +17,10 @@ namespace Keyblock
     bool is_converted    = false; ///< point-to-surface from now on
     bool is_welded       = false; ///< by rock that is dug later
     bool is_removed      = false; ///< with one of its blocks
+    bool has_opened      = false; ///< so that cohesion is gone
+
+    /** Shear that pressure on faces bent by the mesh asks for [N]. */
+    double bend_shear = 0.;
 
     // what a weld bore beyond the joint's strength when it was let go [N]
     double weld_shear   = 0.;

@@ -16,6 +16,10 @@ namespace Keyblock
     double area      = 0.;    ///< sums to the joint's area [m^(dim-1)]
     double face_size = 0.;    ///< of the largest face beside it [m]
 
+    /** Sum of the mesh's nodal areas, as vectors from minus to plus: along the
+     * normal but for faces that the mesh has bent [m^(dim-1)]. */
+    Tensor<1, dim> area_vector;
+
     /** Excavation stage until which undug rock welds it; 0: not welded. */
     unsigned int unwelding_stage = 0;
   };

@@ -13,13 +13,19 @@ namespace Keyblock
     {
       bracketed,
       falls_freely, ///< fails at SafetySettings::lowest
-      immovable     ///< holds at SafetySettings::highest
+      immovable,    ///< holds at SafetySettings::highest
+      undecided     ///< neither holds nor fails wherever it was tried
     };
     unsigned int block = 0; ///< index
     std::string stage;
     Outcome outcome = Outcome::bracketed;
     double lower    = 0.; ///< greatest factor at which it holds
     double upper    = 0.; ///< least factor at which it fails
+
+    /** Factors in the bracket at which it neither came to rest nor failed; 0:
+     * none. */
+    double undecided_lower = 0., undecided_upper = 0.;
+
     std::string failure_mode;
     std::vector<Trial> trials;
 

@@ -95,8 +95,15 @@ namespace Keyblock
     double kinetic_friction_angle = -1.; ///< [deg]; -1: the static one
     double cohesion               = 0.;  ///< [Pa]
     double tensile_strength       = 0.;  ///< [Pa]
-    double residual_cohesion      = 0.;  ///< [Pa]
+    double residual_cohesion      = -1.; ///< [Pa]; -1: as cohesion
     std::string water_pressure;          ///< formula [Pa]; empty: none
+
+    /** Cohesion of a joint that slides [Pa]. */
+    double
+    cohesion_of_sliding() const
+    {
+      return residual_cohesion < 0. ? cohesion : residual_cohesion;
+    }
 
     /** Which of two joints rules where they share faces: that with the lower
      * friction angle, of equal ones that with the lower cohesion. */
@@ -321,7 +328,7 @@ namespace Keyblock
   {
     std::string method              = "exact";
     double default_friction_angle   = 30.;
-    double tolerance                = 1e-10;
+    double tolerance                = 1e-8;
     unsigned int maximum_iterations = 2000;
     double slip_tolerance           = 1e-6;
     bool weld_infinite_blocks       = true;

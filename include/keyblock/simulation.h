@@ -6,6 +6,7 @@
 #include <keyblock/checks.h>
 #include <keyblock/geostress.h>
 #include <keyblock/safety_factor.h>
+#include <keyblock/slip_record.h>
 #include <keyblock/stop_request.h>
 
 namespace Keyblock
@@ -22,6 +23,7 @@ namespace Keyblock
     bool has_removed        = false; ///< a block, in the last step
     bool is_reported        = false; ///< only safety factors are left
     bool wants_factors      = false;
+    SlipRecord slips;     ///< since the ramp has ended
     Snapshot<dim> before; ///< the state it began with, if it wants factors
   };
 
@@ -124,7 +126,7 @@ namespace Keyblock
     void step_through(const Stage &stage, StageProgress<dim> &progress);
     void solve_stage();
     /** Whether any was there to be removed. */
-    bool remove_failed_blocks(const Stage &stage, const unsigned int index);
+    bool remove_failed_blocks(const Stage &stage, StageProgress<dim> &progress);
     /** Blocks whose factor after a stage is wanted and not known. */
     std::vector<unsigned int>
     list_wanted_blocks(const unsigned int index) const;
@@ -183,7 +185,7 @@ namespace Keyblock
     void pace_ramp(const Stage &stage);
     double ramp_duration_of(const Stage &stage) const;
     void report_stage(const Stage &stage, const unsigned int n_steps);
-    std::string name_what_moves() const;
+    std::string name_what_moves(const StageProgress<dim> &progress) const;
     void check_finite();
     void report_progress(const unsigned int stage, const double fraction);
     void finish();

@@ -12,11 +12,13 @@ namespace Keyblock
     double factor          = 0.;
     double start           = 0.; ///< factor of the equilibrium it started from
     bool is_stable         = false;
-    unsigned int phase     = 1;  ///< that decided
-    double slip            = 0.; ///< mean, since the stage [m]
-    double velocity        = 0.; ///< of the slip, last window [m/s]
-    double acceleration    = 0.; ///< fitted to the last windows [m/s2]
+    bool is_undecided      = false; ///< neither at rest nor failing
+    unsigned int phase     = 1;     ///< that decided
+    double slip            = 0.;    ///< mean, since the stage [m]
+    double velocity        = 0.;    ///< of the slip, last window [m/s]
+    double acceleration    = 0.;    ///< fitted to the last windows [m/s2]
     double unbalanced      = 0.; ///< resultant on the block over its weight [-]
+    unsigned int n_broken  = 0;  ///< bonds of the block's joints, in the trial
     unsigned int n_steps   = 0;  ///< of both phases
     double seconds         = 0.; ///< wall time
     double phase_1_seconds = 0.;
@@ -35,7 +37,9 @@ namespace Keyblock
    * 2. From rest, with viscous damping of the highest modes alone, its slip
    *    speeds up, which is unstable, or dies out.
    *
-   * The measures contain no damping force, so that damping cannot hold it.
+   * The measures contain no damping force, so that damping cannot hold it. A
+   * block that does neither after several rounds of both, as one that chatters,
+   * is undecided.
    */
   template <int dim>
   class StrengthTrials
@@ -79,8 +83,9 @@ namespace Keyblock
     struct Motion
     {
       Vector<dim> slip;
-      double resultant  = 0.; ///< of everything but damping [N]
-      double unbalanced = 0.; ///< the same over the loads [-]
+      Vector<dim> velocity{}; ///< of the block's masses, mean [m/s]
+      double unbalanced = 0.; ///< everything but damping over the loads [-]
+      double load       = 0.; ///< these [N]
     };
 
     /** Mean slip of the block, and the forces on it. */
@@ -137,6 +142,10 @@ namespace Keyblock
 
     double kinetic_energy(const unsigned int block) const;
     double mass_in_use(const unsigned int block) const;
+
+    /** Bonds of the block's joints that are intact. */
+    unsigned int n_intact(const unsigned int block) const;
+
     std::string name_failure(const unsigned int block) const;
 
     const Scene<dim> &scene;

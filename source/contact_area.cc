@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Which part of a joint each point of surface contact stands for, and where
+// its cohesion is gone.
+#include <keyblock/contact.h>
+
+#include <algorithm>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Gap over the size of a face beyond which a joint has come apart [-]. */
+    constexpr double least_opening = 1e-3;
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::note_openings()
+  {
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const Pair<dim> &pair = interface.pairs[p];
+        if (!has_cohesion[pair.joint] || state[p].has_opened ||
+            state[p].is_removed || state[p].status == ContactStatus::sticking)
+          continue;
+        const unsigned int minus = numbering.local_node(pair.minus);
+        const unsigned int plus  = numbering.local_node(pair.plus);
+        // mobile nodes are known on all ranks
+        const bool is_mobile = is_mobile_group[group_of_pair[p]];
+        if (!is_mobile && (minus == none || plus == none))
+          continue;
+        const double *at_minus =
+          is_mobile
+            ? &slot_displacement[dim * search.slot_of_vertex[pair.minus]]
+            : &fields.displacement[dim * minus];
+        const double *at_plus =
+          is_mobile ? &slot_displacement[dim * search.slot_of_vertex[pair.plus]]
+                    : &fields.displacement[dim * plus];
+        double gap = 0.;
+        for (int d = 0; d < dim; ++d)
+          gap += normal[p][d] * (at_plus[d] - at_minus[d]);
+        if (gap > least_opening * pair.face_size)
+          {
+            state[p].has_opened = true;
+            shared_among        = {};
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  Contact<dim>::has_opened(const unsigned int slot,
+                           const unsigned int joint) const
+  {
+    const unsigned int g = group_of_slot[slot];
+    if (g == none)
+      return false;
+    const unsigned int v = search.vertex_of_slot[slot];
+    for (unsigned int p = interface.group_pairs_begin[g];
+         p < interface.group_pairs_begin[g + 1];
+         ++p)
+      if (state[p].has_opened && interface.pairs[p].joint == joint &&
+          (interface.pairs[p].minus == v || interface.pairs[p].plus == v))
+        return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  bool
+  Contact<dim>::has_pair(const unsigned int slot,
+                         const unsigned int joint,
+                         const unsigned int block) const
+  {
+    const unsigned int g = group_of_slot[slot];
+    if (g == none)
+      return false;
+    const unsigned int v = search.vertex_of_slot[slot];
+    for (unsigned int p = interface.group_pairs_begin[g];
+         p < interface.group_pairs_begin[g + 1];
+         ++p)
+      {
+        const Pair<dim> &pair = interface.pairs[p];
+        if (pair.joint != joint || state[p].is_converted ||
+            state[p].is_removed || state[p].status == ContactStatus::open ||
+            (pair.minus != v && pair.plus != v))
+          continue;
+        const unsigned int partner = pair.minus == v ? pair.plus : pair.minus;
+        if (search.block_of_slot[search.slot_of_vertex[partner]] == block)
+          return true;
+      }
+    return false;
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::share_areas()
+  {
+    std::vector<Footing> near, pressed;
+    for (const SurfaceContact<dim> &contact : contacts)
+      if (contact.joint != none && has_cohesion[contact.joint] &&
+          !contact.is_ridge)
+        {
+          const Footing footing{
+            {contact.slave, contact.joint, contact.master_block}};
+          near.push_back(footing);
+          if (dot<dim>(contact.point.impulse, contact.point.normal) > 0.)
+            pressed.push_back(footing);
+        }
+    std::sort(near.begin(), near.end());
+    std::sort(pressed.begin(), pressed.end());
+    if (near == shared_among[0] && pressed == shared_among[1])
+      return;
+    shared_among = {{near, pressed}};
+    covered_area.clear();
+    // areas between two blocks on a joint: with points, and without any
+    std::map<Footing, std::array<double, 2>> areas;
+    const auto between =
+      [](const unsigned int joint, const unsigned int a, const unsigned int b) {
+        return Footing{{joint, std::min(a, b), std::max(a, b)}};
+      };
+    for (const FaceOverlap<dim> &overlap : overlaps)
+      {
+        const SurfaceFace<dim> &slave  = interface.surface[overlap.slave_face];
+        const SurfaceFace<dim> &master = interface.surface[overlap.master_face];
+        const auto share_by_slave = [&](const std::vector<Footing> &bearing) {
+          return share_overlap(overlap.area,
+                               overlap.slave_face,
+                               master.block,
+                               overlap.slave_weight,
+                               bearing);
+        };
+        // to nodes that press, else to such as are near
+        const bool is_shared = share_by_slave(pressed) ||
+                               share_by_slave(near) ||
+                               share_overlap(overlap.area,
+                                             overlap.master_face,
+                                             slave.block,
+                                             overlap.master_weight,
+                                             near);
+        areas[between(slave.joint, slave.block, master.block)]
+             [is_shared ? 0 : 1] += overlap.area;
+      }
+    // faces that have lifted a little, but not opened, lean on the others
+    for (auto &[footing, area] : covered_area)
+      {
+        const auto &sums = areas[between(
+          footing[1], search.block_of_slot[footing[0]], footing[2])];
+        area *= 1. + sums[1] / sums[0];
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  Contact<dim>::share_overlap(
+    const double area,
+    const unsigned int face,
+    const unsigned int block,
+    const std::array<double, Mesh<dim>::n_face_vertices> &weight,
+    const std::vector<Footing> &bearing)
+  {
+    const auto &slots        = search.face_slots[face];
+    const unsigned int joint = interface.surface[face].joint;
+    double sum               = 0.;
+    std::array<bool, Mesh<dim>::n_face_vertices> bears, takes;
+    for (unsigned int k = 0; k < slots.size(); ++k)
+      {
+        // what pairs stand for is theirs, and what has opened is nobody's
+        takes[k] = std::binary_search(bearing.begin(),
+                                      bearing.end(),
+                                      Footing{{slots[k], joint, block}}) &&
+                   !has_opened(slots[k], joint);
+        bears[k] = takes[k] || has_opened(slots[k], joint) ||
+                   has_pair(slots[k], joint, block);
+        sum += bears[k] ? weight[k] : 0.;
+      }
+    for (unsigned int k = 0; k < slots.size() && sum > 0.; ++k)
+      if (takes[k])
+        covered_area[{{slots[k], joint, block}}] += area * weight[k] / sum;
+    return sum > 0.;
+  }
+
+  template void Contact<2>::note_openings();
+  template void Contact<3>::note_openings();
+  template bool Contact<2>::has_pair(const unsigned int,
+                                     const unsigned int,
+                                     const unsigned int) const;
+  template bool Contact<3>::has_pair(const unsigned int,
+                                     const unsigned int,
+                                     const unsigned int) const;
+  template void Contact<2>::share_areas();
+  template void Contact<3>::share_areas();
+} // namespace Keyblock
