@@ -310,6 +310,33 @@ namespace Keyblock
     return sum_over_joints({});
   }
 
+
+
+  template <int dim>
+  std::vector<double>
+  Contact<dim>::list_sliding_blocks() const
+  {
+    std::vector<double> is_sliding(is_removed_block.size(), 0.);
+    const auto mark = [&](const unsigned int block) {
+      if (block != none && !is_removed_block[block])
+        is_sliding[block] = 1.;
+    };
+    for (unsigned int p = 0; p < state.size(); ++p)
+      if (state[p].status == ContactStatus::sliding)
+        for (const unsigned int block : blocks_of_pair(p))
+          mark(block);
+    for (const SurfaceContact<dim> &contact : contacts)
+      if (contact.point.status == ContactStatus::sliding)
+        {
+          mark(contact.master_block);
+          mark(search.block_of_slot[contact.slave]);
+        }
+    max_lists(is_sliding);
+    return is_sliding;
+  }
+
+  template std::vector<double> Contact<2>::list_sliding_blocks() const;
+  template std::vector<double> Contact<3>::list_sliding_blocks() const;
   template std::vector<PairState<2>> Contact<2>::gather_pair_states() const;
   template std::vector<PairState<3>> Contact<3>::gather_pair_states() const;
   template JointSums<2>

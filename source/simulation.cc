@@ -73,8 +73,14 @@ namespace Keyblock
     if (scene.contact.method != "none")
       contact = std::make_unique<Contact<dim>>(
         scene, split, blocks, *numbering, cells, fields);
-    step = std::make_unique<ExplicitStep<dim>>(
-      scene, split, *numbering, *conditions, cells, fields, contact.get());
+    step     = std::make_unique<ExplicitStep<dim>>(scene,
+                                               split,
+                                               blocks,
+                                               *numbering,
+                                               *conditions,
+                                               cells,
+                                               fields,
+                                               contact.get());
     monitors = std::make_unique<Monitors<dim>>(
       scene, split, blocks, *numbering, cells, fields, contact.get());
     output = std::make_unique<Output<dim>>(

@@ -26,6 +26,7 @@ namespace Keyblock
   template <int dim>
   ExplicitStep<dim>::ExplicitStep(const Scene<dim> &scene,
                                   const SplitMesh<dim> &split,
+                                  const Blocks<dim> &blocks,
                                   const Numbering<dim> &numbering,
                                   Conditions<dim> &conditions,
                                   CellArrays<dim> &cells,
@@ -41,6 +42,7 @@ namespace Keyblock
     , fields(fields)
     , contact(contact)
     , resting(split, numbering, cells, fields)
+    , deformation_damping(split, blocks, numbering, cells, fields)
   {}
 
 
@@ -86,6 +88,7 @@ namespace Keyblock
     if (contact)
       contact->begin_stage(number);
     resting.forget();
+    deformation_damping.begin_stage();
     n_searches_seen = contact ? contact->n_searches : 0;
   }
 
@@ -111,6 +114,7 @@ namespace Keyblock
     if (contact)
       contact->begin_stage(number);
     resting.forget();
+    deformation_damping.begin_stage();
     n_searches_seen = none; // contact searches in the first step
     dt = scene.time_stepping.safety * conditions.stable_step.limit(stage);
     if (scene.time_stepping.maximum_step > 0. && !stage.is_quasi_static())
@@ -344,6 +348,11 @@ namespace Keyblock
       {
         numbering.add_hanging_to_masters(fields.damping_force);
         numbering.add_ghosts_to_owners(fields.damping_force);
+        if (contact && stage.mass_damping == 0. && stage.local_damping == 0.)
+          deformation_damping.add_force(*contact,
+                                        stage.damping_ratio,
+                                        dt,
+                                        positions());
       }
     is_stress_current = true;
     force_seconds += MPI_Wtime() - start;

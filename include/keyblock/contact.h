@@ -113,6 +113,10 @@ namespace Keyblock
     /** Numbers of open, sliding, sticking and intact points over all ranks. */
     JointSums<dim> count_points() const;
 
+    /** 1 for blocks with a point that slid in the last step, by index of the
+     * block, else 0 (collective). */
+    std::vector<double> list_sliding_blocks() const;
+
     /** Pair states of all ranks, by index of the pair. */
     std::vector<PairState<dim>> gather_pair_states() const;
 

@@ -3,6 +3,7 @@
 #define keyblock_step_h
 
 #include <keyblock/contact.h>
+#include <keyblock/deformation_damping.h>
 #include <keyblock/energies.h>
 #include <keyblock/resting_cells.h>
 #include <keyblock/set_up.h>
@@ -58,6 +59,7 @@ namespace Keyblock
   public:
     ExplicitStep(const Scene<dim> &scene,
                  const SplitMesh<dim> &split,
+                 const Blocks<dim> &blocks,
                  const Numbering<dim> &numbering,
                  Conditions<dim> &conditions,
                  CellArrays<dim> &cells,
@@ -181,6 +183,7 @@ namespace Keyblock
     Fields<dim> &fields;
     Contact<dim> *contact;
     RestingCells<dim> resting;
+    DeformationDamping<dim> deformation_damping;
     unsigned int n_searches_seen = none; ///< of contact
   };
 
