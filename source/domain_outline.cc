@@ -224,6 +224,37 @@ namespace Keyblock
     return false;
   }
 
+  template <int dim>
+  double
+  volume_of(const Domain<dim> &domain)
+  {
+    double volume = 1.;
+    if (domain.shape == "polygon")
+      {
+        volume = 0.;
+        for (unsigned int i = 0; i < domain.polygon.size(); ++i)
+          {
+            const Point<dim> &a = domain.polygon[i],
+                             &b =
+                               domain.polygon[(i + 1) % domain.polygon.size()];
+            volume += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+          }
+        return std::abs(volume);
+      }
+    if (domain.shape == "parallelepiped")
+      {
+        Tensor<2, dim> frame;
+        for (unsigned int d = 0; d < dim; ++d)
+          frame[d] = domain.edges[d];
+        return determinant(frame);
+      }
+    for (const double side : domain.size)
+      volume *= side;
+    return volume;
+  }
+
+  template double volume_of(const Domain<2> &);
+  template double volume_of(const Domain<3> &);
   template class DomainOutline<2>;
   template class DomainOutline<3>;
 } // namespace Keyblock

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <regex>
 #include <sstream>
 
 namespace Keyblock
@@ -25,6 +26,13 @@ namespace Keyblock
                            " component(s) where " +
                            std::to_string(n_components) +
                            " are needed; separate components by ';'."));
+    AssertThrow(!std::regex_search(text, std::regex("\\brand(_seed)?\\s*\\(")),
+                InputError("The formula '" + text + "' of the entry '" + entry +
+                           "' contains rand(), which gives another number each "
+                           "time it is asked and on each rank; write a formula "
+                           "of " +
+                           std::string(dim == 2 ? "x, y" : "x, y, z") +
+                           " and t instead."));
     const std::string variables =
       (dim == 2) ? std::string("x,y,t") : std::string("x,y,z,t");
     // muParser's own complaint would stand beside our sentence

@@ -2,6 +2,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <keyblock/command_line.h>
+#include <keyblock/last_resort.h>
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
 
@@ -29,6 +30,7 @@ main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   dealii::deal_II_exceptions::disable_abort_on_exception();
+  std::set_terminate(Keyblock::end_with_a_sentence);
   int exit_code = 0;
   try
     {
@@ -47,23 +49,28 @@ main(int argc, char *argv[])
   catch (const Keyblock::InputError &error)
     {
       if (Keyblock::is_root())
-        std::cerr << "Error: " << error.message << std::endl;
+        std::cerr << "Error: " << Keyblock::in_one_line(error.message)
+                  << std::endl;
       exit_code = 1;
     }
   catch (const Keyblock::ComputationError &error)
     {
       if (Keyblock::is_root())
-        std::cerr << "Failed: " << error.message << std::endl;
+        std::cerr << "Failed: " << Keyblock::in_one_line(error.message)
+                  << std::endl;
       exit_code = 2;
     }
   catch (const Keyblock::StopRequest &request)
     {
       exit_code = 128 + request.signal;
     }
-  catch (const std::exception &error)
+  catch (...)
     {
-      std::cerr << "Failed: " << error.what() << std::endl;
-      MPI_Abort(Keyblock::world(), 2);
+      std::cerr << "Failed: " << Keyblock::describe_present_exception()
+                << std::endl;
+      if (Keyblock::n_ranks() > 1)
+        MPI_Abort(MPI_COMM_WORLD, 2);
+      exit_code = 2;
     }
   return exit_code;
 }

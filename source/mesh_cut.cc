@@ -8,6 +8,7 @@
 #include <keyblock/mesh_cut.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
@@ -430,6 +431,10 @@ namespace Keyblock
       {
         reason = error.message;
       }
+    catch (const std::bad_alloc &)
+      {
+        reason = "there is not enough memory for it";
+      }
     catch (const std::exception &exception)
       {
         reason = exception.what();
@@ -438,6 +443,15 @@ namespace Keyblock
       {
         reason = message;
       }
+    catch (...)
+      {
+        // OpenCASCADE's exceptions are of no standard type
+        reason = "";
+      }
+    // one sentence, whatever a file makes others quote
+    for (char &letter : reason)
+      if (std::iscntrl(static_cast<unsigned char>(letter)))
+        letter = ' ';
     return reason.empty() ? "unknown reason" : reason;
   }
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A mesh from a file: .msh read by Gmsh; .inp, .vtk and .ucd read here.
-#include <gmsh.h>
 #include <keyblock/errors.h>
+#include <keyblock/gmsh_file.h>
 #include <keyblock/mesh_cut.h>
+#include <keyblock/size_limit.h>
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <locale>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -21,6 +25,16 @@ namespace Keyblock
      * for round-off [-]. */
     constexpr double flatness = 1e-8;
 
+    /** More than any model is wide [m]; squares and products stay finite. */
+    constexpr double largest_coordinate = 1e9;
+
+    /** Nodes of an element, at most: those of a hexahedron of second order. */
+    constexpr unsigned int most_corners = 27;
+
+    /** Elements that one line of a file may name; more would not fit into
+     * 32-bit numbers of corners. */
+    constexpr unsigned long most_members = 1ul << 28;
+
     /** The next number or word. Throws std::runtime_error at the end. */
     template <typename Value>
     Value
@@ -29,6 +43,49 @@ namespace Keyblock
       Value value;
       if (!(in >> value))
         throw std::runtime_error("no " + what + " where one is expected");
+      return value;
+    }
+
+    /** The same for how many items follow, each of at least a digit and a
+     * blank: more than the rest of the file can hold is not allocated. */
+    unsigned int
+    next_count(std::istream &in, const std::string &what)
+    {
+      const auto count        = next<unsigned long long>(in, what);
+      unsigned long long rest = 0;
+      if (in.good())
+        {
+          const auto here = in.tellg();
+          in.seekg(0, std::ios::end);
+          rest = in.tellg() - here;
+          in.seekg(here);
+        }
+      if (count > rest / 2 + 1 || count >= none)
+        throw std::runtime_error("a " + what + " of " + std::to_string(count) +
+                                 ", more than the file has room for");
+      return count;
+    }
+
+    /** A word as a number. Throws std::runtime_error if it is none. */
+    unsigned long
+    whole_number(const std::string &word)
+    {
+      unsigned long value = 0;
+      const auto [end, error] =
+        std::from_chars(word.data(), word.data() + word.size(), value);
+      if (error != std::errc() || end != word.data() + word.size())
+        throw std::runtime_error("'" + word + "' where a number is expected");
+      return value;
+    }
+
+    double
+    real_number(const std::string &word)
+    {
+      std::istringstream in(word);
+      in.imbue(std::locale::classic());
+      double value;
+      if (!(in >> value) || in.peek() != std::istringstream::traits_type::eof())
+        throw std::runtime_error("'" + word + "' where a number is expected");
       return value;
     }
 
@@ -95,8 +152,8 @@ namespace Keyblock
                                                    {"hex", {3, 8}}};
       while ((in >> std::ws).peek() == '#')
         in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-      const unsigned int n_vertices = next<unsigned int>(in, "vertex count");
-      const unsigned int n_elements = next<unsigned int>(in, "element count");
+      const unsigned int n_vertices = next_count(in, "vertex count");
+      const unsigned int n_elements = next_count(in, "element count");
       for (unsigned int i = 0; i < 3; ++i)
         next<int>(in, "data count");
 
@@ -137,8 +194,8 @@ namespace Keyblock
     std::vector<std::vector<unsigned int>>
     read_vtk_connectivity(std::istream &in)
     {
-      unsigned int n_elements      = next<unsigned int>(in, "element count");
-      const unsigned int n_numbers = next<unsigned int>(in, "list length");
+      unsigned int n_elements      = next_count(in, "element count");
+      const unsigned int n_numbers = next_count(in, "list length");
       std::vector<std::vector<unsigned int>> elements;
       in >> std::ws;
       if (in.peek() != 'O')
@@ -146,7 +203,11 @@ namespace Keyblock
           elements.resize(n_elements);
           for (auto &element : elements)
             {
-              element.resize(next<unsigned int>(in, "corner count"));
+              const auto n = next<unsigned int>(in, "corner count");
+              if (n > most_corners)
+                throw std::runtime_error("a cell of " + std::to_string(n) +
+                                         " corners");
+              element.resize(n);
               for (unsigned int &vertex : element)
                 vertex = next<unsigned int>(in, "vertex");
             }
@@ -162,6 +223,9 @@ namespace Keyblock
       for (unsigned int e = 0; e + 1 < n_elements; ++e)
         {
           elements.emplace_back();
+          if (offsets[e + 1] - offsets[e] > most_corners)
+            throw std::runtime_error("offsets that do not rise by the number "
+                                     "of corners of a cell");
           for (unsigned int i = offsets[e]; i < offsets[e + 1]; ++i)
             elements.back().push_back(next<unsigned int>(in, "vertex"));
         }
@@ -197,7 +261,7 @@ namespace Keyblock
             for (unsigned int i = 0; i < 3; ++i)
               next<std::string>(in, "array header");
           for (unsigned int &id : ids)
-            id = std::max(0., next<double>(in, "material number"));
+            id = std::clamp(next<double>(in, "material number"), 0., 4e9);
           break;
         }
       return ids;
@@ -223,7 +287,7 @@ namespace Keyblock
       while (in >> word && word != "CELL_TYPES")
         if (word == "POINTS")
           {
-            mixed.vertices.resize(next<unsigned int>(in, "point count"));
+            mixed.vertices.resize(next_count(in, "point count"));
             next<std::string>(in, "type of coordinates");
             for (Point<3> &vertex : mixed.vertices)
               for (unsigned int d = 0; d < 3; ++d)
@@ -284,7 +348,7 @@ namespace Keyblock
     number_of_set(const std::string &name)
     {
       const auto digits = name.find_last_not_of("0123456789") + 1;
-      return digits == name.size() ? 0 : std::stoul(name.substr(digits));
+      return digits == name.size() ? 0 : whole_number(name.substr(digits));
     }
 
     /** Dimension of an element type: C3D8 is a solid, T3D2 and B21 are lines,
@@ -319,13 +383,17 @@ namespace Keyblock
       std::vector<unsigned long> numbers;
       for (const std::string &word : words)
         if (word.find_first_not_of("0123456789") == std::string::npos)
-          numbers.push_back(std::stoul(word));
+          numbers.push_back(whole_number(word));
       if (is_generated && numbers.size() >= 2)
         {
           const unsigned long last = numbers[1];
           const unsigned long step =
             numbers.size() > 2 ? std::max(numbers[2], 1ul) : 1ul;
           numbers.resize(1);
+          if (numbers[0] <= last && (last - numbers[0]) / step > most_members)
+            throw std::runtime_error("a set of more than " +
+                                     std::to_string(most_members) +
+                                     " elements");
           while (numbers.back() + step <= last)
             numbers.push_back(numbers.back() + step);
         }
@@ -363,10 +431,10 @@ namespace Keyblock
           if (keyword[0] == "*NODE")
             {
               words.resize(4, "0");
-              vertex_of_node[std::stoul(words[0])] = mixed.vertices.size();
-              mixed.vertices.emplace_back(std::stod(words[1]),
-                                          std::stod(words[2]),
-                                          std::stod(words[3]));
+              vertex_of_node[whole_number(words[0])] = mixed.vertices.size();
+              mixed.vertices.emplace_back(real_number(words[1]),
+                                          real_number(words[2]),
+                                          real_number(words[3]));
             }
           else if (keyword[0] == "*ELEMENT")
             {
@@ -378,11 +446,22 @@ namespace Keyblock
                 abaqus_dimension(abaqus_parameter(keyword, "TYPE"));
               const unsigned int n =
                 n_abaqus_corners(dimension, words.size() - 1);
-              AbaqusElement &record = elements[std::stoul(words[0])];
+              AbaqusElement &record = elements[whole_number(words[0])];
               record                = {dimension, {{}, id}};
+              if (words.size() <= n)
+                throw std::runtime_error("element " + words[0] + " has " +
+                                         std::to_string(words.size() - 1) +
+                                         " nodes where its type has " +
+                                         std::to_string(n));
               for (unsigned int i = 1; i <= n; ++i)
-                record.element.vertices.push_back(
-                  vertex_of_node.at(std::stoul(words.at(i))));
+                {
+                  const auto node = vertex_of_node.find(whole_number(words[i]));
+                  if (node == vertex_of_node.end())
+                    throw std::runtime_error("element " + words[0] +
+                                             " names the node " + words[i] +
+                                             ", which is not there");
+                  record.element.vertices.push_back(node->second);
+                }
             }
           else if (keyword[0] == "*ELSET" && id != 0)
             for (const unsigned long number :
@@ -406,9 +485,7 @@ namespace Keyblock
           // Gmsh would take anything else for a script and execute it
           if ((in >> std::ws).peek() != '$')
             throw std::runtime_error("it does not begin with '$'");
-          const GmshSession session;
-          gmsh::open(path);
-          return read_gmsh_model<dim>();
+          return read_gmsh_file<dim>(path);
         }
       MixedMesh mixed = extension == ".vtk"   ? read_vtk(in, dim)
                         : extension == ".inp" ? read_abaqus(in, dim)
@@ -434,6 +511,34 @@ namespace Keyblock
            << "x-y plane, or set 'Dimension' to 3.";
       AssertThrow(high[2] - low[2] <= flatness * low.distance(high),
                   InputError(text.str()));
+    }
+
+    void
+    check_coordinates(const MixedMesh &mixed, const std::string &origin)
+    {
+      for (const Point<3> &vertex : mixed.vertices)
+        for (unsigned int d = 0; d < 3; ++d)
+          AssertThrow(std::abs(vertex[d]) <= largest_coordinate,
+                      InputError(origin + " has a vertex at (" +
+                                 std::to_string(vertex[0]) + ", " +
+                                 std::to_string(vertex[1]) + ", " +
+                                 std::to_string(vertex[2]) +
+                                 ") m; coordinates must be numbers of at most "
+                                 "1e9 m, correct it."));
+    }
+
+    /** How many cells cut_mesh() makes at most. */
+    double
+    n_pieces(const MixedMesh &mixed, const unsigned int dim)
+    {
+      double n     = 0.;
+      bool is_pure = true;
+      for (const MixedMesh::Element &cell : mixed.cells)
+        {
+          n += cell.vertices.size();
+          is_pure = is_pure && cell.vertices.size() == (1u << dim);
+        }
+      return is_pure ? mixed.cells.size() : n;
     }
 
     /** The path as seen from the scene file if it exists, else as given. */
@@ -480,8 +585,13 @@ namespace Keyblock
                            std::to_string(dim) +
                            "; check the entry 'Dimension' and whether the "
                            "cells were written to the file."));
+    check_coordinates(mixed, origin);
     if (dim == 2)
       check_flat(mixed, origin);
+    require_size<dim>(n_pieces(mixed, dim),
+                      scene.joints.size(),
+                      "the mesh file '" + scene.domain.file + "'",
+                      [](double) { return "mesh with larger cells"; });
     return cut_mesh<dim>(mixed,
                          origin,
                          "repair it in the program that made the mesh");

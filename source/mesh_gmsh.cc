@@ -2,6 +2,7 @@
 // A mesh that follows joints and excavations, made by Gmsh in this process,
 // exactly or with the joints cut into it.
 #include <gmsh.h>
+#include <keyblock/domain_outline.h>
 #include <keyblock/errors.h>
 #include <keyblock/excavation_region.h>
 #include <keyblock/gmsh_model.h>
@@ -10,10 +11,12 @@
 #include <keyblock/mesh_cut.h>
 #include <keyblock/mesh_improvement.h>
 #include <keyblock/mesh_size.h>
+#include <keyblock/size_limit.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -60,15 +63,15 @@ namespace Keyblock
     /** Cells of exact meshes below this quality are mended. */
     constexpr double wanted_quality = 0.35;
 
-    /** Mesh curves and surfaces of the current model; returns Gmsh's first
-     * error, empty if there was none. Gmsh must not throw meanwhile: an
+    /** Mesh the current model up to entities of @p dimension; returns Gmsh's
+     * first error, empty if there was none. Gmsh must not throw meanwhile: an
      * exception in one of its threads ends the program. */
     std::string
-    mesh_surfaces()
+    mesh_entities(const int dimension)
     {
       gmsh::option::setNumber("General.AbortOnError", 0.);
       gmsh::logger::start();
-      gmsh::model::mesh::generate(2);
+      gmsh::model::mesh::generate(dimension);
       std::vector<std::string> log;
       gmsh::logger::get(log);
       gmsh::logger::stop();
@@ -78,6 +81,12 @@ namespace Keyblock
         if (line.compare(0, mark.size(), mark) == 0)
           return line.substr(mark.size());
       return "";
+    }
+
+    std::string
+    mesh_surfaces()
+    {
+      return mesh_entities(2);
     }
 
     /** Mesh the current model with quadrilaterals, or, if triangles cannot be
@@ -437,7 +446,7 @@ namespace Keyblock
                << " of the thickness wanted";
           throw std::runtime_error(text.str());
         }
-      gmsh::model::mesh::generate(3);
+      require_meshed(mesh_entities(3));
     }
 
     /** Joints and excavations as they are. In 3D bad cells are mended.
@@ -544,10 +553,9 @@ namespace Keyblock
             on_face[key].push_back(face.id);
           }
       std::map<std::pair<unsigned int, unsigned int>, double> shared;
+      std::vector<double> area_of(scene.joints.size(), 0.);
       for (auto &[vertices, surfaces] : on_face)
         {
-          if (surfaces.size() < 2)
-            continue;
           const auto joint_of = [&marked](const unsigned int s) {
             return marked.surfaces[s].joint;
           };
@@ -562,6 +570,10 @@ namespace Keyblock
           const double area = dim == 2
                                 ? a.distance(b)
                                 : 0.5 * cross_product_3d(b - a, c - a).norm();
+          for (const unsigned int s : surfaces)
+            area_of[joint_of(s)] += area;
+          if (surfaces.size() < 2)
+            continue;
           Tensor<1, dim> sum;
           for (const unsigned int v : vertices)
             sum += in_model<dim>(marked.mixed.vertices[v]);
@@ -584,7 +596,47 @@ namespace Keyblock
           report.lost_rock.push_back({center, high - low});
         }
       for (const auto &[pair, area] : shared)
-        report.merged.push_back({pair.first, pair.second, area});
+        report.merged.push_back({pair.first,
+                                 pair.second,
+                                 area,
+                                 area > (1. - 1e-9) * area_of[pair.second]});
+    }
+
+    /** Refuse a mesh that does not fit into memory before it is made. */
+    template <int dim>
+    void
+    require_estimated_size(const Scene<dim> &scene,
+                           const std::vector<SizeDemand<dim>> &demands)
+    {
+      const DomainOutline<dim> outline(scene.domain);
+      const Tensor<1, dim> sides = outline.upper - outline.lower;
+      double longest = 0., volume_of_box = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          longest = std::max(longest, sides[d]);
+          volume_of_box *= sides[d];
+        }
+      const MeshSize<dim> size(scene, longest, demands);
+      const double part = volume_of(scene.domain) / volume_of_box;
+      // more cannot be: mostly it is seen at once that all is well
+      double n = part * volume_of_box / std::pow(size.smallest(), double(dim));
+      if (needed_memory<dim>(n, scene.joints.size()) < 0.5 * usable_memory())
+        return;
+      n = part * estimate_cells(size,
+                                outline.lower,
+                                outline.upper,
+                                std::numeric_limits<double>::max());
+      require_size<dim>(n,
+                        scene.joints.size(),
+                        "'Mesh/Size' and the sizes at excavations and joints",
+                        [](const double times) {
+                          std::ostringstream text;
+                          text << std::setprecision(2)
+                               << "make the sizes of the section 'Mesh' "
+                               << std::pow(times, 1. / dim)
+                               << " times as large, or the domain smaller";
+                          return text.str();
+                        });
     }
 
     template <int dim>
@@ -609,6 +661,7 @@ namespace Keyblock
   make_gmsh_mesh(const Scene<dim> &scene,
                  const std::vector<SizeDemand<dim>> &demands)
   {
+    require_estimated_size(scene, demands);
     const double snap = scene.meshing.snap;
     std::ostringstream remedy;
     remedy << "change 'Mesh/Size' (" << scene.meshing.size

@@ -8,6 +8,7 @@
 #include <keyblock/errors.h>
 #include <keyblock/excavation_region.h>
 #include <keyblock/expression.h>
+#include <keyblock/joint_extent.h>
 #include <keyblock/mpi.h>
 
 #include <algorithm>
@@ -318,6 +319,50 @@ namespace Keyblock
 
 
 
+    /** Whether a cell is there, as rock that can deform, from a stage on. */
+    template <int dim>
+    bool
+    is_deformable(const Mesh<dim> &mesh,
+                  const Scene<dim> &scene,
+                  const unsigned int cell,
+                  const unsigned int number)
+    {
+      const unsigned int dug = mesh.excavation_stage[cell];
+      if (dug == 0 || dug > number)
+        return !scene.materials[mesh.material[cell]]->is_rigid();
+      const std::string &filled =
+        scene.excavations[mesh.excavation[cell]]->backfill_stage;
+      return !filled.empty() && scene.stage_number(filled) <= number;
+    }
+
+
+
+    /** Something has to be left at all times, if there was something. */
+    template <int dim>
+    void
+    check_rock_is_left(const Mesh<dim> &mesh, const Scene<dim> &scene)
+    {
+      const auto is_any_left = [&](const unsigned int number) {
+        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+          if (is_deformable(mesh, scene, c, number))
+            return true;
+        return false;
+      };
+      if (scene.excavations.empty() || !is_any_left(0))
+        return;
+      for (unsigned int number = 1; number < scene.stages.size() + 2; ++number)
+        AssertThrow(is_any_left(number),
+                    InputError(
+                      "The excavations take away every cell that can deform " +
+                      (number == 1 ? "before the first stage"
+                                   : "by the stage '" +
+                                       scene.stages[number - 2]->name + "'") +
+                      ", so that there is nothing to compute; check the "
+                      "section 'Excavations' against 'Domain'."));
+    }
+
+
+
     /** Mean of the points where the joint's plane cuts the edges of a cell. */
     template <int dim>
     Point<dim>
@@ -386,13 +431,59 @@ namespace Keyblock
 
 
 
+    /** A joint without a face is left out if it is outside the mesh, and
+     * refused if it is not. */
+    template <int dim>
+    void
+    skip_joint(Mesh<dim> &mesh,
+               const Scene<dim> &scene,
+               const unsigned int index)
+    {
+      const Joint<dim> &joint = *scene.joints[index];
+      const JointExtent<dim> extent(joint);
+      std::vector<Point<dim>> places;
+      if (!extent.is_infinite())
+        places = extent.outermost_points();
+      bool is_inside = false;
+      for (unsigned int c = 0; c < mesh.n_cells() && !is_inside; ++c)
+        {
+          const Point<dim> center = mesh.cell_center(c);
+          for (const Point<dim> &place : places)
+            {
+              bool is_near = true;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  double reach = 0.;
+                  for (const unsigned int v : mesh.cells[c])
+                    reach = std::max(reach,
+                                     std::abs(mesh.vertices[v][d] - center[d]));
+                  is_near = is_near && std::abs(place[d] - center[d]) < reach;
+                }
+              is_inside = is_inside || is_near;
+            }
+        }
+      AssertThrow(!is_inside,
+                  InputError("The joint '" + joint.name +
+                             "' lies between the faces of the cells, so that "
+                             "none is on it; set 'Mesh/Generator' to gmsh, or "
+                             "move it to cell faces ('Joints/" +
+                             joint.name + "/Point', 'Dip' and 'Extent')."));
+      mesh.report.outside.push_back(index);
+    }
+
+
+
+    /** Mark the faces on a joint, of several joints for the one that rules, and
+     * add up its area. */
     template <int dim>
     void
     mark_joint(Mesh<dim> &mesh,
-               const Joint<dim> &joint,
+               const Scene<dim> &scene,
                const unsigned int index,
-               const double tolerance)
+               std::vector<double> &area_of)
     {
+      const Joint<dim> &joint     = *scene.joints[index];
+      const double tolerance      = scene.meshing.joint_tolerance;
       const Tensor<1, dim> normal = joint.normal();
       const Point<dim> origin =
         joint.extent == "polygon" ? joint.vertices[0] : joint.point;
@@ -400,7 +491,7 @@ namespace Keyblock
       for (unsigned int v = 0; v < distance.size(); ++v)
         distance[v] = normal * (mesh.vertices[v] - origin);
 
-      unsigned int n_faces = 0;
+      std::map<std::pair<unsigned int, unsigned int>, double> shared;
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
         {
           const double size = std::pow(mesh.cell_volume(c), 1. / dim);
@@ -426,22 +517,69 @@ namespace Keyblock
               for (const unsigned int v : mesh.face_vertices(c, f))
                 is_on_plane =
                   is_on_plane && std::abs(distance[v]) <= tolerance * size;
-              if (is_on_plane && mesh.joint[c][f] == none &&
-                  joint.is_within_extent(mesh.face_center(c, f), 0.))
-                {
-                  mesh.joint[c][f] = index;
-                  mesh.side[c][f] =
-                    joint.distance(mesh.cell_center(c)) > 0. ? 1 : -1;
-                  ++n_faces;
-                }
+              if (!is_on_plane ||
+                  !joint.is_within_extent(mesh.face_center(c, f), 0.))
+                continue;
+              // of inner faces each cell sees one half
+              const double here = mesh.face_area_vector(c, f).norm() *
+                                  (mesh.neighbor[c][f] == none ? 1. : 0.5);
+              area_of[index] += here;
+              const unsigned int before = mesh.joint[c][f];
+              const bool is_ruling =
+                before == none || rules(scene, index, before);
+              if (before != none)
+                shared[is_ruling ? std::make_pair(index, before)
+                                 : std::make_pair(before, index)] += here;
+              if (!is_ruling)
+                continue;
+              mesh.joint[c][f] = index;
+              mesh.side[c][f] =
+                joint.distance(mesh.cell_center(c)) > 0. ? 1 : -1;
             }
         }
-      AssertThrow(n_faces > 0,
-                  InputError("The joint '" + joint.name +
-                             "' misses the domain (no cell face lies on it); "
-                             "check 'Joints/" +
-                             joint.name +
-                             "/Point', 'Dip' and 'Extent' against 'Domain'."));
+      for (const auto &[pair, both] : shared)
+        mesh.report.merged.push_back(
+          {pair.first,
+           pair.second,
+           both,
+           both > (1. - 1e-9) * area_of[pair.second]});
+      if (area_of[index] == 0.)
+        skip_joint(mesh, scene, index);
+    }
+
+
+
+    /** Refuse scenes whose check is on a joint that is not in the model. */
+    template <int dim>
+    void
+    check_joint_of_check(const Mesh<dim> &mesh, const Scene<dim> &scene)
+    {
+      for (const unsigned int j : mesh.report.outside)
+        AssertThrow(scene.checks.joint.empty() ||
+                      scene.joints_called(scene.checks.joint).front() != j,
+                    InputError("The entry 'Check/Joint' is '" +
+                               scene.checks.joint +
+                               "', but that joint is outside the model; check "
+                               "'Joints/" +
+                               scene.joints[j]->name +
+                               "/Point', 'Dip' and 'Extent' against "
+                               "'Domain'."));
+    }
+
+
+
+    /** Note the joints of an exact mesh that have no face in it. */
+    template <int dim>
+    void
+    list_joints_outside(Mesh<dim> &mesh, const Scene<dim> &scene)
+    {
+      std::vector<bool> is_inside(scene.joints.size(), false);
+      for (const auto &face : mesh.marked_faces)
+        if (mesh.surfaces[face.surface].is_joint())
+          is_inside[mesh.surfaces[face.surface].joint] = true;
+      for (unsigned int j = 0; j < is_inside.size(); ++j)
+        if (!is_inside[j])
+          mesh.report.outside.push_back(j);
     }
 
 
@@ -580,6 +718,7 @@ namespace Keyblock
     mark_boundaries(mesh, scene);
     mark_materials(mesh, scene);
     mark_excavations(mesh, scene);
+    check_rock_is_left(mesh, scene);
     std::array<unsigned int, Mesh<dim>::n_cell_faces> no_face;
     no_face.fill(none);
     mesh.joint.assign(mesh.n_cells(), no_face);
@@ -589,8 +728,16 @@ namespace Keyblock
     if (scene.meshing.generator == "gmsh")
       mark_known_joints(mesh, scene);
     else
-      for (unsigned int j = 0; j < scene.joints.size(); ++j)
-        mark_joint(mesh, *scene.joints[j], j, scene.meshing.joint_tolerance);
+      {
+        std::vector<double> area_of(scene.joints.size(), 0.); // [m^(dim-1)]
+        for (unsigned int j = 0; j < scene.joints.size(); ++j)
+          mark_joint(mesh, scene, j, area_of);
+      }
+    on_root([&]() {
+      if (mesh.report.way == "exact")
+        list_joints_outside(mesh, scene);
+      check_joint_of_check(mesh, scene);
+    });
     return mesh;
   }
 

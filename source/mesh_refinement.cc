@@ -10,6 +10,7 @@
 #include <keyblock/excavation_region.h>
 #include <keyblock/expression.h>
 #include <keyblock/mesh.h>
+#include <keyblock/size_limit.h>
 
 #include <cmath>
 #include <limits>
@@ -20,6 +21,9 @@ namespace Keyblock
 {
   namespace
   {
+    /** How often a cell may be halved. */
+    constexpr unsigned int most_levels = 10;
+
     template <int dim>
     class Refinement
     {
@@ -285,6 +289,13 @@ namespace Keyblock
       {
         const Meshing<dim> &meshing = scene.meshing;
         const double by_formula     = levels.value(cell->center(), 0., 0);
+        AssertThrow(std::abs(by_formula) < most_levels + 0.5,
+                    InputError("The formula of the entry 'Mesh/Refinement "
+                               "levels' gives " +
+                               std::to_string(by_formula) + " at (" +
+                               place_of(cell) +
+                               ") m; it must give how often cells are halved "
+                               "there, and more than ten times is too much."));
         unsigned int level =
           by_formula > 0.5 ? static_cast<unsigned int>(by_formula + 0.5) : 0;
         for (unsigned int i = level; i < meshing.refine_at_excavations.size();
@@ -297,25 +308,41 @@ namespace Keyblock
         return level;
       }
 
+      static std::string
+      place_of(const Cell &cell)
+      {
+        std::string text;
+        for (unsigned int d = 0; d < dim; ++d)
+          text += (d ? ", " : "") + std::to_string(cell->center()[d]);
+        return text;
+      }
+
       bool
       flag_cells()
       {
-        bool has_flags = false;
+        double n_flags = 0.;
         for (const auto &cell : tree.active_cell_iterators())
           {
             const unsigned int wanted = wanted_level(cell);
-            AssertThrow(wanted <= 10,
-                        InputError("A cell is to be halved " +
-                                   std::to_string(wanted) +
-                                   " times, more than ten, by 'Mesh/Refinement "
-                                   "levels'; lower it, or lower 'Mesh/Size'."));
+            AssertThrow(wanted <= most_levels,
+                        InputError(
+                          "A cell is to be halved " + std::to_string(wanted) +
+                          " times, more than ten, by 'Mesh/Refine at "
+                          "excavations' or 'Refine at joints'; give fewer "
+                          "distances, or lower 'Mesh/Size'."));
             if (unsigned(cell->level()) < wanted)
               {
                 cell->set_refine_flag();
-                has_flags = true;
+                ++n_flags;
               }
           }
-        return has_flags;
+        require_size<dim>(tree.n_active_cells() + n_flags * ((1u << dim) - 1),
+                          scene.joints.size(),
+                          "refinement",
+                          [](double) {
+                            return "refine less often, or less of the domain";
+                          });
+        return n_flags > 0.;
       }
 
       /** Whether a face lies on a joint: as the generator knows, else by its

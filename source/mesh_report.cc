@@ -28,6 +28,49 @@ namespace Keyblock
 
     template <int dim>
     void
+    print_way(std::ostream &out, const MeshReport<dim> &report)
+    {
+      if (report.n_passes > 1)
+        out << "        meshed " << report.n_passes
+            << " times for 'Mesh/Cells across blocks'\n";
+      if (report.way == "exact")
+        out << "        joints are where the scene has them\n";
+      else
+        {
+          out << "        joints are cut into the mesh (" << report.reason
+              << ") and moved by up to " << report.largest_shift << " m, "
+              << report.largest_shift_in_cells
+              << " cells; 99 % of their points by less than "
+              << report.percentile_99 << " m, " << report.percentile_99_in_cells
+              << " cells\n";
+          if (report.area_ratio != 1.)
+            out << "        finite joints have " << report.area_ratio
+                << " of their area in the mean\n";
+        }
+    }
+
+    /** Warn of joints that lie wholly on others. */
+    template <int dim>
+    void
+    print_duplicates(std::ostream &out,
+                     const MeshReport<dim> &report,
+                     const Scene<dim> &scene)
+    {
+      constexpr unsigned int most_pairs = 5;
+      unsigned int n                    = 0;
+      for (const auto &merged : report.merged)
+        if (merged.is_all_of_other && n++ < most_pairs)
+          out << "Warning: The joint '" << scene.joints[merged.other]->name
+              << "' lies wholly on the joint '"
+              << scene.joints[merged.joint]->name
+              << "', whose strength rules there; remove one of them, or move "
+                 "it.\n";
+      if (n > most_pairs)
+        out << "Warning: So do " << n - most_pairs << " more joints.\n";
+    }
+
+    template <int dim>
+    void
     print_merged(std::ostream &out,
                  const MeshReport<dim> &report,
                  const Scene<dim> &scene)
@@ -58,26 +101,12 @@ namespace Keyblock
                     const MeshReport<dim> &report,
                     const Scene<dim> &scene)
   {
-    if (report.way.empty() || scene.joints.empty())
+    if (scene.joints.empty())
       return;
     out << std::setprecision(3);
-    if (report.n_passes > 1)
-      out << "        meshed " << report.n_passes
-          << " times for 'Mesh/Cells across blocks'\n";
-    if (report.way == "exact")
-      out << "        joints are where the scene has them\n";
-    else
-      {
-        out << "        joints are cut into the mesh (" << report.reason
-            << ") and moved by up to " << report.largest_shift << " m, "
-            << report.largest_shift_in_cells
-            << " cells; 99 % of their points by less than "
-            << report.percentile_99 << " m, " << report.percentile_99_in_cells
-            << " cells\n";
-        if (report.area_ratio != 1.)
-          out << "        finite joints have " << report.area_ratio
-              << " of their area in the mean\n";
-      }
+    if (!report.way.empty())
+      print_way(out, report);
+    print_duplicates(out, report, scene);
     print_merged(out, report, scene);
     if (report.n_lost_blocks > 0)
       {

@@ -91,6 +91,29 @@ namespace Keyblock
 
   template <int dim>
   double
+  MeshSize<dim>::smallest() const
+  {
+    double size = std::min(far, at_excavation);
+    for (const SizeAtJoint &joint : joints)
+      size = std::min(size, joint.size);
+    for (const auto &demand : places)
+      size = std::min(size, demand->size);
+    return size;
+  }
+
+
+
+  template <int dim>
+  double
+  MeshSize<dim>::steepness() const
+  {
+    return (far - smallest()) / distance;
+  }
+
+
+
+  template <int dim>
+  double
   MeshSize<dim>::operator()(const Point<dim> &p) const
   {
     namespace bgi          = boost::geometry::index;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/errors.h>
 #include <keyblock/mesh.h>
+#include <keyblock/size_limit.h>
 
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace Keyblock
 {
@@ -40,7 +43,32 @@ namespace Keyblock
             positions[i] =
               (std::pow(growth, double(i)) - 1.) / (std::pow(growth, n) - 1.);
         }
+      for (unsigned int i = 0; i < n; ++i)
+        AssertThrow(positions[i] < positions[i + 1],
+                    InputError("The entry 'Mesh/Gradings' contains '" +
+                               grading +
+                               "', which makes cells of no length; "
+                               "give a ratio nearer to 1."));
       return positions;
+    }
+
+    /** Refuse what does not fit into memory before it is made. */
+    template <int dim>
+    void
+    require_structured_size(const Scene<dim> &scene)
+    {
+      double n_cells = 1.;
+      for (const unsigned int n : scene.meshing.cells)
+        n_cells *= n;
+      require_size<dim>(n_cells,
+                        scene.joints.size(),
+                        "'Mesh/Cells'",
+                        [](const double times) {
+                          std::ostringstream text;
+                          text << std::setprecision(2) << "divide them by "
+                               << std::pow(times, 1. / dim) << " each";
+                          return text.str();
+                        });
     }
   } // namespace
 
@@ -50,6 +78,7 @@ namespace Keyblock
   Mesh<dim>
   make_structured_mesh(const Scene<dim> &scene)
   {
+    require_structured_size(scene);
     const Domain<dim> &domain = scene.domain;
     std::array<Tensor<1, dim>, dim> edges;
     std::array<std::vector<double>, dim> positions;

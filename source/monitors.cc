@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iomanip>
 #include <limits>
+#include <sstream>
 
 namespace Keyblock
 {
@@ -108,6 +109,7 @@ namespace Keyblock
           }
         if (numbering.is_owned(nearest))
           node = numbering.local_node(nearest);
+        look_for_location(monitor, least);
       }
     if (monitor.kind == "block")
       for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
@@ -119,6 +121,15 @@ namespace Keyblock
               block = split.block_of_cell[c];
             }
         }
+    if (monitor.kind == "block")
+      {
+        AssertThrow(block != none,
+                    InputError("The monitor '" + monitor.name +
+                               "' is of kind block, but there is no block: all "
+                               "rock is dug later; correct 'Monitors/" +
+                               monitor.name + "/Kind'."));
+        look_for_location(monitor, least);
+      }
     if (monitor.kind == "region")
       {
         const Expression<dim> region(monitor.region,
@@ -139,6 +150,55 @@ namespace Keyblock
     node_of_monitor.push_back(node);
     block_of_monitor.push_back(block);
     nodes_of_monitor.push_back(nodes);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::look_for_location(const Monitor<dim> &monitor,
+                                   const double distance)
+  {
+    constexpr double tolerance = 1e-6; // of a cell's size
+    const Mesh<dim> &mesh      = split.mesh;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        const Point<dim> center = mesh.cell_center(c);
+        double reach            = 0.;
+        for (const unsigned int v : mesh.cells[c])
+          reach = std::max(reach, center.distance(mesh.vertices[v]));
+        if (center.distance(monitor.location) > (1. + tolerance) * reach)
+          continue;
+        bool is_inside = true;
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          {
+            const Tensor<1, dim> area = mesh.face_area_vector(c, f);
+            is_inside =
+              is_inside && area * (monitor.location - mesh.face_center(c, f)) <=
+                             tolerance * reach * area.norm();
+          }
+        if (is_inside)
+          return;
+      }
+    Point<dim> low = mesh.vertices[0], high = low;
+    for (const Point<dim> &p : mesh.vertices)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          low[d]  = std::min(low[d], p[d]);
+          high[d] = std::max(high[d], p[d]);
+        }
+    std::ostringstream text;
+    text << "The monitor '" << monitor.name << "' is at (" << monitor.location
+         << ") m, which is in no rock";
+    const std::string remedy =
+      "correct 'Monitors/" + monitor.name + "/Location'";
+    AssertThrow(distance <= low.distance(high),
+                InputError(text.str() + " by far; " + remedy + "."));
+    text << "; it follows the nearest "
+         << (monitor.kind == "block" ? "block, with a cell " : "node, ")
+         << std::setprecision(3) << distance << " m away: " << remedy
+         << ", if that is not meant.";
+    warnings.push_back(text.str());
   }
 
 
@@ -332,11 +392,16 @@ namespace Keyblock
   Monitors<dim>::sample_nodes(const std::vector<unsigned int> &nodes,
                               std::vector<double> &row)
   {
+    std::vector<double> total(1, 0.);
+    for (const unsigned int node : nodes)
+      total[0] += fields.mass[node];
+    sum_lists(total);
+    const bool has_mass = total[0] > 0.;
     // mass, m u, m v
     std::vector<double> sums(1 + 2 * dim, 0.);
     for (const unsigned int node : nodes)
       {
-        const double m = fields.mass[node];
+        const double m = has_mass ? fields.mass[node] : 1.;
         sums[0] += m;
         for (unsigned int d = 0; d < dim; ++d)
           {

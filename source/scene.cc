@@ -143,6 +143,14 @@ namespace Keyblock
           n[1] = sine * std::cos(radians(dip_direction));
         n[dim - 1] = std::cos(radians(dip));
       }
+    if (!std::isnormal(n.norm_square()))
+      {
+        // squares of components are too large, or too small
+        double largest = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          largest = std::max(largest, std::abs(n[d]));
+        n /= largest;
+      }
     n /= n.norm();
     // minus to plus is upwards; a vertical joint's normal points to +x or +y
     for (int d = dim - 1; d >= 0; --d)

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <set>
 
 namespace Keyblock
@@ -209,10 +210,16 @@ namespace Keyblock
                 "The entry '" + section +
                   "/Radius' is 0; give a positive radius in metres.");
       if (shape == "box")
-        require(excavation.size.size() == dim,
-                "The entry '" + section + "/Size' has " +
-                  std::to_string(excavation.size.size()) + " numbers; give " +
-                  std::to_string(dim) + ".");
+        {
+          require(excavation.size.size() == dim,
+                  "The entry '" + section + "/Size' has " +
+                    std::to_string(excavation.size.size()) + " numbers; give " +
+                    std::to_string(dim) + ".");
+          for (const double length : excavation.size)
+            require(length > 0.,
+                    "The entry '" + section + "/Size' contains " +
+                      number(length) + "; lengths must be positive.");
+        }
     }
 
     /** Corners of a polygon in space, by two axes of its plane. */
@@ -246,10 +253,11 @@ namespace Keyblock
                 std::to_string(dim) + " or none.");
       if (!joint.normal_entry.empty())
         {
-          double square = 0.;
+          double largest = 0.;
           for (const double component : joint.normal_entry)
-            square += component * component;
-          require(square > 0.,
+            largest = std::max(largest, std::abs(component));
+          // the reciprocal of a smaller one may be infinite
+          require(largest > std::numeric_limits<double>::min(),
                   entry + "/Normal' is the zero vector; give a direction.");
         }
       if (dim == 2 && joint.normal_entry.empty() && joint.extent != "polygon")

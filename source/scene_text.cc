@@ -2,6 +2,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/errors.h>
+#include <keyblock/mpi.h>
 #include <keyblock/scene_text.h>
 
 #include <boost/algorithm/string.hpp>
@@ -9,10 +10,36 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <regex>
 #include <sstream>
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Throw a better sentence if deal.II's @p complaint is of a subsection of
+     * a name that its section does not list. */
+    void
+    require_listed(const std::string &complaint, const std::string &source)
+    {
+      const std::regex unknown(
+        "Line <(\\d+)>.*no such subsection to be entered: ([^.]+)\\.(.*)");
+      std::smatch found;
+      const bool is_unlisted = std::regex_match(complaint, found, unknown);
+      AssertThrow(!is_unlisted,
+                  InputError("In " + source + ", line " + found[1].str() +
+                             ": there is a subsection '" + found[2].str() +
+                             "/" + found[3].str() + "', but '" +
+                             found[2].str() + "/Names' does not list '" +
+                             found[3].str() +
+                             "'; add the name there, or take the subsection "
+                             "out."));
+    }
+  } // namespace
+
+
+
   void
   parse_entries(dealii::ParameterHandler &prm,
                 const std::string &text,
@@ -29,8 +56,11 @@ namespace Keyblock
       {
         std::ostringstream words;
         exception.print_info(words);
-        const std::string sentence =
+        std::string sentence =
           boost::trim_all_copy(boost::replace_all_copy(words.str(), "\n", " "));
+        require_listed(sentence, source);
+        if (!boost::ends_with(sentence, "."))
+          sentence += '.';
         AssertThrow(false,
                     InputError(
                       "In " + source + ": " + sentence +
@@ -43,16 +73,61 @@ namespace Keyblock
 
   namespace
   {
+    constexpr std::size_t largest_text = std::size_t(1) << 26; // [bytes]
+
+    /** The bytes of a file. Those that can be read only once, and by one
+     * process only (pipes), are kept. */
+    std::string
+    read_bytes(const std::string &file_name, const std::string &what)
+    {
+      static std::map<std::string, std::string> pipes;
+      const auto kept = pipes.find(file_name);
+      if (kept != pipes.end())
+        return kept->second;
+      std::string text;
+      std::vector<unsigned int> is_pipe(1, 0);
+      on_root([&]() {
+        std::error_code error;
+        std::ifstream in(file_name, std::ios::binary);
+        AssertThrow(in && !std::filesystem::is_directory(file_name, error),
+                    InputError("The " + what + " '" + file_name +
+                               "' cannot be read; check its path."));
+        is_pipe[0] = !std::filesystem::is_regular_file(file_name, error);
+        // a device may have no end
+        std::vector<char> piece(1u << 16);
+        while (in.read(piece.data(), piece.size()) || in.gcount() > 0)
+          {
+            text.append(piece.data(), in.gcount());
+            AssertThrow(text.size() <= largest_text,
+                        InputError("The " + what + " '" + file_name +
+                                   "' has more than 64 MB; name a scene "
+                                   "file."));
+          }
+      });
+      text = text_of_root(text);
+      broadcast(is_pipe);
+      if (is_pipe[0])
+        pipes[file_name] = text;
+      return text;
+    }
+
+    /** The text of a file without byte order mark, with '\n' at the end of
+     * each line. */
     std::string
     read_file(const std::string &file_name, const std::string &what)
     {
-      std::ifstream in(file_name);
-      AssertThrow(in && !std::filesystem::is_directory(file_name),
+      const std::string raw = read_bytes(file_name, what);
+      AssertThrow(raw.find('\0') == std::string::npos &&
+                    !boost::starts_with(raw, "\xFF\xFE") &&
+                    !boost::starts_with(raw, "\xFE\xFF"),
                   InputError("The " + what + " '" + file_name +
-                             "' cannot be read; check its path."));
-      std::ostringstream text;
-      text << in.rdbuf();
-      return text.str();
+                             "' is no plain text (it contains a byte 0, as "
+                             "UTF-16 does); save it as UTF-8."));
+      std::string text =
+        raw.substr(boost::starts_with(raw, "\xEF\xBB\xBF") ? 3 : 0);
+      boost::replace_all(text, "\r\n", "\n");
+      boost::replace_all(text, "\r", "\n");
+      return text;
     }
 
     /** A line without comment, with single blanks only, as it is parsed. */
@@ -72,28 +147,48 @@ namespace Keyblock
              boost::starts_with(line, boost::to_upper_copy(word));
     }
 
-    /** Put the text of included files in the place of `include FILE`. */
+    std::string include_file(const std::string &file_name,
+                             std::vector<std::string> chain);
+
+    /** Put the text of included files in the place of `include FILE`;
+     * @p chain: the files that led here. */
     std::string
-    include_files(const std::string &text, const unsigned int depth)
+    include_files(const std::string &text,
+                  const std::vector<std::string> &chain)
     {
       if (text.find("include ") == std::string::npos &&
           text.find("INCLUDE ") == std::string::npos)
         return text;
-      AssertThrow(depth < 20,
-                  InputError("Scene files include each other more than twenty "
-                             "deep; remove the 'include' that leads back."));
       std::istringstream lines(text);
       std::string all;
       for (std::string line; std::getline(lines, line);)
         {
           const std::string words = significant(line);
           all += begins_with(words, "include ")
-                   ? include_files(read_file(words.substr(8), "included file"),
-                                   depth + 1)
+                   ? include_file(words.substr(8), chain)
                    : line;
           all += '\n';
+          AssertThrow(all.size() <= largest_text,
+                      InputError("The scene file '" + chain.front() +
+                                 "' has more than 64 MB with all files that "
+                                 "it includes; include each of them once."));
         }
       return all;
+    }
+
+    std::string
+    include_file(const std::string &file_name, std::vector<std::string> chain)
+    {
+      std::error_code error;
+      for (const std::string &before : chain)
+        AssertThrow(before != file_name &&
+                      !std::filesystem::equivalent(before, file_name, error),
+                    InputError("The file '" + chain.back() + "' includes '" +
+                               file_name +
+                               "', which includes itself in this way; remove "
+                               "that 'include'."));
+      chain.push_back(file_name);
+      return include_files(read_file(file_name, "included file"), chain);
     }
 
     /** Move the subsections of `subsection Joints` out of the text. */
@@ -169,7 +264,7 @@ namespace Keyblock
   SceneText::SceneText(const std::string &file_name,
                        const std::vector<std::string> &overrides)
     : file_name(file_name)
-    , text(include_files(read_file(file_name, "scene file"), 0))
+    , text(include_files(read_file(file_name, "scene file"), {file_name}))
   {
     set_joints_apart(*this);
     for (const std::string &assignment : overrides)

@@ -3,6 +3,7 @@
 
 #include <keyblock/block_resolution.h>
 #include <keyblock/block_theory.h>
+#include <keyblock/initial_tension.h>
 #include <keyblock/mpi.h>
 #include <keyblock/network_output.h>
 #include <keyblock/teams.h>
@@ -94,6 +95,11 @@ namespace Keyblock
                            scene.checks.quantity +
                            "', which is no column of history.csv; name a "
                            "monitor and its quantity, for example tip.u_x."));
+    remarks = monitors->warnings;
+    if (const std::string tension = warning_of_tension(scene, split, cells);
+        !tension.empty())
+      remarks.push_back(tension);
+    list_welded_joints();
     count_cells();
     std::ostringstream place;
     for (unsigned int d = 0; d < dim; ++d)
@@ -103,6 +109,36 @@ namespace Keyblock
       measure_step_spread(conditions->frequency, cells.mesh_cell, split.mesh);
     report.step_ratio         = spread.ratio();
     report.stable_step_joints = names_of_joints_at(split.mesh, spread.cell);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::list_welded_joints()
+  {
+    if (scene.joints.empty() || scene.contact.method == "none" ||
+        !split.interface.pairs.empty())
+      return;
+    std::set<unsigned int> joints;
+    for (const auto &of_cell : split.mesh.joint)
+      for (const unsigned int j : of_cell)
+        if (j != none)
+          joints.insert(j);
+    std::string names;
+    unsigned int n = 0;
+    for (const unsigned int j : joints)
+      if (n++ < 8)
+        names += (names.empty() ? "" : ", ") + scene.joints[j]->name;
+    if (n == 0)
+      return;
+    remarks.push_back(
+      "No joint closes a block, so that all stay welded and the model is "
+      "solid rock, with 0 pairs: " +
+      names + (n > 8 ? ", ..." : "") +
+      "; let joints and outer boundaries enclose blocks, name fewer of them in "
+      "'Domain/Truncated boundaries', or set 'Contact/Weld infinite blocks' to "
+      "false.");
   }
 
 
@@ -127,6 +163,8 @@ namespace Keyblock
     if (n_cells_global > 0)
       print_stable_step(out);
     print_mesh_report(out, mesh_report, scene);
+    for (const std::string &remark : remarks)
+      out << "Warning: " << remark << '\n';
     print_mass_scaling(out);
     print_block_table(out, blocks, scene);
     if (scene.block_theory.report)

@@ -44,6 +44,10 @@ namespace Keyblock
     std::vector<HalfSpace> half_spaces;
     std::vector<Point<dim>> corners; ///< in order, in 2D
   };
+
+  /** Volume of a domain whose shape is not `file` [m^dim]. */
+  template <int dim>
+  double volume_of(const Domain<dim> &domain);
 } // namespace Keyblock
 
 #endif

@@ -37,16 +37,18 @@ namespace Keyblock
      * edges of the simplices that they were cut into. */
     double area_ratio_of_large = 1.;
 
-    /** Joints that share faces, and how much area [m^(dim-1)]. */
+    /** Joints that share faces, of which the first rules, how much area
+     * [m^(dim-1)], and whether that is all of the other. */
     struct Merged
     {
       unsigned int joint, other;
       double area;
+      bool is_all_of_other = false;
     };
     std::vector<Merged> merged;
 
     /** Joints without a single face: smaller than the cells where they lie,
-     * or outside the model. */
+     * or outside the model; of meshes that Gmsh did not make the latter. */
     std::vector<unsigned int> lost, outside;
 
     /** Pieces of rock too small for a cell that went to a neighbour. */
@@ -91,7 +93,7 @@ namespace Keyblock
     return a < b;
   }
 
-  /** The report for people, one sentence each; nothing for other meshes. */
+  /** The report for people, one sentence each. */
   template <int dim>
   void print_mesh_report(std::ostream &out,
                          const MeshReport<dim> &report,

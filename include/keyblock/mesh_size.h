@@ -41,6 +41,12 @@ namespace Keyblock
     /** The smallest size that a demand may have [m]. */
     double least() const;
 
+    /** The smallest size that there is anywhere [m]. */
+    double smallest() const;
+
+    /** How much the size changes per length, at most [-]. */
+    double steepness() const;
+
   private:
     const Scene<dim> &scene;
     double distance;      ///< over which sizes grow [m]

@@ -60,15 +60,23 @@ namespace Keyblock
     /** Index into Blocks::blocks that each block monitor watches. */
     std::vector<unsigned int> block_of_monitor;
 
+    /** A sentence for each monitor that is not where the scene has it. */
+    std::vector<std::string> warnings;
+
   private:
     void find_target(const Monitor<dim> &monitor);
+
+    /** Warn of a monitor whose Location is in no cell, or refuse it if the
+     * rock is farther away than the model is large; @p distance: of what it
+     * follows instead [m]. */
+    void look_for_location(const Monitor<dim> &monitor, const double distance);
     void name_columns();
     void sample_joint(const Monitor<dim> &monitor, std::vector<double> &row);
 
     void sample_support(const Monitor<dim> &monitor, std::vector<double> &row);
 
     /** Mass-weighted means of displacement and velocity over owned @p nodes of
-     * all ranks. */
+     * all ranks; plain means where nothing has mass any more. */
     void sample_nodes(const std::vector<unsigned int> &nodes,
                       std::vector<double> &row);
     void sample_block(const unsigned int block, std::vector<double> &row);

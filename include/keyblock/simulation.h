@@ -211,6 +211,9 @@ namespace Keyblock
     std::string name_last_checkpoint() const;
     void count_cells();
 
+    /** Warn if there are joints but no pair of them. */
+    void list_welded_joints();
+
     Scene<dim> scene;
     std::string scene_file;
     std::vector<std::string> overrides; ///< of its entries
@@ -221,6 +224,7 @@ namespace Keyblock
     Mesh<dim> mesh;
     MeshQuality quality;
     MeshReport<dim> mesh_report;
+    std::vector<std::string> remarks; ///< warnings of the set-up
     Blocks<dim> blocks;
     SplitMesh<dim> split;
     std::unique_ptr<Numbering<dim>> numbering;
