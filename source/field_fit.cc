@@ -117,9 +117,10 @@ namespace Keyblock
       out << '"' << result.measurements[i] << "\"," << result.measured[i] << ','
           << result.fit.fitted[i] << ','
           << result.measured[i] - result.fit.fitted[i] << '\n';
-    AssertThrow(out,
-                ComputationError("The file '" + file_name +
-                                 "' cannot be written; check free space."));
+    AssertThrow(out.flush(),
+                InputError("The file '" + file_name +
+                           "' cannot be written; check free space and "
+                           "permissions."));
   }
 
 

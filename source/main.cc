@@ -38,7 +38,10 @@ main(int argc, char *argv[])
       if (!arguments.answer.empty())
         {
           if (Keyblock::is_root())
-            std::cout << arguments.answer;
+            std::cout << arguments.answer << std::flush;
+          AssertThrow(std::cout,
+                      Keyblock::ComputationError(
+                        "The answer cannot be written; check free space."));
         }
       else if (Keyblock::read_dimension(arguments.scene, arguments.overrides) ==
                2)

@@ -518,13 +518,14 @@ namespace Keyblock
     {
       for (const Point<3> &vertex : mixed.vertices)
         for (unsigned int d = 0; d < 3; ++d)
-          AssertThrow(std::abs(vertex[d]) <= largest_coordinate,
-                      InputError(origin + " has a vertex at (" +
-                                 std::to_string(vertex[0]) + ", " +
-                                 std::to_string(vertex[1]) + ", " +
-                                 std::to_string(vertex[2]) +
-                                 ") m; coordinates must be numbers of at most "
-                                 "1e9 m, correct it."));
+          if (!(std::abs(vertex[d]) <= largest_coordinate))
+            {
+              std::ostringstream text;
+              text << origin << " has a vertex at (" << vertex
+                   << ") m; coordinates must be numbers of at most 1e9 m, "
+                      "correct it.";
+              AssertThrow(false, InputError(text.str()));
+            }
     }
 
     /** How many cells cut_mesh() makes at most. */

@@ -337,7 +337,7 @@ namespace Keyblock
 
 
 
-    /** Something has to be left at all times, if there was something. */
+    /** Something that can deform has to be left at all times. */
     template <int dim>
     void
     check_rock_is_left(const Mesh<dim> &mesh, const Scene<dim> &scene)
@@ -348,7 +348,11 @@ namespace Keyblock
             return true;
         return false;
       };
-      if (scene.excavations.empty() || !is_any_left(0))
+      AssertThrow(is_any_left(0),
+                  InputError("Every cell is of a rigid material, so that "
+                             "there is nothing to compute; check "
+                             "'Materials/*/Region' and 'Model'."));
+      if (scene.excavations.empty())
         return;
       for (unsigned int number = 1; number < scene.stages.size() + 2; ++number)
         AssertThrow(is_any_left(number),

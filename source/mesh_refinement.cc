@@ -16,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <sstream>
 
 namespace Keyblock
 {
@@ -289,13 +290,15 @@ namespace Keyblock
       {
         const Meshing<dim> &meshing = scene.meshing;
         const double by_formula     = levels.value(cell->center(), 0., 0);
-        AssertThrow(std::abs(by_formula) < most_levels + 0.5,
-                    InputError("The formula of the entry 'Mesh/Refinement "
-                               "levels' gives " +
-                               std::to_string(by_formula) + " at (" +
-                               place_of(cell) +
-                               ") m; it must give how often cells are halved "
-                               "there, and more than ten times is too much."));
+        if (!(std::abs(by_formula) < most_levels + 0.5))
+          {
+            std::ostringstream text;
+            text << "The formula of the entry 'Mesh/Refinement levels' gives "
+                 << by_formula << " at (" << cell->center()
+                 << ") m; it must give how often cells are halved there, and "
+                    "more than ten times is too much.";
+            AssertThrow(false, InputError(text.str()));
+          }
         unsigned int level =
           by_formula > 0.5 ? static_cast<unsigned int>(by_formula + 0.5) : 0;
         for (unsigned int i = level; i < meshing.refine_at_excavations.size();
@@ -306,15 +309,6 @@ namespace Keyblock
           if (is_near_joint(cell, meshing.refine_at_joints[i]))
             level = i + 1;
         return level;
-      }
-
-      static std::string
-      place_of(const Cell &cell)
-      {
-        std::string text;
-        for (unsigned int d = 0; d < dim; ++d)
-          text += (d ? ", " : "") + std::to_string(cell->center()[d]);
-        return text;
       }
 
       bool

@@ -281,6 +281,10 @@ namespace Keyblock
           require(size > 0.,
                   "The first two corners of '" + section +
                     "/Vertices' coincide; give distinct corners.");
+          require(std::isfinite(joint.normal().norm()),
+                  "The corners of '" + section +
+                    "/Vertices' lie on one line, or are no finite numbers; "
+                    "give corners of a polygon.");
           for (const Point<dim> &vertex : joint.vertices)
             require(std::abs(joint.distance(vertex)) < 1e-6 * size,
                     "A corner of '" + section + "/Vertices' is " +

@@ -133,8 +133,8 @@ namespace Keyblock
     if (n == 0)
       return;
     remarks.push_back(
-      "No joint closes a block, so that all stay welded and the model is "
-      "solid rock, with 0 pairs: " +
+      "All joints stay welded, with 0 pairs, because the blocks beside them "
+      "are infinite or not closed: " +
       names + (n > 8 ? ", ..." : "") +
       "; let joints and outer boundaries enclose blocks, name fewer of them in "
       "'Domain/Truncated boundaries', or set 'Contact/Weld infinite blocks' to "

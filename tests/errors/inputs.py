@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Inputs that a command line alone cannot give: files, pipes, full disks.
+
+usage: inputs.py KEYBLOCK PRM CASE
+
+CASE is the name of a function below. In a folder of its own it makes the
+input, runs the program and looks at how it ends.
+"""
+import os
+import pathlib
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+
+KEYBLOCK, PRM = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
+INCLINE = PRM / "verification" / "incline_30.prm"
+SHORT = ["--set", "Stages/slide/Maximum steps=5",
+         "--set", "Stages/rest/Maximum steps=5"]
+
+
+def run(arguments, **options):
+    """The program in this folder."""
+    return subprocess.run([str(KEYBLOCK)] + [str(a) for a in arguments],
+                          capture_output=True, check=False, **options)
+
+
+def refused(done, fragment, code=1):
+    """One sentence, with the fragment."""
+    message = done.stderr.decode("utf-8")
+    print(message)
+    assert done.returncode == code, done.returncode
+    assert message.startswith("Error: " if code == 1 else "Failed: ")
+    assert message.strip().count("\n") == 0, "not one line"
+    assert fragment in message, f"'{fragment}' is missing"
+
+
+def valid(done, warning=None):
+    """No error, and the warning if there is to be one; else none."""
+    print(done.stderr.decode("utf-8"))
+    text = done.stdout.decode("utf-8")
+    found = [line for line in text.split("\n") if line.startswith("Warning")]
+    print("\n".join(found))
+    assert done.returncode == 0, done.returncode
+    assert "The scene is valid." in text
+    if warning is None:
+        assert not found
+    else:
+        assert any(warning in line for line in found), f"no '{warning}'"
+
+
+def validate(scene, settings=()):
+    """Validate with entries set."""
+    return run(["--validate", scene]
+               + [word for s in settings for word in ("--set", s)])
+
+
+def byte_order_mark():
+    pathlib.Path("s.prm").write_bytes(b"\xef\xbb\xbf" + INCLINE.read_bytes())
+    valid(validate("s.prm"))
+
+
+def utf_16():
+    pathlib.Path("s.prm").write_bytes(INCLINE.read_text("utf-8").encode("utf-16"))
+    refused(validate("s.prm"), "save it as UTF-8")
+
+
+def carriage_returns():
+    text = INCLINE.read_bytes()
+    pathlib.Path("s.prm").write_bytes(text.replace(b"\n", b"\r"))
+    valid(validate("s.prm"))
+    pathlib.Path("t.prm").write_bytes(text.replace(b"\n", b"\r\n"))
+    valid(validate("t.prm"))
+
+
+def from_a_pipe():
+    valid(run(["--validate", "/dev/stdin"], input=INCLINE.read_bytes()))
+    command = f"'{KEYBLOCK}' --validate <(cat '{INCLINE}')"
+    valid(subprocess.run(["bash", "-c", command], capture_output=True,
+                         check=False))
+    valid(subprocess.run(
+        ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2",
+         KEYBLOCK, "--validate", "/dev/stdin"], input=INCLINE.read_bytes(),
+        capture_output=True, check=False))
+
+
+def a_pipe_without_end():
+    refused(validate("/dev/zero"), "more than 64 MB")
+
+
+def includes_itself():
+    pathlib.Path("a.prm").write_text("include ./a.prm\n", encoding="utf-8")
+    refused(validate("a.prm"), "includes itself")
+    pathlib.Path("b.prm").write_text("include c.prm\n", encoding="utf-8")
+    pathlib.Path("c.prm").write_text("include b.prm\ninclude b.prm\n",
+                                     encoding="utf-8")
+    refused(validate("b.prm"), "'c.prm' includes 'b.prm'")
+
+
+def full_disk():
+    for name, code in (("used.prm", 1), ("joints.csv", 1), ("joints.vtu", 1),
+                       ("rock_0000.vtu", 2), ("interface_0000.vtu", 2),
+                       ("solution.pvd", 2), ("history.csv", 2),
+                       ("summary.json", 2)):
+        shutil.rmtree("o", ignore_errors=True)
+        os.mkdir("o")
+        os.symlink("/dev/full", f"o/{name}")
+        refused(run(["--output", "o", INCLINE] + SHORT),
+                f"'o/{name}' cannot be written", code)
+    shutil.rmtree("o")
+    os.mkdir("o")
+    os.symlink("/dev/full", "o/geostress.csv")
+    refused(run(["--output", "o", PRM / "verification" / "geostress.prm"]),
+            "'o/geostress.csv' cannot be written")
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        done = subprocess.run([KEYBLOCK, "--help"], stdout=full,
+                              stderr=subprocess.PIPE, check=False)
+    assert done.returncode == 2, done.returncode
+
+
+MSH = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+4
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+$EndNodes
+$Elements
+1
+1 3 2 1 1 1 2 3 4
+$EndElements
+"""
+
+MSH_SCENE = """subsection Domain
+  set Shape = file
+  set File = a.msh
+end
+subsection Mesh
+  set Generator = file
+end
+subsection Materials
+  set Names = rock
+end
+"""
+
+
+def mesh(text):
+    """Validate a scene on a .msh file."""
+    pathlib.Path("a.msh").write_text(text, encoding="utf-8")
+    pathlib.Path("a.prm").write_text(MSH_SCENE, encoding="utf-8")
+    return validate("a.prm")
+
+
+def damaged_msh():
+    valid(mesh(MSH))
+    for fault, mended in (("1 3 2", "1 3 999999"), ("1 3 2", "1 3 -9"),
+                          ("$Nodes\n4", "$Nodes\n99999999999"),
+                          ("$Nodes\n4", "$Nodes\n-4"),
+                          ("$Elements\n1\n", "$Elements\n4000000000\n"),
+                          ("1 3 2", "1 99 2"), ("2 3 4\n$End", "2 3 77\n$End"),
+                          ("2.2 0", "4.1 0"), ("2.2 0 8", "2.2 1 8")):
+        assert fault in MSH
+        refused(mesh(MSH.replace(fault, mended)), "The mesh file 'a.msh'")
+    refused(mesh(MSH.replace("3 1 1 0", "3 nan 1 0")), "a.msh")
+    refused(mesh(MSH.replace("3 1 1 0", "3 1e200 1e200 0")), "at most 1e9 m")
+
+
+def small_memory():
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (2 * 2**30,) * 2)
+    refused(run(["--validate", "--set", "Mesh/Cells=2000, 1500", INCLINE],
+                preexec_fn=limit), "the 2.15 GB of memory here")
+
+
+def huge_normal():
+    box = PRM / "benchmark" / "elastic_2d.prm"
+    common = ["Mesh/Cells=4, 4", "Domain/Size=4, 4", "Joints/Names=a",
+              "Joints/a/Point=0, 2"]
+    done = [validate(box, common + [f"Joints/a/Normal={n}"])
+            for n in ("0, 1", "0, 1e200", "0, 1e-200", "0, 1.7e308")]
+    for one in done:
+        assert one.returncode == 0, one.stderr
+        assert one.stdout == done[0].stdout
+
+
+def joint_outside():
+    valid(validate(INCLINE, ["Joints/Names=base, far", "Joints/far/Point=0, 9",
+                             "Joints/far/Dip=0"]),
+          "1 joint outside the model, and left out: far")
+    lines = PRM / "verification" / "blocks_lines.prm"
+    valid(validate(lines, ["Joints/Names=@, far".replace("@", names(lines)),
+                           "Joints/far/Point=0, 1e4", "Joints/far/Dip=0"]),
+          "1 joint outside the model, and left out: far")
+
+
+def names(scene):
+    """The joints of a scene."""
+    text = scene.read_text("utf-8").split("subsection Joints")[1]
+    return text.split("set Names = ")[1].split("\n")[0]
+
+
+def joint_twice():
+    valid(validate(INCLINE, ["Joints/Names=base, twin", "Joints/twin/Dip=40"]),
+          "The joint 'twin' lies wholly on the joint 'base'")
+    valid(validate(INCLINE, ["Joints/Names=base, twin", "Joints/twin/Dip=40",
+                             "Joints/twin/Friction angle=10"]),
+          "The joint 'base' lies wholly on the joint 'twin'")
+
+
+def joints_welded():
+    valid(validate(INCLINE, ["Domain/Truncated boundaries=all"]),
+          "All joints stay welded, with 0 pairs")
+
+
+def monitor_outside():
+    valid(validate(INCLINE, ["Monitors/block/Location=0.5, 0.3"]),
+          "The monitor 'block' is at")
+
+
+def some_tension():
+    kirsch = PRM / "verification" / "kirsch.prm"
+    valid(validate(kirsch, ["Initial state/Stress=7e6; -7e6; 7e6; 0"]),
+          "a tension of up to 7e+06 Pa")
+
+
+def main():
+    case = globals()[sys.argv[3]]
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        case()
+
+
+if __name__ == "__main__":
+    main()
