@@ -191,7 +191,8 @@ end
 
 
 def water(seed):
-    """A block in front of a tension crack, with water in crack and plane."""
+    """A block in front of a tension crack, with water in crack and plane; its
+    base is under pressure all over, so that limit equilibrium is exact."""
     rng = random.Random(f"water {seed}")
     foot, top = rng.uniform(1., 4.), 10.
     dip = math.radians(rng.uniform(20, 45))
@@ -211,7 +212,14 @@ def water(seed):
     share = rng.uniform(0.3, 1.)  # of the resistance that friction has
     tangent = share * factor * driving / normal
     cohesion = (1. - share) * factor * driving / length
-    if normal < 0.1 * weight or tangent > 1.7:
+    # effective pressure on the plane, were it linear: moments about the toe
+    # of weight, thrust and uplift
+    slope = math.tan(dip)
+    moment = 2500. * GRAVITY * (depth * length_along * 0.5 * length_along
+                                + 0.5 * length_along**2 * slope * length_along / 3.)
+    moment -= thrust * (length_along * slope + head / 3.) + uplift * 2. / 3. * length
+    place = moment / (normal * length)  # of its resultant, over the length, from the toe
+    if normal < 0.1 * weight or tangent > 1.7 or not 0.4 < place < 0.6:
         return water(seed + 1000)
     in_plane = f"{WATER * head:.12g} * max(0, (10 - x) / {length_along:.12g})"
     in_crack = f"max(0, {WATER:.12g} * ({back[1] + head:.12g} - y))"
@@ -232,14 +240,16 @@ def water(seed):
 
 
 def wedge(seed):
-    """A tetrahedral wedge in the front (y = 0) and top of a box, on two planes."""
+    """A tetrahedral wedge in the front (y = 0) and top of a box, on two planes
+    so much alike that it does not turn."""
     rng = random.Random(f"wedge {seed}")
     top = 10.
     foot = (0., 0., rng.uniform(2., 5.))
-    plunge, trend = math.radians(rng.uniform(25, 55)), math.radians(rng.uniform(-20, 20))
+    plunge, trend = math.radians(rng.uniform(25, 55)), math.radians(rng.uniform(-8, 8))
     back = (top - foot[2]) / math.tan(plunge)
     apex = (back * math.sin(trend), back * math.cos(trend), top)
-    widths = [rng.uniform(0.4, 1.2) * (top - foot[2]) for _ in range(2)]
+    width = rng.uniform(0.5, 1.1) * (top - foot[2])
+    widths = [rng.uniform(0.85, 1.15) * width for _ in range(2)]
     corners = [(-widths[0], 0., top), (widths[1], 0., top)]
     along = unit([a - b for a, b in zip(foot, apex)])
     edges = [[b - a for a, b in zip(foot, p)] for p in (apex, *corners)]
@@ -258,14 +268,16 @@ def wedge(seed):
     driving = dot(load, along)
     if min(forces) < 0.05 * abs(load[2]):
         return wedge(seed + 1000)
-    tangents = [math.tan(math.radians(rng.uniform(15, 40))) for _ in range(2)]
-    cohesions = [rng.choice([0., 1.]) * rng.uniform(0., 0.3) * abs(load[2]) / sum(areas)
-                 for _ in range(2)]
+    angle = rng.uniform(15, 40)
+    tangents = [math.tan(math.radians(angle + rng.uniform(-3, 3))) for _ in range(2)]
+    # by the forces on the planes, so that cohesion does not turn the wedge
+    share = rng.choice([0., 1.]) * rng.uniform(0., 0.8)
+    cohesions = [share * t * f / a for t, f, a in zip(tangents, forces, areas)]
     factor = rng.uniform(1.05, 2.2)
     now = sum(t * f + c * a for t, f, c, a in zip(tangents, forces, cohesions, areas)) / driving
     tangents = [t * factor / now for t in tangents]
     cohesions = [c * factor / now for c in cohesions]
-    if max(tangents) > 2.:
+    if max(tangents) > 1.2:
         return wedge(seed + 1000)
     joints, sides = "", []
     for i, (name, corner) in enumerate(zip("AB", corners)):

@@ -11,6 +11,10 @@ namespace Keyblock
   {
     /** Gap over the size of a face beyond which a joint has come apart [-]. */
     constexpr double least_opening = 1e-3;
+
+    /** Impulse over the joint's mean from which on a point bears cohesion: one
+     * that hovers would take it and let go in turns [-]. */
+    constexpr double least_share = 0.1;
   } // namespace
 
 
@@ -103,29 +107,44 @@ namespace Keyblock
   void
   Contact<dim>::share_areas()
   {
+    // areas and impulses between two blocks on a joint
+    const auto between =
+      [](const unsigned int joint, const unsigned int a, const unsigned int b) {
+        return Footing{{joint, std::min(a, b), std::max(a, b)}};
+      };
     std::vector<Footing> near, pressed;
+    std::map<Footing, std::array<double, 2>> impulses; // number and sum
+    std::vector<std::pair<Footing, double>> impulse_at;
     for (const SurfaceContact<dim> &contact : contacts)
       if (contact.joint != none && has_cohesion[contact.joint] &&
           !contact.is_ridge)
         {
-          const Footing footing{
-            {contact.slave, contact.joint, contact.master_block}};
-          near.push_back(footing);
-          if (dot<dim>(contact.point.impulse, contact.point.normal) > 0.)
-            pressed.push_back(footing);
+          near.push_back(
+            {{contact.slave, contact.joint, contact.master_block}});
+          const double r =
+            std::max(0., dot<dim>(contact.point.impulse, contact.point.normal));
+          auto &sums = impulses[between(contact.joint,
+                                        search.block_of_slot[contact.slave],
+                                        contact.master_block)];
+          sums[0] += 1.;
+          sums[1] += r;
+          impulse_at.emplace_back(near.back(), r);
         }
+    for (const auto &[footing, r] : impulse_at)
+      {
+        const auto &sums = impulses[between(
+          footing[1], search.block_of_slot[footing[0]], footing[2])];
+        if (r > least_share * sums[1] / sums[0])
+          pressed.push_back(footing);
+      }
     std::sort(near.begin(), near.end());
     std::sort(pressed.begin(), pressed.end());
     if (near == shared_among[0] && pressed == shared_among[1])
       return;
     shared_among = {{near, pressed}};
     covered_area.clear();
-    // areas between two blocks on a joint: with points, and without any
+    // with points, and without any
     std::map<Footing, std::array<double, 2>> areas;
-    const auto between =
-      [](const unsigned int joint, const unsigned int a, const unsigned int b) {
-        return Footing{{joint, std::min(a, b), std::max(a, b)}};
-      };
     for (const FaceOverlap<dim> &overlap : overlaps)
       {
         const SurfaceFace<dim> &slave  = interface.surface[overlap.slave_face];

@@ -51,6 +51,10 @@ namespace Keyblock
     constexpr double steady_alone = 0.1;  ///< of a block that moves by itself
     constexpr double steady_along = 0.01; ///< of one whose neighbours go along
 
+    /** Slip over the block's compression by its load, before which speeding up
+     * may be no more than strength that is not yet mobilised [-]. */
+    constexpr double mobilising_slip = 0.1;
+
     /** Windows over which such an acceleration must stay. */
     constexpr unsigned int n_steady = 6;
 
@@ -178,6 +182,24 @@ namespace Keyblock
                                m.density));
         }
     return speed;
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::compression(const unsigned int block,
+                                   const double load) const
+  {
+    const Block<dim> &b = blocks.blocks[block];
+    double modulus      = 0.;
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      if (split.block_of_cell[c] == block)
+        {
+          const Material<dim> &m = *scene.materials[split.mesh.material[c]];
+          modulus = std::max(modulus, m.lame_lambda() + 2. * m.shear_modulus());
+        }
+    return load * b.size * b.size / (modulus * b.volume);
   }
 
 
@@ -393,7 +415,8 @@ namespace Keyblock
             const double share = own > 0. ? (early + late) / own : 0.;
             const double loss =
               share > free_share ? steady_alone : steady_along;
-            if (velocity[w - n_steady] >= 0. && early > 0. &&
+            if (slip > mobilising_slip * compression(block, now.load) &&
+                velocity[w - n_steady] >= 0. && early > 0. &&
                 late > (1. - loss) * early && share > least_share &&
                 share < most_share &&
                 mass * own / span >

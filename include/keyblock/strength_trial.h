@@ -137,6 +137,9 @@ namespace Keyblock
      * wave crosses one cell a step, and the block four times. */
     unsigned int period_of(const unsigned int block) const;
 
+    /** By how much @p load [N] compresses the block [m]. */
+    double compression(const unsigned int block, const double load) const;
+
     /** Largest speed of compression waves in the block [m/s]. */
     double wave_speed(const unsigned int block) const;
 

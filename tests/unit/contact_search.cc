@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Which nodes meet which faces: not those that lie behind them, both sides of a
+// kinked joint, and areas that add up to what lies on each other.
+#include <boost/test/unit_test.hpp>
+
+#include <keyblock/contact_search.h>
+#include <keyblock/mpi.h>
+#include <keyblock/slip_record.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+
+using namespace Keyblock;
+
+namespace
+{
+  /** Everything up to the search, of a box of rock whose joints are given. */
+  template <int dim>
+  struct Set
+  {
+    Set(const std::string &name,
+        const std::string &size,
+        const std::string &joints,
+        const double cell)
+    {
+      const std::string file =
+        "contact_search_" + name + "_" + std::to_string(n_ranks()) + ".prm";
+      if (is_root())
+        std::ofstream(file)
+          << "set Dimension = " << dim
+          << "\nsubsection Domain\n set Size = " << size
+          << "\n set Truncated boundaries = none\nend\n"
+          << "subsection Mesh\n set Generator = gmsh\n set Size = " << cell
+          << "\nend\nsubsection Materials\n set Names = rock\n subsection "
+             "rock\n"
+             "  set Young modulus = 1e9\n  set Density = 2000\n end\nend\n"
+             "subsection Stages\n set Names = rest\n subsection rest\n"
+             "  set Duration = 1\n end\nend\nsubsection Joints\n"
+          << joints << "end\n";
+      MPI_Barrier(world());
+      scene.read(file, {});
+      mesh   = make_mesh(scene);
+      blocks = find_blocks(mesh, scene);
+      split  = split_mesh(mesh, blocks, scene);
+      search = std::make_unique<ContactSearch<dim>>(split, blocks, scene);
+      for (const Point<dim> &place : search->place_of_slot)
+        for (unsigned int d = 0; d < dim; ++d)
+          position.push_back(place[d]);
+    }
+
+    /** Contacts where nothing has moved, no pair standing for any. */
+    std::vector<SurfaceContact<dim>>
+    contacts() const
+    {
+      search->search(position, [](const unsigned int, const unsigned int) {
+        return false;
+      });
+      std::vector<SurfaceContact<dim>> result;
+      search->evaluate(position, 1e-6, 0., result);
+      return result;
+    }
+
+    Scene<dim> scene;
+    Mesh<dim> mesh;
+    Blocks<dim> blocks;
+    SplitMesh<dim> split;
+    std::unique_ptr<ContactSearch<dim>> search;
+    std::vector<double> position;
+  };
+
+  /** Three planes through a point above a box's floor cut an acute block. */
+  std::string
+  acute_planes(std::mt19937 &random)
+  {
+    std::uniform_real_distribution<double> dip(50., 75.), turn(-15., 15.);
+    std::string text = " set Names = a, b, c\n";
+    for (unsigned int j = 0; j < 3; ++j)
+      text +=
+        std::string(" subsection ") + "abc"[j] +
+        "\n  set Point = 2, 2, 3\n  set Dip = " + std::to_string(dip(random)) +
+        "\n  set Dip direction = " + std::to_string(120. * j + turn(random)) +
+        "\n end\n";
+    return text;
+  }
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(contact_search)
+
+BOOST_AUTO_TEST_CASE(no_contact_through_rock)
+{
+  if (!is_root())
+    return;
+  std::mt19937 random(7);
+  for (unsigned int i = 0; i < 4; ++i)
+    {
+      const Set<3> set("acute", "4, 4, 4", acute_planes(random), 0.8);
+      // there are nodes right behind joint faces of their own block
+      unsigned int n_behind = 0, n_through = 0;
+      for (unsigned int f = 0; f < set.search->face_slots.size(); ++f)
+        {
+          const SurfaceFace<3> &face = set.split.interface.surface[f];
+          for (unsigned int slot = 0; slot < set.search->n_slots(); ++slot)
+            n_behind += face.joint != none &&
+                        set.search->block_of_slot[slot] == face.block &&
+                        set.search->start_distance(slot, f) < -1e-2;
+        }
+      const auto contacts = set.contacts();
+      for (const SurfaceContact<3> &contact : contacts)
+        n_through +=
+          set.search->start_distance(contact.slave, contact.face) < -1e-2 ||
+          contact.point.gap < -1e-6;
+      BOOST_TEST(n_behind > 100);
+      BOOST_TEST(contacts.size() > 50);
+      BOOST_TEST(n_through == 0);
+    }
+}
+
+// A crack with a kink in one block: both sides belong to the block, and every
+// node but the two ends meets the other side, also where a face of the other
+// limb is in front of it or behind it.
+BOOST_AUTO_TEST_CASE(kinked_joint_keeps_its_partners)
+{
+  if (!is_root())
+    return;
+  for (const char *end : {"3, 2.2", "3, 1.1", "1.4, 2.4"})
+    {
+      const Set<2> set("kink",
+                       "4, 3",
+                       std::string(
+                         " set Names = a, b\n subsection a\n  set "
+                         "Extent = polygon\n  set Vertices = 1, 1; 2, "
+                         "1.5\n end\n subsection b\n  set Extent = "
+                         "polygon\n  set Vertices = 2, 1.5; ") +
+                         end + "\n end\n",
+                       0.2);
+      BOOST_TEST(set.blocks.blocks.size() == 1);
+      std::vector<unsigned int> n_contacts(set.search->n_slots(), 0);
+      for (const SurfaceContact<2> &contact : set.contacts())
+        {
+          BOOST_TEST(std::abs(contact.point.gap) < 1e-6);
+          ++n_contacts[contact.slave];
+        }
+      unsigned int n_on_joints = 0, n_alone = 0;
+      for (const Pair<2> &pair : set.split.interface.pairs)
+        for (const unsigned int v : {pair.minus, pair.plus})
+          {
+            ++n_on_joints;
+            n_alone += n_contacts[set.search->slot_of_vertex[v]] == 0;
+          }
+      BOOST_TEST(n_on_joints > 10);
+      // the node on the convex side of the kink may leave it to its partner
+      BOOST_TEST(n_alone <= 2);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(overlaps_add_up)
+{
+  if (!is_root())
+    return;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> shift(-0.9, 0.9);
+  const Set<3> set("floor",
+                   "3, 2, 2",
+                   " set Names = floor\n subsection floor\n  set Point = 0, 0, "
+                   "1.1\n  set Dip = 0\n end\n",
+                   0.5);
+  BOOST_TEST_REQUIRE(set.blocks.blocks.size() == 2);
+  for (unsigned int i = 0; i < 10; ++i)
+    {
+      const double x               = i == 0 ? 0. : shift(random);
+      const double y               = i == 0 ? 0. : shift(random);
+      std::vector<double> position = set.position;
+      for (unsigned int slot = 0; slot < set.search->n_slots(); ++slot)
+        if (set.search->block_of_slot[slot] == 1)
+          {
+            position[3 * slot] += x;
+            position[3 * slot + 1] += y;
+          }
+      double area = 0., shares = 0.;
+      for (const auto &overlap : set.search->list_overlaps(position, {true}))
+        {
+          area += overlap.area;
+          for (unsigned int k = 0; k < 4; ++k)
+            shares += overlap.area *
+                      (overlap.slave_weight[k] + overlap.master_weight[k]);
+        }
+      const double exact = (3. - std::abs(x)) * (2. - std::abs(y));
+      BOOST_TEST(area == exact, boost::test_tools::tolerance(1e-9));
+      BOOST_TEST(shares == 2. * exact, boost::test_tools::tolerance(1e-9));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(overlap_is_found_and_measured)
+{
+  if (!is_root())
+    return;
+  const Set<2> set("pressed",
+                   "3, 2",
+                   " set Names = floor\n subsection floor\n  set Point = 0, "
+                   "1.1\n  set Dip = 0\n end\n",
+                   0.3);
+  const std::vector<bool> none_removed(2, false);
+  BOOST_TEST(
+    set.search->find_largest_overlap(set.position, none_removed).depth < 1e-12);
+  std::vector<double> position = set.position;
+  for (unsigned int slot = 0; slot < set.search->n_slots(); ++slot)
+    {
+      const Point<2> &place = set.search->place_of_slot[slot];
+      const bool is_upper =
+        set.blocks.blocks[set.search->block_of_slot[slot]].centroid[1] > 1.1;
+      if (is_upper)
+        position[2 * slot + 1] -= 1e-3 * place[0];
+    }
+  const Overlap<2> overlap =
+    set.search->find_largest_overlap(position, none_removed);
+  BOOST_TEST(overlap.depth == 3e-3, boost::test_tools::tolerance(1e-3));
+  BOOST_TEST(overlap.place[0] == 3., boost::test_tools::tolerance(1e-3));
+}
+
+BOOST_AUTO_TEST_CASE(steady_slip_is_told_from_creep)
+{
+  const auto is_steady = [](const auto &way_after) {
+    SlipRecord record;
+    record.restart(1000);
+    bool result = false;
+    for (unsigned int step = 1100; step <= 20000; step += 100)
+      if (record.offer(step, {0., way_after(step - 1000.)}))
+        result = result || record.is_steady(1, 0.01);
+    BOOST_TEST(!record.is_steady(0, 0.01));
+    return result;
+  };
+  BOOST_TEST(is_steady([](const double n) { return 1e-4 * n; }));
+  BOOST_TEST(is_steady([](const double n) { return 1e-8 * n * n; }));
+  BOOST_TEST(!is_steady([](const double n) { return 1e-7 * n; })); // too short
+  BOOST_TEST(!is_steady([](const double n) { return std::sqrt(n); }));
+  BOOST_TEST(
+    !is_steady([](const double n) { return 1. - std::exp(-n / 800.); }));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
