@@ -97,16 +97,16 @@ namespace Keyblock
 
 
   /** Rigid block on a shaken base, integrated with a fine step (Newmark
-   * 1965): it follows the base while that needs no more than mu g. */
+   * 1965): along the joint it follows the base while that needs no more than mu
+   * times its pressure, which the shaking changes. */
   template <int dim>
   CheckValues
   check_newmark(const CheckInput<dim> &input)
   {
     const BodyOnJoint<dim> body(input);
-    const double limit =
+    const double friction =
       tangent_of_kinetic_friction(body.joint->friction_angle,
-                                  body.joint->kinetic_friction_angle) *
-      std::abs(body.gravity * body.normal);
+                                  body.joint->kinetic_friction_angle);
     const Material<dim> *base = nullptr;
     for (const auto &material : input.scene.materials)
       if (material->is_rigid())
@@ -114,29 +114,53 @@ namespace Keyblock
     const Expression<dim> motion(base->rigid_velocity,
                                  dim,
                                  "Materials/*/Rigid velocity");
+    // away from the base, and along it
+    Tensor<1, dim> up = body.normal;
+    if (up * body.gravity > 0.)
+      up *= -1.;
+    Tensor<1, dim> ahead = -up[0] * up;
+    ahead[0] += 1.;
+    ahead /= ahead.norm();
+    const double pull    = body.gravity * ahead;
     const double start   = body.time.front() - input.stages.back().time_step;
     const double end     = body.time.back();
     const unsigned int n = 400000;
     const double dt      = (end - start) / n;
-    double v = motion.value(Point<dim>(), start, 0), slip = 0., base_path = 0.;
+    Tensor<1, dim> base_velocity = motion.vector(Point<dim>(), start);
+    double v = base_velocity * ahead, slip = 0., base_path = 0.;
     double stop = start;
     for (unsigned int i = 0; i < n; ++i)
       {
-        const double vb = motion.value(Point<dim>(), start + (i + 1) * dt, 0);
+        const Tensor<1, dim> before = base_velocity;
+        base_velocity   = motion.vector(Point<dim>(), start + (i + 1) * dt);
+        const double vb = base_velocity * ahead;
         const double middle =
-          motion.value(Point<dim>(), start + (i + 0.5) * dt, 0);
-        const double change = std::clamp(vb - v, -limit * dt, limit * dt);
-        const double old    = v;
-        v += change;
+          motion.vector(Point<dim>(), start + (i + 0.5) * dt) * ahead;
+        const double pressure =
+          (base_velocity - before) * up / dt - body.gravity * up;
+        const double limit = friction * std::max(0., pressure) * dt;
+        const double old   = v;
+        v += pull * dt + std::clamp(vb - v - pull * dt, -limit, limit);
         slip += (0.5 * (old + v) - middle) * dt;
         base_path += middle * dt;
-        if (std::abs(vb - v) > 1e-12 + limit * dt)
+        if (std::abs(vb - v) > 1e-12 + limit)
           stop = start + (i + 1) * dt;
       }
     CheckValues checks;
-    const auto path = body.column(body.body_name, "u_x");
+    const auto path = body.along(body.body_name, "u", ahead);
     compare(checks, "slip", std::abs(path.back() - base_path), std::abs(slip));
     checks.emplace_back("stop_time_reference", stop);
+    const auto normal_force = body.column(body.joint_name, "normal_force");
+    const double weight     = input.blocks.blocks[body.body].mass *
+                          std::abs(body.gravity * body.normal);
+    checks.emplace_back("least_pressure_over_weight",
+                        *std::min_element(normal_force.begin(),
+                                          normal_force.end()) /
+                          weight);
+    checks.emplace_back("greatest_pressure_over_weight",
+                        *std::max_element(normal_force.begin(),
+                                          normal_force.end()) /
+                          weight);
     checks.emplace_back("energy_residual",
                         input.stages.back().energies.relative_residual());
     return checks;

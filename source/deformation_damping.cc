@@ -11,7 +11,38 @@ namespace Keyblock
 {
   namespace
   {
-    using Space = dealii::Tensor<1, 3>;
+    /** Rates of rotation: one in 2D, three in 3D [rad/s]. */
+    template <int dim>
+    using Turn = dealii::Tensor<1, dim == 2 ? 1 : 3>;
+
+    /** x times v, as a moment. */
+    template <int dim>
+    Turn<dim>
+    moment(const dealii::Tensor<1, dim> &x, const dealii::Tensor<1, dim> &v)
+    {
+      Turn<dim> result;
+      if constexpr (dim == 2)
+        result[0] = x[0] * v[1] - x[1] * v[0];
+      else
+        result = dealii::cross_product_3d(x, v);
+      return result;
+    }
+
+    /** Velocity at @p x from a rotation about the origin. */
+    template <int dim>
+    dealii::Tensor<1, dim>
+    velocity_of(const Turn<dim> &turn, const dealii::Tensor<1, dim> &x)
+    {
+      dealii::Tensor<1, dim> result;
+      if constexpr (dim == 2)
+        {
+          result[0] = -turn[0] * x[1];
+          result[1] = turn[0] * x[0];
+        }
+      else
+        result = dealii::cross_product_3d(turn, x);
+      return result;
+    }
 
     /** Damping ratio from which on the lowest mode is damped critically [-]. */
     constexpr double full_ratio = 0.3;
@@ -21,91 +52,108 @@ namespace Keyblock
      * base [-]. */
     constexpr double critical_rate = 4.2;
 
-    /** Largest share of a velocity that is taken in one step: section 3 of
-     * doc/theory.md leaves that much at a safety of 0.9 [-]. */
-    constexpr double largest_share = 0.1;
-
-    /** Sums over weighted points that move, about an origin near them: the
-     * nearest motion of a rigid body. */
+    /** Sums over weighted points that move: they tell the nearest motion of a
+     * rigid body. The origin is near the points. */
+    template <int dim>
     struct RigidSums
     {
-      static constexpr unsigned int n = 16;
+      using Place = dealii::Tensor<1, dim>;
+
+      static constexpr unsigned int n_turns   = dim == 2 ? 1 : 3;
+      static constexpr unsigned int n_squares = dim == 2 ? 1 : 6;
+      static constexpr unsigned int n = 1 + 2 * dim + n_turns + n_squares;
+
+      /** Of weights, and weights times place, velocity, moment of velocity,
+       * products of places (in 2D the square of the distance). */
       std::array<double, n> sum{};
 
       void
-      add(const double weight, const Space &x, const Space &v)
+      add(const double weight, const Place &x, const Place &v)
       {
-        const Space spin = dealii::cross_product_3d(x, v);
-        sum[0] += weight;
-        for (unsigned int i = 0, k = 10; i < 3; ++i)
-          {
-            sum[1 + i] += weight * x[i];
-            sum[4 + i] += weight * v[i];
-            sum[7 + i] += weight * spin[i];
-            for (unsigned int j = i; j < 3; ++j, ++k)
-              sum[k] += weight * x[i] * x[j];
-          }
+        double *to = sum.data();
+        *to++ += weight;
+        for (int d = 0; d < dim; ++d)
+          *to++ += weight * x[d];
+        for (int d = 0; d < dim; ++d)
+          *to++ += weight * v[d];
+        const Turn<dim> spin = moment<dim>(x, v);
+        for (unsigned int i = 0; i < n_turns; ++i)
+          *to++ += weight * spin[i];
+        if constexpr (dim == 2)
+          *to += weight * (x * x);
+        else
+          for (int d = 0; d < dim; ++d)
+            for (int e = d; e < dim; ++e)
+              *to++ += weight * x[d] * x[e];
       }
 
-      Space
-      mean(const unsigned int first) const
+      bool
+      is_empty() const
       {
-        return Space({sum[first] / sum[0],
-                      sum[first + 1] / sum[0],
-                      sum[first + 2] / sum[0]});
+        return sum[0] <= 0.;
       }
-      Space
+
+      Place
       center() const
       {
         return mean(1);
       }
-      Space
+
+      Place
       velocity() const
       {
-        return mean(4);
+        return mean(1 + dim);
       }
 
-      /** Rate of rotation [rad/s], or @p otherwise where the points, on one
-       * line, do not tell it. */
-      template <int dim>
-      Space
-      rotation(const Space &otherwise) const
+      /** Rate of rotation, or @p otherwise where the points do not tell it, as
+       * those on one line in 3D. */
+      Turn<dim>
+      rotation(const Turn<dim> &otherwise) const
       {
-        if (sum[0] <= 0.)
+        if (is_empty())
           return otherwise;
-        const Space x    = center();
-        const Space spin = mean(7) - dealii::cross_product_3d(x, velocity());
-        dealii::SymmetricTensor<2, 3> moment;
-        for (unsigned int i = 0, k = 10; i < 3; ++i)
-          for (unsigned int j = i; j < 3; ++j, ++k)
-            moment[i][j] = -(sum[k] / sum[0] - x[i] * x[j]);
-        const double spread = -dealii::trace(moment);
-        moment += spread * dealii::unit_symmetric_tensor<3>();
-        if (dim == 2)
-          return spread > 0. ? Space({0., 0., spin[2] / spread}) : otherwise;
-        if (dealii::determinant(moment) <= 1e-6 * spread * spread * spread)
-          return otherwise;
-        return dealii::invert(moment) * spin;
+        const Place x  = center();
+        Turn<dim> spin = -1. * moment<dim>(x, velocity());
+        for (unsigned int i = 0; i < n_turns; ++i)
+          spin[i] += sum[1 + 2 * dim + i] / sum[0];
+        const double *square = sum.data() + n - n_squares;
+        if constexpr (dim == 2)
+          {
+            const double spread = square[0] / sum[0] - x * x;
+            return spread > 0. ? spin / spread : otherwise;
+          }
+        else
+          {
+            dealii::SymmetricTensor<2, dim> inertia;
+            for (int d = 0; d < dim; ++d)
+              for (int e = d; e < dim; ++e)
+                inertia[d][e] = x[d] * x[e] - *square++ / sum[0];
+            const double spread = -dealii::trace(inertia);
+            inertia += spread * dealii::unit_symmetric_tensor<dim>();
+            if (dealii::determinant(inertia) <= 1e-6 * std::pow(spread, 3))
+              return otherwise;
+            return dealii::invert(inertia) * spin;
+          }
+      }
+
+    private:
+      Place
+      mean(const unsigned int first) const
+      {
+        Place result;
+        for (int d = 0; d < dim; ++d)
+          result[d] = sum[first + d] / sum[0];
+        return result;
       }
     };
 
     template <int dim>
-    Space
-    in_space(const double *values)
+    dealii::Tensor<1, dim>
+    vector_of(const double *values)
     {
-      Space result;
+      dealii::Tensor<1, dim> result;
       for (int d = 0; d < dim; ++d)
         result[d] = values[d];
-      return result;
-    }
-
-    template <int dim>
-    Space
-    in_space(const Point<dim> &point)
-    {
-      Space result;
-      for (int d = 0; d < dim; ++d)
-        result[d] = point[d];
       return result;
     }
   } // namespace
@@ -177,7 +225,7 @@ namespace Keyblock
   void
   DeformationDamping<dim>::add_force(const Contact<dim> &contact,
                                      const double ratio,
-                                     const double dt,
+                                     const double largest_rate,
                                      const double *position)
   {
     std::vector<unsigned int> sliding;
@@ -189,20 +237,21 @@ namespace Keyblock
       return;
 
     // of the whole block by mass, of its faces by area
-    constexpr unsigned int n = RigidSums::n;
+    using Sums = RigidSums<dim>;
     std::vector<double> packed;
     const auto place = [&](const unsigned int node, const unsigned int block) {
-      return in_space<dim>(position + dim * node) -
-             in_space<dim>(blocks.blocks[block].centroid);
+      return vector_of<dim>(position + dim * node) -
+             vector_of<dim>(&blocks.blocks[block].centroid[0]);
+    };
+    const auto velocity = [&](const unsigned int node) {
+      return vector_of<dim>(fields.velocity.data() + dim * node);
     };
     for (const unsigned int b : sliding)
       {
-        RigidSums whole, faces;
+        Sums whole, faces;
         for (const Member &member : members[b])
           {
-            const Space x = place(member.node, b);
-            const Space v =
-              in_space<dim>(fields.velocity.data() + dim * member.node);
+            const auto x = place(member.node, b), v = velocity(member.node);
             whole.add(fields.mass[member.node], x, v);
             if (member.area > 0.)
               faces.add(member.area, x, v);
@@ -212,35 +261,33 @@ namespace Keyblock
       }
     sum_lists(packed);
 
-    for (unsigned int i = 0; i < sliding.size(); ++i)
+    const double *sums = packed.data();
+    for (const unsigned int b : sliding)
       {
-        const unsigned int b = sliding[i];
-        RigidSums whole, faces;
-        std::copy_n(packed.begin() + 2 * n * i, n, whole.sum.begin());
-        std::copy_n(packed.begin() + (2 * n * i + n), n, faces.sum.begin());
-        if (whole.sum[0] <= 0.)
+        Sums whole, faces;
+        std::copy_n(sums, Sums::n, whole.sum.begin());
+        std::copy_n(sums + Sums::n, Sums::n, faces.sum.begin());
+        sums += 2 * Sums::n;
+        if (whole.is_empty())
           continue;
         const double rate =
           std::min(critical_rate * std::min(1., ratio / full_ratio) *
                      stiffness[b] / std::sqrt(whole.sum[0]),
-                   largest_share / dt);
-        const Space center = whole.center(), velocity = whole.velocity();
-        const Space turn = whole.template rotation<dim>(Space());
-        Space rotation   = faces.template rotation<dim>(turn);
-        for (unsigned int d = 0; d < 3; ++d)
-          rotation[d] = std::clamp(rotation[d],
-                                   std::min(0., turn[d]),
-                                   std::max(0., turn[d]));
+                   largest_rate);
+        const auto center = whole.center(), mean = whole.velocity();
+        const Turn<dim> own = whole.rotation(Turn<dim>());
+        Turn<dim> turn      = faces.rotation(own);
+        for (unsigned int i = 0; i < Sums::n_turns; ++i)
+          turn[i] =
+            std::clamp(turn[i], std::min(0., own[i]), std::max(0., own[i]));
         for (const Member &member : members[b])
           {
-            const Space rigid =
-              velocity +
-              dealii::cross_product_3d(rotation,
-                                       place(member.node, b) - center);
+            const auto excess =
+              velocity(member.node) - mean -
+              velocity_of<dim>(turn, place(member.node, b) - center);
             const double factor = rate * fields.mass[member.node];
             for (int d = 0; d < dim; ++d)
-              fields.damping_force[dim * member.node + d] +=
-                factor * (fields.velocity[dim * member.node + d] - rigid[d]);
+              fields.damping_force[dim * member.node + d] += factor * excess[d];
           }
       }
   }

@@ -499,7 +499,9 @@ namespace Keyblock
     prm.add_parameter("Damping ratio",
                       damping_ratio,
                       "Stiffness-proportional damping: fraction of critical at "
-                      "each cell's highest frequency [-].",
+                      "each cell's highest frequency [-]. Without mass and "
+                      "local damping it damps also the deformation of finite "
+                      "blocks that slide, critically from 0.3 on.",
                       Double(0., 10.));
     prm.add_parameter("Mass damping",
                       mass_damping,

@@ -83,6 +83,18 @@ namespace Keyblock
 
 
   template <int dim>
+  double
+  StableStep<dim>::mass_damping_left(const Stage &stage, const double dt) const
+  {
+    const double y = 0.5 * frequency * dt;
+    const double c = stage.damping_ratio + 0.5 * stage.mass_damping / frequency;
+    return std::max(0., 1. / (1. + stage.local_damping) - y * (y + 2. * c)) *
+           frequency / y;
+  }
+
+
+
+  template <int dim>
   Conditions<dim>::Conditions(const Scene<dim> &scene,
                               const SplitMesh<dim> &split,
                               const Numbering<dim> &numbering,

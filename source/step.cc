@@ -349,10 +349,11 @@ namespace Keyblock
         numbering.add_hanging_to_masters(fields.damping_force);
         numbering.add_ghosts_to_owners(fields.damping_force);
         if (contact && stage.mass_damping == 0. && stage.local_damping == 0.)
-          deformation_damping.add_force(*contact,
-                                        stage.damping_ratio,
-                                        dt,
-                                        positions());
+          deformation_damping.add_force(
+            *contact,
+            stage.damping_ratio,
+            conditions.stable_step.mass_damping_left(stage, dt),
+            positions());
       }
     is_stress_current = true;
     force_seconds += MPI_Wtime() - start;

@@ -38,11 +38,11 @@ namespace Keyblock
     void begin_stage();
 
     /** Add the force, by velocities of the step before, to the damping force of
-     * a stage with the damping ratio @p ratio and steps of @p dt [s]
-     * (collective). */
+     * a stage with the damping ratio @p ratio; a is at most @p largest_rate
+     * [1/s] (collective). */
     void add_force(const Contact<dim> &contact,
                    const double ratio,
-                   const double dt,
+                   const double largest_rate,
                    const double *position);
 
   private:

@@ -39,6 +39,10 @@ namespace Keyblock
      * (sqrt(1 + zeta^2) - zeta) [s].
      */
     double limit(const Stage &stage) const;
+
+    /** Mass damping besides that of the stage with which steps of @p dt are
+     * still stable [1/s]. */
+    double mass_damping_left(const Stage &stage, const double dt) const;
   };
 
   /** What has been dug, taken away and ramped so far. */

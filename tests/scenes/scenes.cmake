@@ -14,6 +14,12 @@ keyblock_scene(verification/oblique_impact)
 keyblock_scene(verification/oblique_impact_stick)
 keyblock_scene(verification/newmark)
 keyblock_scene(verification/newmark_rectangular)
+keyblock_scene(verification/shaken_incline)
+keyblock_scene(verification/shaken_incline REFERENCES shaken_incline_8 RANKS 1
+  SET "Domain/Corner=-1, -0.0625" "Domain/Size=3, 0.5625" "Mesh/Cells=48, 9")
+keyblock_scene(verification/shaken_incline REFERENCES shaken_incline_damped
+  RANKS 1 SET "Stages/shake/Damping ratio=1")
+keyblock_scene(verification/shaken_incline_full_sine RANKS 1)
 foreach(case e1 e2a e2b e3a e3b e3c e3d sets_2d lines tunnel_15 tunnel_20
     tunnel_25 tunnel_30 cube_3 cube_4 sets_3d planes_4 planes_5 planes_6)
   keyblock_scene(verification/blocks_${case})
