@@ -12,7 +12,7 @@ stage; mesh: a small scene on damaged mesh files (MSH 2.2 and 4.1, UCD, VTK,
 Abaqus). Each seed gives --number mutants, every one from its own random
 numbers: --only repeats one. A mutant is at fault if it ends by a signal, with
 an exit code other than 0, 1 and 2, after --seconds (a run must then stop when
-it is asked to), with more or less than one sentence, with words of C++, MPI or
+it is asked to; a large mesh that was announced may take longer), with more or less than one sentence, with words of C++, MPI or
 Gmsh instead of a sentence, or with 0 and a number in summary.json or
 history.csv that is not finite. --memory: address space of a run [GB]; 0: no
 limit. Those at fault are kept in --keep. Exits with 1 if there is one.
@@ -418,26 +418,30 @@ def run(name, options, keep):
             command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n",
                        str(options.ranks)] + command
         with subprocess.Popen(
-                command + arguments, stdout=subprocess.DEVNULL,
+                command + arguments, stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, cwd=folder,
                 preexec_fn=limit_memory(options.memory)) as process:
             is_late = False
             try:
-                _, errors = process.communicate(timeout=options.seconds)
+                said, errors = process.communicate(timeout=options.seconds)
             except subprocess.TimeoutExpired:
                 is_late = True
                 process.send_signal(signal.SIGTERM)
                 try:
-                    _, errors = process.communicate(timeout=20)
+                    said, errors = process.communicate(timeout=20)
                 except subprocess.TimeoutExpired:
                     process.kill()
-                    _, errors = process.communicate()
+                    said, errors = process.communicate()
         errors = errors.decode("utf-8", errors="replace")
         code = process.returncode
         if is_late:
             is_stopped = kind == "run" and code == 128 + signal.SIGTERM
-            outcome = "stopped" if is_stopped else "time-out"
-            fault = "" if is_stopped else f"more than {options.seconds} s"
+            # the mutant asks for a mesh that takes long, and is told so
+            is_large = b"cells are to be made" in said
+            outcome = ("stopped" if is_stopped else
+                       "large mesh" if is_large else "time-out")
+            fault = ("" if is_stopped or is_large else
+                     f"more than {options.seconds} s")
         else:
             outcome = str(code)
             fault = judge(code, errors, kind != "validate", folder / "out")

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <iostream>
 #include <limits>
 #include <map>
 #include <set>
@@ -59,6 +60,9 @@ namespace Keyblock
     /** So is one whose thinnest cell has this part of what cuts would give:
      * its joints are where they should be. */
     constexpr double acceptable_part = 0.5;
+
+    /** A mesh that takes a while, so that its size is told beforehand. */
+    constexpr double many_cells = 1e5;
 
     /** Cells of exact meshes below this quality are mended. */
     constexpr double wanted_quality = 0.35;
@@ -619,13 +623,17 @@ namespace Keyblock
       const MeshSize<dim> size(scene, longest, demands);
       const double part = volume_of(scene.domain) / volume_of_box;
       // more cannot be: mostly it is seen at once that all is well
-      double n = part * volume_of_box / std::pow(size.smallest(), double(dim));
-      if (needed_memory<dim>(n, scene.joints.size()) < 0.5 * usable_memory())
+      if (part * volume_of_box / std::pow(size.smallest(), double(dim)) <
+          many_cells)
         return;
-      n = part * estimate_cells(size,
-                                outline.lower,
-                                outline.upper,
-                                std::numeric_limits<double>::max());
+      const double n =
+        part * estimate_cells(size,
+                              outline.lower,
+                              outline.upper,
+                              std::numeric_limits<double>::max());
+      if (n > many_cells)
+        std::cout << "Mesh    about " << std::setprecision(2) << n
+                  << " cells are to be made by Gmsh" << std::endl;
       require_size<dim>(n,
                         scene.joints.size(),
                         "'Mesh/Size' and the sizes at excavations and joints",

@@ -19,6 +19,9 @@ namespace
   {
     Scene<dim> scene;
     scene.read(KEYBLOCK_VERIFICATION_SCENES "/" + name, overrides);
+    // only rank 0 makes meshes, but all read together
+    if (!is_root())
+      return 1.;
     const Mesh<dim> mesh = make_gmsh_mesh<dim>(scene, {});
     Point<dim> low = mesh.vertices[0], high = low;
     for (const Point<dim> &p : mesh.vertices)
@@ -39,8 +42,6 @@ BOOST_AUTO_TEST_SUITE(size_limit)
 
 BOOST_AUTO_TEST_CASE(estimates_are_about_right)
 {
-  if (!is_root())
-    return;
   for (const std::string at_hole : {"0.05", "0.01", "0.2"})
     {
       const double ratio =
@@ -49,7 +50,9 @@ BOOST_AUTO_TEST_CASE(estimates_are_about_right)
       BOOST_TEST(ratio > 0.7);
       BOOST_TEST(ratio < 1.5);
     }
-  const double ratio = estimate_over_count<3>("blocks_e3a.prm", {});
+  // of meshes with few cells between joints, 1 m or 3 m here, more are made
+  const double ratio =
+    estimate_over_count<3>("blocks_planes_4.prm", {"Mesh/Size=0.5"});
   BOOST_TEST(ratio > 0.5);
   BOOST_TEST(ratio < 2.);
 }
