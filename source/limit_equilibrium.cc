@@ -173,8 +173,7 @@ namespace Keyblock
         case Mode::one_plane:
           return "sliding on " + all[faces[0]].name;
         case Mode::two_planes:
-          return "sliding on " + all[faces[0]].name + " and " +
-                 all[faces[1]].name;
+          return "sliding on " + all[faces[0]].name + "/" + all[faces[1]].name;
       }
     return "";
   }

@@ -221,7 +221,7 @@ namespace Keyblock
   {
     SafetyFactor result;
     result.block = block;
-    add_cheap_answers(block, result);
+    add_cheap_answers(block, number, result);
     trials.forget_failure();
     {
       Search search(*this, block, number, known, result.trials);
@@ -366,12 +366,16 @@ namespace Keyblock
   template <int dim>
   void
   StrengthReductionSearch<dim>::add_cheap_answers(const unsigned int block,
+                                                  const unsigned int number,
                                                   SafetyFactor &result) const
   {
-    const auto faces =
-      list_faces<dim>(scene, split, run.conditions, blocks.blocks[block]);
+    const IsDug is_dug = [&](const unsigned int cell) {
+      return run.conditions.is_dug(cell);
+    };
+    const Block<dim> &b = blocks.blocks[block];
+    const auto faces    = list_faces<dim>(scene, split, is_dug, b);
     const LimitEquilibrium<dim> limit = solve_limit_equilibrium<dim>(
-      faces, weight_of<dim>(scene, blocks.blocks[block], run.step.time));
+      faces, load_on<dim>(scene, split, is_dug, b, number, run.step.time));
     result.limit_mode   = limit.describe(faces);
     result.limit_factor = limit.factor;
     result.stress_ratio = stress_ratio<dim>(scene,

@@ -156,7 +156,7 @@ namespace Keyblock
         known.stable   = lowest;
         known.unstable = 1.;
         known.start    = lowest;
-        search.add_cheap_answers(block, result);
+        search.add_cheap_answers(block, number, result);
         if (std::isfinite(result.limit_factor))
           known.limit = result.limit_factor;
         result = search.find(block, number, known);
@@ -169,7 +169,7 @@ namespace Keyblock
         result.failure_mode = "falling";
         recall(before, parts());
         step->dig(number);
-        search.add_cheap_answers(block, result);
+        search.add_cheap_answers(block, number, result);
       }
     contact->reduce_strength(StrengthReduction());
     return result;
@@ -195,7 +195,7 @@ namespace Keyblock
         stage.unbalanced_ratio > 0.)
       known.stable = 1.;
     SafetyFactor cheap;
-    search.add_cheap_answers(block, cheap);
+    search.add_cheap_answers(block, index + 2, cheap);
     if (known.stable > 0.)
       known.onset = cheap.stress_ratio;
     if (std::isfinite(cheap.limit_factor))

@@ -555,9 +555,9 @@ namespace Keyblock
     std::string names;
     for (unsigned int j = 0; j < joint_force.size(); ++j)
       if (joint_force[j] > 0.01 * total && joint_force[j] > 0.)
-        names += (names.empty() ? "" : " and ") +
-                 (j < scene.joints.size() ? scene.joints[j]->name
-                                          : std::string("a free face"));
+        names += (names.empty() ? "" : "/") + (j < scene.joints.size()
+                                                 ? scene.joints[j]->name
+                                                 : std::string("a free face"));
     if (names.empty())
       return "falling";
     return (rotates ? "rotating on " : "sliding on ") + names;

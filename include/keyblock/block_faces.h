@@ -5,21 +5,38 @@
 #include <keyblock/limit_equilibrium.h>
 #include <keyblock/snapshot.h>
 
+#include <functional>
+
 namespace Keyblock
 {
-  /** The joints that @p block touches now, one face per joint and side, with
-   * their strengths and the force of water in them. */
+  /** Which cells of the split mesh are not there (any more). */
+  using IsDug = std::function<bool(unsigned int)>;
+
+  /** The joints that @p block touches, one face per joint and side, with their
+   * strengths and the force of water in them, summed as contact sums it. */
   template <int dim>
   std::vector<BlockFace<dim>> list_faces(const Scene<dim> &scene,
                                          const SplitMesh<dim> &split,
-                                         const Conditions<dim> &conditions,
+                                         const IsDug &is_dug,
                                          const Block<dim> &block);
 
-  /** Gravity and seismic load of @p block at @p time [N]. */
+  /** Gravity, seismic load, and tractions on the free faces of @p block, in
+   * stage @p number at @p time [N]. */
   template <int dim>
-  Tensor<1, dim> weight_of(const Scene<dim> &scene,
-                           const Block<dim> &block,
-                           const double time);
+  Tensor<1, dim> load_on(const Scene<dim> &scene,
+                         const SplitMesh<dim> &split,
+                         const IsDug &is_dug,
+                         const Block<dim> &block,
+                         const unsigned int number,
+                         const double time);
+
+  /** Limit equilibrium of the finite blocks after each stage, by geometry and
+   * scene alone, in one line each. */
+  template <int dim>
+  void print_limit_equilibria(std::ostream &out,
+                              const Scene<dim> &scene,
+                              const SplitMesh<dim> &split,
+                              const Blocks<dim> &blocks);
 
   /** Shear strength over shear force on the faces that a block slides on
    * (@p sliding, indices; empty: on all), with the forces of now; 0: none. */

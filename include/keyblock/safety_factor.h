@@ -81,6 +81,7 @@ namespace Keyblock
 
     /** Limit equilibrium and stress ratio of @p block in the present state. */
     void add_cheap_answers(const unsigned int block,
+                           const unsigned int number,
                            SafetyFactor &result) const;
 
   private:

@@ -100,20 +100,20 @@ BOOST_AUTO_TEST_CASE(four_sets_around_an_opening)
   check_face(theory,
              "roof",
              {{"1011", {"sliding on 2", 0.23326}},
-              {"1101", {"sliding on 2 and 3", 1.41479}}});
+              {"1101", {"sliding on 2/3", 1.41479}}});
   check_face(theory,
              "floor",
              {{"0010", {"stable", infinity}}, {"0100", {"stable", infinity}}});
   check_face(theory,
              "wall facing 0",
              {{"1100", {"sliding on 4", 2.50078}},
-              {"1101", {"sliding on 2 and 3", 1.41479}},
-              {"1110", {"sliding on 3 and 4", 2.95671}}});
+              {"1101", {"sliding on 2/3", 1.41479}},
+              {"1110", {"sliding on 3/4", 2.95671}}});
   check_face(theory,
              "wall facing 180",
-             {{"0001", {"sliding on 1 and 3", 1.07713}},
+             {{"0001", {"sliding on 1/3", 1.07713}},
               {"0010", {"stable", infinity}},
-              {"0011", {"sliding on 1 and 2", 0.35339}}});
+              {"0011", {"sliding on 1/2", 0.35339}}});
 }
 
 BOOST_AUTO_TEST_CASE(level_edge_makes_a_block_infinite)
@@ -241,7 +241,7 @@ BOOST_AUTO_TEST_CASE(report_of_block_theory)
         "    2  2                    68.0          243.0            30.0\n",
         "  roof              1011         0.233  sliding on 2; at most ",
         "  floor             stable: 0010 0100\n",
-        "  wall facing 180   0011         0.353  sliding on 1 and 2\n"})
+        "  wall facing 180   0011         0.353  sliding on 1/2\n"})
     BOOST_TEST((out.str().find(text) != std::string::npos), text);
   const auto tree = block_theory_as_tree(theory);
   BOOST_TEST(tree.get_child("joint_pyramids").size() == 16);
