@@ -160,7 +160,8 @@ namespace Keyblock
               !is_near(crossing.t) || touches_pair(ridges[r], ridges[other]) ||
               touches_pair(ridges[other], ridges[r]))
             continue;
-          ridge_pairs.push_back({other, r});
+          ridge_pairs.push_back(
+            {other, r, largest_overlap_of(ridges[other], ridges[r])});
         }
     std::sort(ridge_pairs.begin(),
               ridge_pairs.end(),
@@ -168,6 +169,32 @@ namespace Keyblock
                 return std::array<unsigned int, 2>{{x.slave, x.master}} <
                        std::array<unsigned int, 2>{{y.slave, y.master}};
               });
+  }
+
+
+
+  template <>
+  double
+  ContactSearch<3>::largest_overlap_of(const Ridge &master,
+                                       const Ridge &slave) const
+  {
+    const auto start = [&](const unsigned int slot) {
+      return at<3>(start_position, slot);
+    };
+    const Vector<3> a0 = start(master.slots[0]), a1 = start(master.slots[1]);
+    const double size = norm<3>(difference<3>(a1, a0));
+    const Crossing crossing =
+      cross_segments(a0, a1, start(slave.slots[0]), start(slave.slots[1]));
+    const double outward =
+      dot<3>(crossing.normal,
+             add<3>(face_normal(start_position, master.faces[0]),
+                    1.,
+                    face_normal(start_position, master.faces[1])));
+    const double behind =
+      -std::copysign(1., outward) * dot<3>(crossing.normal, crossing.offset);
+    return behind > least_behind * size
+             ? std::min(way_out * behind, overlap_from_behind * size)
+             : deepest_overlap * size;
   }
 
 
@@ -199,7 +226,7 @@ namespace Keyblock
                           face_normal(position, master.faces[1]))) < 0.)
           normal = difference<3>(Vector<3>{}, normal);
         const double gap = dot<3>(normal, crossing.offset);
-        if (gap > reach || gap < -0.5 * norm<3>(difference<3>(a1, a0)) ||
+        if (gap > reach || gap < -pair.largest_overlap ||
             !is_in_normal_cone(position, master, normal) ||
             !is_in_normal_cone(position,
                                slave,

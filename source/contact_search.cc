@@ -23,15 +23,6 @@ namespace Keyblock
      * the size of a face [-]. */
     constexpr double least_bend = 1e-4, farthest_bend = 2.;
 
-    /** Overlap over the size of a face beyond which a node is not in contact
-     * with the face, but somewhere behind it [-]. */
-    constexpr double largest_overlap = 0.5;
-
-    /** The same for nodes that lay behind the face from the start, and how far
-     * over the size that has to be; over how far they lay behind it [-]. */
-    constexpr double overlap_from_behind = 0.05, least_behind = 1e-3,
-                     way_out = 0.5;
-
     /** Sine of what an edge may dip below the plane on which its end stands. */
     constexpr double dip_of_edges = 0.34;
 
@@ -248,7 +239,7 @@ namespace Keyblock
   {
     const Projection now = project(position, at<dim>(position, slave), face);
     const double before  = -start_distance(slave, face);
-    CandidateFace result{face, largest_overlap * now.size, 0.};
+    CandidateFace result{face, deepest_overlap * now.size, 0.};
     if (before > least_behind * now.size)
       result.largest_overlap =
         std::min(way_out * before, overlap_from_behind * now.size);

@@ -168,6 +168,7 @@ namespace Keyblock
     struct RidgePair
     {
       unsigned int master, slave;
+      double largest_overlap; ///< as in CandidateFace [m]
     };
 
     void place_slots(const Mesh<dim> &mesh, const Scene<dim> &scene);
@@ -177,6 +178,10 @@ namespace Keyblock
     void search_ridges(
       const std::vector<double> &position,
       const std::function<bool(unsigned int, unsigned int)> &is_paired);
+
+    /** Overlap beyond which crossing ridges are no contact [m]: less for such
+     * as lay beyond each other from the start. */
+    double largest_overlap_of(const Ridge &master, const Ridge &slave) const;
 
     void add_ridge_contacts(const std::vector<double> &position,
                             const double reach,
@@ -269,6 +274,15 @@ namespace Keyblock
     std::vector<RidgePair> ridge_pairs;
     double skin_width;
 
+    /** Overlap over the size of a face beyond which a node is not in contact
+     * with the face, but somewhere behind it [-]. */
+    static constexpr double deepest_overlap = 0.5;
+
+    /** The same for nodes that lay behind the face from the start, and how far
+     * over the size that has to be; over how far they lay behind it [-]. */
+    static constexpr double overlap_from_behind = 0.05, least_behind = 1e-3,
+                            way_out = 0.5;
+
     /** Cosine of 20 degrees: faces that differ by more make a sharp edge. */
     static constexpr double cosine_of_sharp = 0.9396926207859084;
   };
@@ -279,6 +293,9 @@ namespace Keyblock
   void ContactSearch<3>::search_ridges(
     const std::vector<double> &position,
     const std::function<bool(unsigned int, unsigned int)> &is_paired);
+  template <>
+  double ContactSearch<3>::largest_overlap_of(const Ridge &master,
+                                              const Ridge &slave) const;
   template <>
   void ContactSearch<3>::add_ridge_contacts(
     const std::vector<double> &position,
