@@ -31,6 +31,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import unicodedata
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -402,7 +403,7 @@ def judge(code, errors, is_run, folder):
     start = "Error: " if code == 1 else "Failed: "
     if not errors.startswith(start) or errors.strip().count("\n") > 0:
         return f"exit {code}, but not one sentence"
-    if not errors.strip().isprintable():
+    if any(unicodedata.category(c) == "Cc" for c in errors.strip()):
         return f"exit {code}, with control characters"
     return ""
 

@@ -45,7 +45,9 @@ namespace Keyblock
                              text,
                              {{"pi", dealii::numbers::PI}},
                              true);
-        value(dealii::Point<dim>(), 0., 0);
+        // each is parsed only when it is asked for
+        for (unsigned int c = 0; c < n_components; ++c)
+          value(dealii::Point<dim>(), 0., c);
       }
     catch (const dealii::ExceptionBase &)
       {
