@@ -414,7 +414,8 @@ namespace Keyblock
       }
     const SolverReport report =
       solve_group<dim>(points, broken, nodes, settings);
-    n_capped += report.is_capped;
+    n_capped += report.is_capped && !is_tied;
+    ++n_solved;
     n_iterations = std::max(n_iterations, report.n_iterations);
   }
 

@@ -168,6 +168,11 @@ namespace Keyblock
     constexpr double creep_shrinkage      = 0.99;
     constexpr unsigned int creep_interval = 32;
 
+    // sweeps that have not come to an end in a quarter of those allowed go
+    // round in circles, as points stick and slide in turns: steps of this share
+    // end it
+    constexpr double relaxation_of_cycles = 0.5;
+
     // a point is visited again when a node of it has changed by this share of
     // what ends the sweeps
     constexpr double stale_share = 0.1;
@@ -276,12 +281,16 @@ namespace Keyblock
             const ContactNodes<dim> &nodes,
             const SolverSettings &settings)
     {
-      double largest = 0., impulse_change = 0.;
+      double largest = 0., impulse_change = 0., relaxation = 1.;
       const auto visit = [&](ContactPoint<dim> &point) {
-        const PointResponse<dim> response =
-          respond<dim>(point, nodes, settings.step);
-        const Vector<dim> difference =
-          add<dim>(response.impulse, -1., point.impulse);
+        PointResponse<dim> response = respond<dim>(point, nodes, settings.step);
+        Vector<dim> difference = add<dim>(response.impulse, -1., point.impulse);
+        if (relaxation != 1.)
+          {
+            for (double &component : difference)
+              component *= relaxation;
+            response.impulse = add<dim>(point.impulse, 1., difference);
+          }
         apply_impulse<dim>(point, difference, nodes);
         point.impulse  = response.impulse;
         point.status   = response.status;
@@ -300,6 +309,8 @@ namespace Keyblock
       while (report.n_iterations < settings.maximum_iterations)
         {
           ++report.n_iterations;
+          if (report.n_iterations > settings.maximum_iterations / 4)
+            relaxation = relaxation_of_cycles;
           impulse_change = 0.;
           for (unsigned int p = 0; p < points.size(); ++p)
             if (group.is_due(points[p], p))

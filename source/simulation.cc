@@ -458,6 +458,7 @@ namespace Keyblock
     report.mass_scaling   = conditions->mass_scaling;
     report.skipped_steps  = sum_over_ranks(step->n_skipped);
     report.capped_groups  = sum_over_ranks(contact ? contact->n_capped : 0);
+    report.solved_groups  = sum_over_ranks(contact ? contact->n_solved : 0.);
     monitors->write_csv(folder + "history.csv");
     output->write_summary(quality,
                           mesh_report,
@@ -470,6 +471,11 @@ namespace Keyblock
                           geostress.get());
     if (!is_root())
       return;
+    if (report.capped_groups > 0)
+      std::cout << "Warning: " << report.capped_groups << " contact groups of "
+                << report.solved_groups
+                << " were left at 'Contact/Maximum iterations', not solved to "
+                   "'Contact/Tolerance'.\n";
     for (const auto &[name, value] : checks)
       std::cout << "Check   " << name << " = " << std::setprecision(9) << value
                 << '\n';

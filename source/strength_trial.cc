@@ -53,7 +53,7 @@ namespace Keyblock
 
     /** Slip over the block's compression by its load, before which speeding up
      * may be no more than strength that is not yet mobilised [-]. */
-    constexpr double mobilising_slip = 0.1;
+    constexpr double mobilising_slip = 0.02;
 
     /** Windows over which such an acceleration must stay. */
     constexpr unsigned int n_steady = 6;

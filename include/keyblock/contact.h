@@ -134,6 +134,7 @@ namespace Keyblock
 
     ContactWork work;              ///< sum since the start, this rank's share
     unsigned int n_capped     = 0; ///< groups that reached the cap
+    double n_solved           = 0; ///< groups solved by iteration
     unsigned int n_iterations = 0; ///< largest of the last step
     unsigned int n_searches   = 0;
     unsigned int n_mobile     = 0; ///< slots solved on all ranks

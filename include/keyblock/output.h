@@ -49,6 +49,7 @@ namespace Keyblock
     double skipped_steps       = 0.; ///< of element_steps: cells at rest
     double element_steps       = 0.;
     unsigned int capped_groups = 0;
+    double solved_groups       = 0.; ///< by iteration, in this run
     std::string stable_step_place;
     std::string stable_step_joints; ///< that touch the cell there
     double step_ratio = 1.; ///< least over median of the cells at the start
