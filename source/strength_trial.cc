@@ -39,7 +39,8 @@ namespace Keyblock
     constexpr unsigned int patience = 8;
 
     /** Length of the second phase, at most, in periods of the block's lowest
-     * mode: what is open then goes back to the first one, which damps [-]. */
+     * mode, the first time and so much longer each time after it: what is open
+     * then goes back to the first one, which damps [-]. */
     constexpr double watch_periods = 20.;
 
     // acceleration of slip over that of the block [-]
@@ -349,6 +350,7 @@ namespace Keyblock
   template <int dim>
   typename StrengthTrials<dim>::Verdict
   StrengthTrials<dim>::watch(const unsigned int block,
+                             const double periods,
                              const Vector<dim> &first,
                              Trial &trial)
   {
@@ -362,7 +364,7 @@ namespace Keyblock
     const double seconds = window * run.step.dt;
     const unsigned int n_windows =
       std::max(n_steady + 1.,
-               std::min(watch_periods, scene.safety.maximum_periods) /
+               std::min(periods, scene.safety.maximum_periods) /
                  scene.safety.window);
     const Vector<dim> at_rest = run.contact->mean_slip(block);
     const double mass         = mass_in_use(block);
@@ -475,7 +477,8 @@ namespace Keyblock
           return Verdict::holds;
         trial.phase = 2;
         run.step.begin_stage(moving, number);
-        const Verdict verdict = watch(block, first, trial);
+        const Verdict verdict =
+          watch(block, (round + 1) * watch_periods, first, trial);
         if (verdict != Verdict::open)
           return verdict;
       }

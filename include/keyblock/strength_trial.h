@@ -116,9 +116,11 @@ namespace Keyblock
                 const Vector<dim> &first,
                 Trial &trial);
 
-    /** Phase 2. */
-    Verdict
-    watch(const unsigned int block, const Vector<dim> &first, Trial &trial);
+    /** Phase 2, over @p periods of the block's lowest mode at most. */
+    Verdict watch(const unsigned int block,
+                  const double periods,
+                  const Vector<dim> &first,
+                  Trial &trial);
 
     /** Whether the resultant is too small for the bracket to tell. */
     bool is_as_good_as_at_rest(const Trial &trial) const;
