@@ -474,7 +474,8 @@ namespace Keyblock
     if (report.capped_groups > 0)
       std::cout << "Warning: " << report.capped_groups << " contact groups of "
                 << report.solved_groups
-                << " were left at 'Contact/Maximum iterations', not solved to "
+                << " in this run were left at 'Contact/Maximum iterations', "
+                   "not solved to "
                    "'Contact/Tolerance'.\n";
     for (const auto &[name, value] : checks)
       std::cout << "Check   " << name << " = " << std::setprecision(9) << value

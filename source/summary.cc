@@ -324,7 +324,6 @@ namespace Keyblock
         run.loop_time > 0. ? 1e-6 * run.element_steps / run.loop_time : 0.);
     put(run_tree, "peak_memory_bytes", memory);
     put(run_tree, "capped_contact_groups", run.capped_groups);
-    put(run_tree, "solved_contact_groups", run.solved_groups);
     for (const StageReport &stage : stages)
       {
         Tree tree;
