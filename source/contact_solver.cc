@@ -168,9 +168,8 @@ namespace Keyblock
     constexpr double creep_shrinkage      = 0.99;
     constexpr unsigned int creep_interval = 32;
 
-    // sweeps that have not come to an end in a quarter of those allowed go
-    // round in circles, as points stick and slide in turns: steps of this share
-    // end it
+    // larger changes that do not shrink go round in circles, as points stick
+    // and slide in turns: steps of this share end it
     constexpr double relaxation_of_cycles = 0.5;
 
     // a point is visited again when a node of it has changed by this share of
@@ -309,8 +308,6 @@ namespace Keyblock
       while (report.n_iterations < settings.maximum_iterations)
         {
           ++report.n_iterations;
-          if (report.n_iterations > settings.maximum_iterations / 4)
-            relaxation = relaxation_of_cycles;
           impulse_change = 0.;
           for (unsigned int p = 0; p < points.size(); ++p)
             if (group.is_due(points[p], p))
@@ -326,8 +323,12 @@ namespace Keyblock
             return report;
           if (report.n_iterations % creep_interval == 0)
             {
-              if (is_small && change > creep_shrinkage * earlier_change)
+              const bool has_shrunk =
+                change <= creep_shrinkage * earlier_change;
+              if (is_small && !has_shrunk)
                 return report;
+              if (!has_shrunk)
+                relaxation = relaxation_of_cycles;
               earlier_change = change;
             }
         }

@@ -281,7 +281,7 @@ namespace Keyblock
       row.replace(
         strength.tensile_strength, C::tensile_strength, 0., all, "Pa");
       row.replace(
-        strength.residual_cohesion, C::residual_cohesion, 0., all, "Pa");
+        strength.residual_cohesion, C::residual_cohesion, -1., all, "Pa");
       if (!row.has(C::water_pressure))
         return;
       const double unit       = row.columns.at(C::water_pressure).unit;

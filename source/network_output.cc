@@ -204,7 +204,7 @@ namespace Keyblock
           << exact_text(joint->kinetic_friction_angle) << ','
           << exact_text(joint->cohesion) << ','
           << exact_text(joint->tensile_strength) << ','
-          << exact_text(joint->cohesion_of_sliding()) << ','
+          << exact_text(joint->residual_cohesion) << ','
           << field(joint->water_pressure) << '\n';
     check_written(out, file_name);
   }
