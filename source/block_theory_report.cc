@@ -19,7 +19,7 @@ namespace Keyblock
     {
       std::ostringstream out;
       out << '#' << std::setprecision(17) << value;
-      return Tree(std::isfinite(value) ? out.str() : "#null");
+      return Tree(out.str());
     }
 
     /** Angle below the horizontal [deg]. */
@@ -152,7 +152,10 @@ namespace Keyblock
         Tree one;
         one.push_back({"code", Tree(pyramid.code)});
         one.push_back({"mode", Tree(pyramid.mode)});
-        one.push_back({"factor", number(pyramid.factor)});
+        const bool is_stable = std::isinf(pyramid.factor);
+        one.push_back({"outcome", Tree(is_stable ? "stable" : "factor")});
+        if (!is_stable)
+          one.push_back({"factor", number(pyramid.factor)});
         pyramids.push_back({"", one});
       }
     for (const FreeFace<dim> &face : theory.faces)

@@ -25,6 +25,21 @@ namespace Keyblock
                    0,
                    world());
     }
+
+    /** A list that was read must be as long as mesh and ranks want it. */
+    void
+    assert_length(const std::string &entry,
+                  const std::size_t found,
+                  const std::size_t wanted)
+    {
+      AssertThrow(found == wanted,
+                  InputError("The entry '" + entry +
+                             "' of the checkpoint has " +
+                             std::to_string(found) + " numbers instead of " +
+                             std::to_string(wanted) +
+                             "; name another by --restart, or leave --restart "
+                             "out to start anew."));
+    }
   } // namespace
 
 
@@ -146,6 +161,8 @@ namespace Keyblock
     file.exchange(entry, list);
     if (!file.is_read())
       return;
+    if (!list.empty())
+      assert_length(entry, list.size(), n_values * split.mesh.vertices.size());
     field.assign(list.empty() ? 0 : n_values * n_nodes, 0.);
     for (unsigned int node = 0; node < n_nodes && !list.empty(); ++node)
       std::copy_n(list.begin() + n_values * numbering.vertex_of_node[node],
@@ -178,9 +195,13 @@ namespace Keyblock
         sum_to_root(list);
       }
     file.exchange(entry, list);
-    if (file.is_read())
-      for (unsigned int c = first; c < cells.mesh_cell.size(); ++c)
-        std::copy_n(place(c), n_values, begin(c));
+    if (!file.is_read())
+      return;
+    assert_length(entry,
+                  list.size(),
+                  std::size_t(n_values) * split.mesh.n_cells());
+    for (unsigned int c = first; c < cells.mesh_cell.size(); ++c)
+      std::copy_n(place(c), n_values, begin(c));
   }
 
 
@@ -241,7 +262,8 @@ namespace Keyblock
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       for (unsigned int q = 0; q < n_points; ++q)
         {
-          const auto s = cells.stress_at(c, q);
+          // as it is kept, to the last digit (CellArrays::stress)
+          const auto s = cells.stress.at(c, q);
           std::copy(s.begin(),
                     s.end(),
                     stress.begin() + std::size_t(n_values) * c +
@@ -256,7 +278,7 @@ namespace Keyblock
                         n_stress<dim> * q,
                       n_stress<dim>,
                       s.begin());
-          cells.set_stress(c, q, s);
+          cells.stress.set(c, q, s);
         }
     exchange_cells(group + "plastic_strain",
                    cells,
@@ -294,6 +316,7 @@ namespace Keyblock
     file.exchange(entry, rows);
     if (!file.is_read())
       return;
+    assert_length(entry, rows.size(), n * interface.pairs.size());
     state.clear();
     for (std::size_t i = 0; i < rows.size(); i += n)
       state.push_back(from_numbers<PairState<dim>>(rows.data() + i));

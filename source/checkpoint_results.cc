@@ -177,6 +177,9 @@ namespace Keyblock
     file.exchange(group + "stage_begin", history.stage_begin);
     if (!file.is_read() || !is_root())
       return;
+    AssertThrow(rows.size() % n == 0,
+                InputError("The history in the checkpoint has other columns "
+                           "than this scene; name another by --restart."));
     history.rows.clear();
     for (std::size_t i = 0; i + n <= rows.size(); i += n)
       history.rows.emplace_back(rows.begin() + i, rows.begin() + i + n);

@@ -97,7 +97,9 @@ namespace Keyblock
       {"toppling", check_toppling<dim>},
       {"rotation", check_rotation<dim>}};
     const auto found = closed_forms.find(input.scene.checks.closed_form);
-    return found == closed_forms.end() ? CheckValues() : found->second(input);
+    return found == closed_forms.end() || !input.history.has_last_stage()
+             ? CheckValues()
+             : found->second(input);
   }
 
   template CheckValues evaluate_checks(const CheckInput<2> &);

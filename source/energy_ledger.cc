@@ -38,6 +38,28 @@ namespace Keyblock
 
 
 
+  const std::array<std::string, n_energy_terms> &
+  Energies::names()
+  {
+    static const std::array<std::string, n_energy_terms> list = {
+      {"kinetic",
+       "elastic",
+       "external",
+       "supports",
+       "friction",
+       "contact_closure",
+       "penetration",
+       "stiffness_damping",
+       "mass_damping",
+       "local_damping",
+       "plastic",
+       "excavated",
+       "start"}};
+    return list;
+  }
+
+
+
   Energies
   Energies::from_array(const std::array<double, n_energy_terms> &values)
   {
@@ -184,6 +206,25 @@ namespace Keyblock
 
   template <int dim>
   void
+  ExplicitStep<dim>::sample_start()
+  {
+    Energies mine;
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+        mine.kinetic +=
+          0.5 * fields.mass[node] * fields.velocity[i] * fields.velocity[i];
+    mine.elastic = elastic_energy<dim>(cells, positions()) +
+                   fields.far_field.stored_energy(fields.displacement);
+    mine.start                                = mine.kinetic + mine.elastic;
+    std::array<double, n_energy_terms> values = mine.as_array();
+    sum_lists(values);
+    energies = Energies::from_array(values);
+  }
+
+
+
+  template <int dim>
+  void
   ExplicitStep<dim>::sample_unbalanced_force()
   {
     double unbalanced = 0., largest = 0., n_free = 0.;
@@ -236,6 +277,8 @@ namespace Keyblock
   template void ExplicitStep<3>::book_supports();
   template void ExplicitStep<2>::sample_energies();
   template void ExplicitStep<3>::sample_energies();
+  template void ExplicitStep<2>::sample_start();
+  template void ExplicitStep<3>::sample_start();
   template void ExplicitStep<2>::sample_unbalanced_force();
   template void ExplicitStep<3>::sample_unbalanced_force();
 } // namespace Keyblock

@@ -418,8 +418,9 @@ namespace Keyblock
 
 
   template <int dim>
-  void
-  Monitors<dim>::sample(const ExplicitStep<dim> &step, const unsigned int stage)
+  std::vector<double>
+  Monitors<dim>::make_row(const ExplicitStep<dim> &step,
+                          const unsigned int stage)
   {
     std::vector<double> row = {double(stage), double(step.n_steps), step.time};
     for (unsigned int m = 0; m < scene.monitors.size(); ++m)
@@ -454,6 +455,27 @@ namespace Keyblock
                               e.residual(),
                               step.unbalanced_ratio})
       row.push_back(term);
+    return row;
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample_start(const ExplicitStep<dim> &step)
+  {
+    const std::vector<double> row = make_row(step, 0);
+    if (is_root())
+      history.rows.push_back(row);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample(const ExplicitStep<dim> &step, const unsigned int stage)
+  {
+    const std::vector<double> row = make_row(step, stage);
     while (history.stage_begin.size() <= stage)
       history.stage_begin.push_back(history.rows.size());
     if (is_root())

@@ -9,16 +9,6 @@
 
 namespace Keyblock
 {
-  namespace
-  {
-    /** What must be equal to continue; the number is to grow whenever the
-     * entries of a checkpoint change. */
-    const std::string written_by =
-      std::string("keyblock ") + KEYBLOCK_VERSION + ", checkpoint format 1";
-  } // namespace
-
-
-
   template <int dim>
   void
   Simulation<dim>::save_if_due()
@@ -41,11 +31,10 @@ namespace Keyblock
   void
   Simulation<dim>::save()
   {
-    check_finite();
+    check_state();
     StateFile file;
-    std::string program = written_by, entries = scene.used_entries(),
+    std::string entries        = scene.used_entries(),
                 mesh_signature = signature(split);
-    file.exchange("origin/written_by", program);
     file.exchange("origin/entries", entries);
     file.exchange("origin/mesh", mesh_signature);
     put_state(file);
@@ -125,13 +114,7 @@ namespace Keyblock
   Simulation<dim>::check_origin(StateFile &file) const
   {
     const std::string anew = ", or leave --restart out to start anew.";
-    std::string program, entries;
-    file.exchange("origin/written_by", program);
-    AssertThrow(program == written_by,
-                InputError("The checkpoint '" + checkpoint +
-                           "' was written by " + program + ", and this is " +
-                           written_by +
-                           "; continue with the program that wrote it" + anew));
+    std::string entries;
     file.exchange("origin/entries", entries);
     unsigned int index = 0;
     file.exchange("run/stage", index);

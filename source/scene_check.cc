@@ -669,6 +669,22 @@ namespace Keyblock
               checks.length > 0.,
             "The entry 'Check/Length' is 0, but the closed form " + form +
               " needs the length of the bar in metres.");
+    require(form != "newmark" ||
+              std::any_of(materials.begin(),
+                          materials.end(),
+                          [](const auto &m) {
+                            return m->is_rigid() && !m->rigid_velocity.empty();
+                          }),
+            "The entry 'Check/Closed form' is newmark, which needs a material "
+            "that moves by 'Rigid velocity'; set that of the base.");
+    require((form != "bar_impact" && form != "oblique_impact") ||
+              !initial_state.velocity.empty(),
+            "The entry 'Check/Closed form' is " + form +
+              ", which needs the body's 'Initial state/Velocity'; set it.");
+    require(form != "bond_break" ||
+              (!supports.empty() && !supports.front()->velocity.empty()),
+            "The entry 'Check/Closed form' is bond_break, which needs a first "
+            "support that pulls; set its 'Velocity'.");
     require(form == "none" || !stages.empty(),
             "The entry 'Check/Closed form' is " + form +
               ", but 'Stages/Names' is empty; name a stage to measure.");

@@ -7,6 +7,7 @@
 #include <keyblock/initial_tension.h>
 #include <keyblock/mpi.h>
 #include <keyblock/network_output.h>
+#include <keyblock/step_count.h>
 #include <keyblock/teams.h>
 
 #include <unistd.h>
@@ -102,6 +103,7 @@ namespace Keyblock
       remarks.push_back(tension);
     list_welded_joints();
     count_cells();
+    check_durations();
     std::ostringstream place;
     for (unsigned int d = 0; d < dim; ++d)
       place << (d ? ", " : "") << conditions->stable_step.place[d];
@@ -344,9 +346,12 @@ namespace Keyblock
     unsigned int next = 0;
     if (checkpoint.empty())
       {
+        establish_initial_state();
+        step->sample_start();
+        check_state();
+        monitors->sample_start(*step);
         if (scene.output.write_vtu)
           output->write_vtu(step->time);
-        establish_initial_state();
       }
     else
       {
@@ -364,34 +369,11 @@ namespace Keyblock
 
   template <int dim>
   void
-  Simulation<dim>::check_finite()
+  Simulation<dim>::check_durations() const
   {
-    unsigned int bad = none;
-    for (unsigned int node = 0; node < numbering->n_owned() && bad == none;
-         ++node)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (!std::isfinite(fields.velocity[dim * node + d]))
-          bad = numbering->vertex_of_node[node];
-    bad = min_over_ranks(bad);
-    if (bad == none)
-      return;
-    unsigned int block = none;
-    for (unsigned int c = 0; c < split.mesh.n_cells() && block == none; ++c)
-      for (const unsigned int v : split.mesh.cells[c])
-        if (v == bad)
-          block = split.block_of_cell[c];
-    if (scene.output.write_vtu)
-      output->write_vtu(step->time);
-    monitors->write_csv(folder + "history.csv");
-    AssertThrow(false,
-                ComputationError(
-                  "The velocity is not finite at step " +
-                  std::to_string(step->n_steps) + " (time " +
-                  std::to_string(step->time) + " s) in block " +
-                  std::to_string(block == none ? 0 : blocks.blocks[block].id) +
-                  "; the last state is in '" + folder +
-                  "solution.pvd'. Lower 'Time stepping/Safety', or raise "
-                  "'Damping ratio'."));
+    for (const auto &stage : scene.stages)
+      if (stage->duration > 0. && n_cells_global > 0)
+        count_steps(*stage, step->longest_step(*stage));
   }
 
 
@@ -469,6 +451,7 @@ namespace Keyblock
                           safety_factors,
                           removal_stage,
                           geostress.get());
+    check_history();
     if (!is_root())
       return;
     if (report.capped_groups > 0)

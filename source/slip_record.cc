@@ -16,7 +16,7 @@ namespace Keyblock
 
 
   void
-  SlipRecord::restart(const unsigned int n_steps)
+  SlipRecord::restart(const std::uint64_t n_steps)
   {
     begin = n_steps;
     steps.clear();
@@ -26,9 +26,10 @@ namespace Keyblock
 
 
   bool
-  SlipRecord::offer(const unsigned int n_steps, const std::vector<double> &slip)
+  SlipRecord::offer(const std::uint64_t n_steps,
+                    const std::vector<double> &slip)
   {
-    const unsigned int n = n_steps - begin;
+    const std::uint64_t n = n_steps - begin;
     if (n < (steps.empty() ? first_record : 2 * steps[0]))
       return false;
     steps.insert(steps.begin(), n);
@@ -59,7 +60,7 @@ namespace Keyblock
 
   SlipRecord::Motion
   SlipRecord::motion_since(const unsigned int block,
-                           const unsigned int n_steps,
+                           const std::uint64_t n_steps,
                            const double slip) const
   {
     const unsigned int record = steps.size() > 1 ? 1 : 0;

@@ -231,6 +231,7 @@ namespace Keyblock
         removal_stage = removed;
         is_converged  = was_converged;
         result.stage  = scene.stages[index]->name;
+        check_factor(result);
         safety_factors.push_back(result);
         print_factor(result);
         count_cells();

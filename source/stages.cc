@@ -4,6 +4,7 @@
 #include <keyblock/geostress.h>
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
+#include <keyblock/step_count.h>
 #include <keyblock/teams.h>
 
 #include <algorithm>
@@ -47,17 +48,6 @@ namespace Keyblock
       std::ostringstream text;
       text << std::setprecision(2) << value;
       return text.str();
-    }
-
-    /** Number of steps of length @p dt [s] in a stage. */
-    unsigned int
-    plan_steps(const Stage &stage, const double dt)
-    {
-      const unsigned int n_steps = stage.duration > 0.
-                                     ? std::lround(stage.duration / dt)
-                                     : stage.maximum_steps;
-      return stage.maximum_steps > 0 ? std::min(n_steps, stage.maximum_steps)
-                                     : n_steps;
     }
   } // namespace
 
@@ -158,6 +148,7 @@ namespace Keyblock
           step_through(stage, present);
         report.element_steps +=
           double(step->n_steps - present.first_step) * n_cells_global;
+        check_state();
         report_stage(stage, present.n_done);
         present.is_reported = true;
         save_if_due();
@@ -250,7 +241,7 @@ namespace Keyblock
     double loop_start        = MPI_Wtime();
     if (progress.n_done == 0)
       progress.n_planned = plan_steps(stage, step->dt);
-    const unsigned int n_steps = progress.n_planned;
+    const std::uint64_t n_steps = progress.n_planned;
     const unsigned int interval =
       stage.is_quasi_static()
         ? std::max(scene.output.history_interval, quasi_static_interval)
@@ -271,11 +262,13 @@ namespace Keyblock
     is_converged = stage.unbalanced_ratio == 0. || stage.duration > 0.;
     while (progress.n_done < n_steps)
       {
-        const unsigned int i = ++progress.n_done;
-        const bool is_last   = i == n_steps;
+        const std::uint64_t i = ++progress.n_done;
+        const bool is_last    = i == n_steps;
         const bool is_sample =
           i % interval == 0 || is_last || i == 1 || progress.has_removed;
         step->advance(is_sample);
+        if (is_sample)
+          check_sample();
         if (is_sample && !is_trial)
           monitors->sample(*step, index);
         // the ledger starts anew when a block is taken away
@@ -412,7 +405,7 @@ namespace Keyblock
 
   template <int dim>
   void
-  Simulation<dim>::report_stage(const Stage &stage, const unsigned int n_steps)
+  Simulation<dim>::report_stage(const Stage &stage, const std::uint64_t n_steps)
   {
     StageReport result;
     result.name                = stage.name;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/state_file.h>
+#include <keyblock/state_seal.h>
 
 #include <fcntl.h>
 #include <hdf5.h>
@@ -9,7 +10,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <sstream>
 
 namespace Keyblock
@@ -52,6 +52,12 @@ namespace Keyblock
     type_of(const unsigned int)
     {
       return H5T_NATIVE_UINT;
+    }
+
+    hid_t
+    type_of(const std::uint64_t)
+    {
+      return H5T_NATIVE_UINT64;
     }
 
     hid_t
@@ -109,9 +115,13 @@ namespace Keyblock
       const Handle set(H5Dopen2(file, entry.c_str(), H5P_DEFAULT), H5Dclose);
       const Handle space(set >= 0 ? H5Dget_space(set) : -1, H5Sclose);
       const hssize_t n = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
-      std::vector<T> list(n > 0 ? n : 0);
+      // nothing is allocated that the file cannot fill
+      hsize_t size        = 0;
+      const bool has_list = n >= 0 && H5Fget_filesize(file, &size) >= 0 &&
+                            hsize_t(n) <= size / sizeof(T);
+      std::vector<T> list(has_list ? n : 0);
       const bool is_loaded =
-        n >= 0 &&
+        has_list &&
         (n == 0 ||
          H5Dread(
            set, type_of(T()), H5S_ALL, H5S_ALL, H5P_DEFAULT, list.data()) >= 0);
@@ -134,24 +144,36 @@ namespace Keyblock
       return bytes;
     }
 
-    /** Write @p bytes and wait for the disk. Returns whether that worked. */
+    /** Returns whether that worked. */
     bool
-    write_through(const std::string &file_name, const std::vector<char> &bytes)
+    write_bytes(const int out, const char *bytes, const std::size_t length)
     {
-      const int out =
-        open(file_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-      if (out < 0)
-        return false;
       std::size_t at = 0;
-      while (at < bytes.size())
+      while (at < length)
         {
-          const ssize_t n = ::write(out, bytes.data() + at, bytes.size() - at);
+          const ssize_t n = ::write(out, bytes + at, length - at);
           if (n < 0 && errno != EINTR)
             break;
           at += n > 0 ? n : 0;
         }
-      const bool is_complete = at == bytes.size() && fsync(out) == 0;
-      const int reason       = errno;
+      return at == length;
+    }
+
+    /** Write @p content behind its seal and wait for the disk. Returns whether
+     * that worked. */
+    bool
+    write_through(const std::string &file_name,
+                  const std::vector<char> &content)
+    {
+      const std::string seal = make_seal(content);
+      const int out =
+        open(file_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+      if (out < 0)
+        return false;
+      const bool is_complete =
+        write_bytes(out, seal.data(), seal.size()) &&
+        write_bytes(out, content.data(), content.size()) && fsync(out) == 0;
+      const int reason = errno;
       close(out);
       errno = reason;
       return is_complete;
@@ -179,10 +201,7 @@ namespace Keyblock
   {
     on_root([&]() {
       H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-      AssertThrow(std::filesystem::exists(name),
-                  InputError("The checkpoint '" + name +
-                             "' does not exist; name another by --restart, or "
-                             "leave --restart out to start anew."));
+      check_seal(name);
       file = H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
       AssertThrow(file >= 0,
                   InputError("The file '" + name +
@@ -248,6 +267,15 @@ namespace Keyblock
 
 
   void
+  StateFile::exchange(const std::string &entry,
+                      std::vector<std::uint64_t> &list)
+  {
+    exchange_list(entry, list);
+  }
+
+
+
+  void
   StateFile::exchange(const std::string &entry, std::string &text)
   {
     std::vector<char> list(text.begin(), text.end());
@@ -271,6 +299,16 @@ namespace Keyblock
   StateFile::exchange(const std::string &entry, unsigned int &value)
   {
     std::vector<unsigned int> list = {value};
+    exchange_list(entry, list);
+    value = list.at(0);
+  }
+
+
+
+  void
+  StateFile::exchange(const std::string &entry, std::uint64_t &value)
+  {
+    std::vector<std::uint64_t> list = {value};
     exchange_list(entry, list);
     value = list.at(0);
   }

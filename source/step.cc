@@ -3,6 +3,7 @@
 
 #include <keyblock/mpi.h>
 #include <keyblock/predict.h>
+#include <keyblock/step_count.h>
 
 #include <algorithm>
 #include <cmath>
@@ -116,13 +117,24 @@ namespace Keyblock
     resting.forget();
     deformation_damping.begin_stage();
     n_searches_seen = none; // contact searches in the first step
-    dt = scene.time_stepping.safety * conditions.stable_step.limit(stage);
-    if (scene.time_stepping.maximum_step > 0. && !stage.is_quasi_static())
-      dt = std::min(dt, scene.time_stepping.maximum_step);
+    dt              = longest_step(stage);
     // a whole number of steps in the stage
     if (stage.duration > 0.)
-      dt = stage.duration / std::ceil(stage.duration / dt - 1e-9);
+      dt = stage.duration / count_steps(stage, dt);
     return dt;
+  }
+
+
+
+  template <int dim>
+  double
+  ExplicitStep<dim>::longest_step(const Stage &stage) const
+  {
+    const double stable =
+      scene.time_stepping.safety * conditions.stable_step.limit(stage);
+    return scene.time_stepping.maximum_step > 0. && !stage.is_quasi_static()
+             ? std::min(stable, scene.time_stepping.maximum_step)
+             : stable;
   }
 
 

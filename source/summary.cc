@@ -18,17 +18,40 @@ namespace Keyblock
   {
     using Tree = boost::property_tree::ptree;
 
-    /** A number that the JSON writer is to leave unquoted. */
+    /** A number that the JSON writer is to leave unquoted. One that is not
+     * finite is taken out again (take_out_not_finite). */
     std::string
     number(const double value)
     {
       std::ostringstream out;
-      out << std::setprecision(17);
-      if (std::isfinite(value))
-        out << "#" << value;
-      else
-        out << "#null";
+      out << '#' << std::setprecision(17) << value;
       return out.str();
+    }
+
+    /** Take numbers that are not finite out of @p tree, and list their paths,
+     * which begin with @p path. */
+    void
+    take_out_not_finite(Tree &tree,
+                        const std::string &path,
+                        std::vector<std::string> &found)
+    {
+      unsigned int index = 0;
+      for (auto entry = tree.begin(); entry != tree.end(); ++index)
+        {
+          const std::string name =
+            path + (path.empty() ? "" : "/") +
+            (entry->first.empty() ? std::to_string(index) : entry->first);
+          const std::string &text = entry->second.data();
+          if (text == "#inf" || text == "#-inf" || text == "#nan" ||
+              text == "#-nan")
+            {
+              found.push_back(name);
+              entry = tree.erase(entry);
+              continue;
+            }
+          take_out_not_finite(entry->second, name, found);
+          ++entry;
+        }
     }
 
     template <typename T>
@@ -43,6 +66,16 @@ namespace Keyblock
       else
         text = value;
       tree.push_back({key, Tree(text)});
+    }
+
+    /** The factor of limit equilibrium, or that there is none that fails. */
+    void
+    put_limit_factor(const double factor, Tree &tree)
+    {
+      const bool is_stable = std::isinf(factor) && factor > 0.;
+      put(tree, "outcome", std::string(is_stable ? "stable" : "factor"));
+      if (!is_stable)
+        put(tree, "value", factor);
     }
 
     template <int dim>
@@ -147,8 +180,7 @@ namespace Keyblock
           strength.push_back({"", one});
           put(cheap, "stage", factor.stage);
           put(cheap, "mode", factor.limit_mode);
-          if (std::isfinite(factor.limit_factor))
-            put(cheap, "value", factor.limit_factor);
+          put_limit_factor(factor.limit_factor, cheap);
           limit.push_back({"", cheap});
           put(stress, "stage", factor.stage);
           put(stress, "value", factor.stress_ratio);
@@ -269,6 +301,13 @@ namespace Keyblock
         }
       return list;
     }
+    /** Throw ComputationError on all ranks if rank 0 has a @p message. */
+    void
+    assert_finite(const std::string &message)
+    {
+      const std::string text = text_of_root(message);
+      AssertThrow(text.empty(), ComputationError(text));
+    }
   } // namespace
 
 
@@ -288,7 +327,11 @@ namespace Keyblock
     const double memory         = sum_over_ranks(peak_memory());
     const std::string file_name = folder + "summary.json";
     if (!is_root())
-      return assert_written(true, file_name);
+      {
+        assert_written(true, file_name);
+        assert_finite("");
+        return;
+      }
     Tree root, program, scene_tree, run_tree, stage_list, monitors, check_tree;
     put(program, "version", std::string(KEYBLOCK_VERSION));
     put(program, "deal_ii_version", std::string(DEAL_II_PACKAGE_VERSION));
@@ -390,6 +433,15 @@ namespace Keyblock
     root.add_child("monitors", monitors);
     root.add_child("checks", check_tree);
 
+    std::vector<std::string> not_finite;
+    take_out_not_finite(root, "", not_finite);
+    if (!not_finite.empty())
+      {
+        Tree list;
+        for (const std::string &name : not_finite)
+          list.push_back({"", Tree(name)});
+        root.add_child("not_finite", list);
+      }
     std::ostringstream json;
     boost::property_tree::write_json(json, root);
     // property trees write all values as strings; ours marked theirs
@@ -404,6 +456,16 @@ namespace Keyblock
     std::ofstream out(file_name);
     out << text;
     assert_written(bool(out.flush()), file_name);
+    assert_finite(
+      not_finite.empty()
+        ? ""
+        : "The value '" + not_finite.front() + "' of '" + file_name +
+            "' is not finite" +
+            (not_finite.size() > 1
+               ? ", nor are " + std::to_string(not_finite.size() - 1) +
+                   " others"
+               : "") +
+            "; the file lists them under 'not_finite' and leaves them out.");
   }
 
   template void Output<2>::write_summary(const MeshQuality &,

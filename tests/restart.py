@@ -23,6 +23,7 @@ import json
 import math
 import os
 import random
+import re
 import resource
 import signal
 import subprocess
@@ -189,7 +190,7 @@ def stop(process, checkpoint, ranks):
 
 
 def expect_refusals(checkpoint, ranks):
-    """Another scene and another version are refused with a sentence."""
+    """Another scene, another version and damage are refused with a sentence."""
     extra = ["--restart", checkpoint]
     folder = options.folder + "_refused"
     expect(run(command_of(folder, ranks, 0, extra + ["--set",
@@ -197,17 +198,27 @@ def expect_refusals(checkpoint, ranks):
            1, "'Time stepping/Safety' is '0.9' there and '0.7' here")
     with open(checkpoint, "rb") as file:
         content = file.read()
-    assert content.count(b", checkpoint format ") == 1
-    other = options.folder + "_other_version.h5"
-    with open(other, "wb") as file:
-        file.write(content.replace(b", checkpoint format ",
-                                   b", checkpoint Format "))
-    expect(run(command_of(folder, ranks, 0, ["--restart", other])), 1,
-           "was written by keyblock")
-    with open(other, "wb") as file:
-        file.write(content[:len(content) // 2])
-    expect(run(command_of(folder, ranks, 0, ["--restart", other])), 1,
-           "is not a checkpoint")
+    middle = len(content) // 2
+    changed = bytes([content[middle] ^ 1])
+    other = options.folder + "_other.h5"
+    for text, words in (
+            (re.sub(rb"written by keyblock [^\n]*", lambda found:
+                    b"written by keyblock 9.9".ljust(len(found[0]), b"9"),
+                    content, count=1), "was written by keyblock 9.9"),
+            (content.replace(b", format ", b", format 9", 1), "is of format 9"),
+            (content[512:], "is of format 1, without a checksum"),
+            (content[:middle], "is damaged: it has"),
+            (content[:middle] + changed + content[middle + 1:],
+             "is damaged: its checksum"),
+            (content[:300] + b"x" + content[301:],
+             "is damaged: its first 512 bytes"),
+            (b"words", "is not a checkpoint")):
+        with open(other, "wb") as file:
+            file.write(text)
+        expect(run(command_of(folder, ranks, 0, ["--restart", other])), 1,
+               words)
+    expect(run(command_of(folder, ranks, 0, ["--restart", "/dev/zero"])), 1,
+           "not a file")
     assert not os.path.exists(folder), "something was written"
 
 

@@ -5,6 +5,7 @@
 #include <keyblock/predict.h>
 
 #include <array>
+#include <string>
 
 namespace Keyblock
 {
@@ -38,6 +39,10 @@ namespace Keyblock
     }
 
     std::array<double, n_energy_terms> as_array() const;
+
+    /** Their names, in the order of as_array(). */
+    static const std::array<std::string, n_energy_terms> &names();
+
     static Energies
     from_array(const std::array<double, n_energy_terms> &values);
 

@@ -18,6 +18,13 @@ namespace Keyblock
     /** First row of each stage. */
     std::vector<unsigned int> stage_begin;
 
+    /** Whether the last stage has any row. */
+    bool
+    has_last_stage() const
+    {
+      return !stage_begin.empty() && stage_begin.back() < rows.size();
+    }
+
     bool has(const std::string &name) const;
 
     /** Values of column @p name (without unit) from row @p begin on. */
@@ -49,6 +56,10 @@ namespace Keyblock
     /** Append a row (collective). */
     void sample(const ExplicitStep<dim> &step, const unsigned int stage);
 
+    /** Append the row of the state before the first step, which no stage
+     * counts as its own (collective). */
+    void sample_start(const ExplicitStep<dim> &step);
+
     /** Write all rows so far (collective). */
     void write_csv(const std::string &file_name) const;
 
@@ -71,6 +82,8 @@ namespace Keyblock
      * follows instead [m]. */
     void look_for_location(const Monitor<dim> &monitor, const double distance);
     void name_columns();
+    std::vector<double> make_row(const ExplicitStep<dim> &step,
+                                 const unsigned int stage);
     void sample_joint(const Monitor<dim> &monitor, std::vector<double> &row);
 
     void sample_support(const Monitor<dim> &monitor, std::vector<double> &row);

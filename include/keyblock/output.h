@@ -6,6 +6,7 @@
 #include <keyblock/monitors.h>
 #include <keyblock/safety_factor.h>
 
+#include <cstdint>
 #include <map>
 
 namespace Keyblock
@@ -20,7 +21,7 @@ namespace Keyblock
   struct StageReport
   {
     std::string name;
-    unsigned int steps         = 0;
+    std::uint64_t steps        = 0;
     double time_step           = 0.;
     double unbalanced_ratio    = 0.;
     double max_displacement    = 0.;
@@ -39,7 +40,7 @@ namespace Keyblock
   /** Figures of the whole run, for summary.json. */
   struct RunReport
   {
-    unsigned int steps         = 0;
+    std::uint64_t steps        = 0;
     double time_step           = 0.;
     double simulated_time      = 0.;
     double wall_time           = 0.;
@@ -79,6 +80,8 @@ namespace Keyblock
     /** Write the state at @p time (collective). */
     void write_vtu(const double time);
 
+    /** Numbers that are not finite are left out of summary.json and listed
+     * there; then throws ComputationError (collective). */
     void write_summary(const MeshQuality &quality,
                        const MeshReport<dim> &mesh_report,
                        const RunReport &run,

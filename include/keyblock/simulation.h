@@ -15,14 +15,14 @@ namespace Keyblock
   template <int dim>
   struct StageProgress
   {
-    unsigned int index      = 0; ///< into Scene::stages
-    unsigned int first_step = 0; ///< of the run, when the stage began
-    unsigned int n_planned  = 0; ///< steps
-    unsigned int n_done     = 0;
-    unsigned int n_vtu      = 0;     ///< outputs written
-    bool has_removed        = false; ///< a block, in the last step
-    bool is_reported        = false; ///< only safety factors are left
-    bool wants_factors      = false;
+    unsigned int index       = 0; ///< into Scene::stages
+    std::uint64_t first_step = 0; ///< of the run, when the stage began
+    std::uint64_t n_planned  = 0; ///< steps
+    std::uint64_t n_done     = 0;
+    unsigned int n_vtu       = 0;     ///< outputs written
+    bool has_removed         = false; ///< a block, in the last step
+    bool is_reported         = false; ///< only safety factors are left
+    bool wants_factors       = false;
     SlipRecord slips;     ///< since the ramp has ended
     Snapshot<dim> before; ///< the state it began with, if it wants factors
   };
@@ -184,9 +184,30 @@ namespace Keyblock
     }
     void pace_ramp(const Stage &stage);
     double ramp_duration_of(const Stage &stage) const;
-    void report_stage(const Stage &stage, const unsigned int n_steps);
+    void report_stage(const Stage &stage, const std::uint64_t n_steps);
     std::string name_what_moves(const StageProgress<dim> &progress) const;
+
+    // Numbers that are not finite end the run with a ComputationError that
+    // says which and where (finite_check.cc; all collective).
+
+    /** Displacements and velocities of all nodes. */
     void check_finite();
+
+    /** The same, stresses, and what was measured of the last step. */
+    void check_state();
+
+    /** Energies and the unbalanced force, as last sampled. */
+    void check_sample();
+    void check_factor(const SafetyFactor &factor);
+    void check_history() const;
+
+    /** The block and the step where the quantity @p what is at fault. */
+    [[noreturn]] void fail_not_finite(const std::string &what,
+                                      const unsigned int block);
+
+    /** Whether all stages take a number of steps that can be made. Throws
+     * InputError. */
+    void check_durations() const;
     void report_progress(const unsigned int stage, const double fraction);
     void finish();
 

@@ -2,6 +2,7 @@
 #ifndef keyblock_slip_record_h
 #define keyblock_slip_record_h
 
+#include <cstdint>
 #include <vector>
 
 namespace Keyblock
@@ -16,11 +17,11 @@ namespace Keyblock
   public:
     /** Forget everything and begin at step @p n_steps, as while a ramp is still
      * going on. */
-    void restart(const unsigned int n_steps);
+    void restart(const std::uint64_t n_steps);
 
     /** Offer the slip [m] of all blocks after @p n_steps; whether it is taken.
      */
-    bool offer(const unsigned int n_steps, const std::vector<double> &slip);
+    bool offer(const std::uint64_t n_steps, const std::vector<double> &slip);
 
     /** Whether a block went on, in the half of the time that ended with the
      * last record, by at least @p way [m] and three quarters as fast as in the
@@ -32,15 +33,15 @@ namespace Keyblock
     struct Motion
     {
       double way;
-      unsigned int n_steps;
+      std::uint64_t n_steps;
     };
     Motion motion_since(const unsigned int block,
-                        const unsigned int n_steps,
+                        const std::uint64_t n_steps,
                         const double slip) const;
 
     /** For checkpoints: the records, newest first. */
-    unsigned int begin = 0; ///< step from which steps are counted
-    std::vector<unsigned int> steps;
+    std::uint64_t begin = 0; ///< step from which steps are counted
+    std::vector<std::uint64_t> steps;
     std::vector<double> slips; ///< of all blocks, record by record [m]
 
   private:

@@ -9,7 +9,8 @@
 namespace Keyblock
 {
   /**
-   * Named lists of numbers and texts in an HDF5 file, names like `run/time`.
+   * Named lists of numbers and texts in an HDF5 file behind a seal, names like
+   * `run/time`.
    * One call of exchange() serves both directions: it hands the value to a file
    * that is being made, or sets it from one that is read. Only rank 0 touches
    * the file; its values are the ones that are saved, and what is read is the
@@ -24,7 +25,8 @@ namespace Keyblock
     /** A new file. */
     StateFile();
 
-    /** Read the file called @p name. Throws InputError. */
+    /** Read the file called @p name, if its seal is in order (state_seal.h).
+     * Throws InputError. */
     explicit StateFile(const std::string &name);
 
     /** Read what image() of another file gave. */
@@ -42,9 +44,11 @@ namespace Keyblock
 
     void exchange(const std::string &entry, std::vector<double> &list);
     void exchange(const std::string &entry, std::vector<unsigned int> &list);
+    void exchange(const std::string &entry, std::vector<std::uint64_t> &list);
     void exchange(const std::string &entry, std::string &text);
     void exchange(const std::string &entry, double &value);
     void exchange(const std::string &entry, unsigned int &value);
+    void exchange(const std::string &entry, std::uint64_t &value);
     void exchange(const std::string &entry, bool &value);
     void exchange(const std::string &entry, std::vector<bool> &list);
 

@@ -9,6 +9,7 @@
 #include <keyblock/set_up.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 
 namespace Keyblock
@@ -16,9 +17,9 @@ namespace Keyblock
   /** All that the step remembers besides the arrays. */
   struct StepState
   {
-    double time          = 0.; ///< of displacements [s]
-    unsigned int n_steps = 0;
-    double dt            = 0.;
+    double time           = 0.; ///< of displacements [s]
+    std::uint64_t n_steps = 0;
+    double dt             = 0.;
     Energies energies; ///< as of the last sampled step
 
     /** Sum of |unbalanced force| on free nodes over the sum of |driving force|,
@@ -116,8 +117,15 @@ namespace Keyblock
     }
 
     /** Call the masses' users after they changed, and take the step they
-     * allow. Returns its length [s]. */
+     * allow. Returns its length [s]. Throws InputError (count_steps). */
     double choose_step(const unsigned int number);
+
+    /** The longest step [s] that masses, damping and the scene allow in
+     * @p stage. */
+    double longest_step(const Stage &stage) const;
+
+    /** Measure the energies of a state that has not moved yet (collective). */
+    void sample_start();
 
     StepState
     remember() const
