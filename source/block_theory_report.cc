@@ -152,9 +152,12 @@ namespace Keyblock
         Tree one;
         one.push_back({"code", Tree(pyramid.code)});
         one.push_back({"mode", Tree(pyramid.mode)});
-        const bool is_stable = std::isinf(pyramid.factor);
-        one.push_back({"outcome", Tree(is_stable ? "stable" : "factor")});
-        if (!is_stable)
+        const bool has_factor     = std::isfinite(pyramid.factor);
+        const std::string outcome = pyramid.is_empty ? "tapered"
+                                    : has_factor     ? "factor"
+                                                     : "stable";
+        one.push_back({"outcome", Tree(outcome)});
+        if (has_factor)
           one.push_back({"factor", number(pyramid.factor)});
         pyramids.push_back({"", one});
       }

@@ -22,6 +22,19 @@ keyblock_restart(toppling verification/toppling_slides_and_topples)
 keyblock_restart(order_stepped verification/order_stepped
   ARGUMENTS --set "Materials/rock/Model=mohr_coulomb"
   --set "Materials/rock/Cohesion=1e5")
+# elastic rock, whose stresses are kept in another form than they are written
+keyblock_restart(order_elastic verification/order_stepped)
+# joints and two stages of excavation, a block that is taken away, factors
+set(two_stages --set "Excavations/Names=room, floor"
+  --set "Excavations/floor/Stage=deepen"
+  --set "Excavations/floor/Vertices=-3, -5\; 3, -5\; 3, -3\; -3, -3"
+  --set "Stages/Names=dig, deepen" --set "Stages/deepen/Kind=quasi-static"
+  --set "Safety factor/Removal slip=0.05" --set "Safety factor/Blocks=all"
+  --set "Safety factor/Bracket=0.02" --set "Check/Closed form=none")
+keyblock_restart(two_stages verification/roof_block_falls
+  ARGUMENTS ${two_stages})
+keyblock_restart(two_stages_2 verification/roof_block_falls RANKS 2
+  ARGUMENTS --ranks 2 ${two_stages})
 # springs of the far field and what couples them
 keyblock_restart(far_field verification/kirsch_far_field RANKS 2
   ARGUMENTS --ranks 2
