@@ -1,11 +1,11 @@
 #!/bin/sh
 # Sets up the machine and builds if needed, then runs the tests.
 # usage: contrib/test.sh [ctest options]      slow tests: contrib/test.sh -C slow
-# environment: BUILD (build)
+# environment: BUILD (build), JOBS (all cores)
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${BUILD:-$root/build}
 WARNINGS_AS_ERRORS=ON "$root/contrib/setup.sh" "$build"
 "$root/contrib/check_format.sh"
 cd "$build"
-exec ctest --output-on-failure "$@"
+exec ctest --output-on-failure -j "${JOBS:-$(nproc)}" --timeout 120 "$@"

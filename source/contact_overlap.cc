@@ -21,6 +21,10 @@ namespace Keyblock
     /** Overlaps smaller than this, over the face, are rounding [-]. */
     constexpr double least_overlap = 1e-9;
 
+    /** Depths smaller than this over the size of the block's faces are
+     * rounding, and those that differ by less than this share are equal [-]. */
+    constexpr double rounding = 1e-12, equal = 1e-6;
+
     /** Length or area, and centre. */
     template <int dim>
     struct Common
@@ -185,7 +189,7 @@ namespace Keyblock
         dealii::Point<dim> p;
         for (unsigned int d = 0; d < dim; ++d)
           p[d] = place[d];
-        // in a block as deep as behind the nearest of its faces
+        // in a block as deep as behind the nearest of its faces, rounding apart
         std::map<unsigned int, double> depth_in;
         for (const auto &hit :
              tree | bgi::adaptors::queried(bgi::intersects(p)))
@@ -208,8 +212,10 @@ namespace Keyblock
             const auto found   = depth_in.emplace(other, depth).first;
             found->second      = std::min(found->second, depth);
           }
+        // of several that are equal but for rounding the first, on any ranks
         for (const auto &[other, depth] : depth_in)
-          if (depth > largest.depth)
+          if (depth > rounding * block_face_size[block] &&
+              depth > (1. + equal) * largest.depth)
             largest = {depth, place};
       }
     return largest;

@@ -66,7 +66,11 @@ def assert_equilibrium():
     # 2 x 4.72 m of joint; the least principal stress is a third of the other
     depths = 26487. * 5. * 2. * 4.717
     assert depths / 4. < first["all.normal_force"] < depths, first
-    pressure = read_vtu(f"{folder}/interface_0000.vtu", "pressure")
+    # where a joint ends in rock that is dug later its sides are still welded
+    output = f"{folder}/interface_0000.vtu"
+    pressure = [p for p, is_welded in zip(read_vtu(output, "pressure"),
+                                          read_vtu(output, "is_intact"))
+                if not is_welded]
     print(f"{len(pressure)} points, pressure {min(pressure):.6g} to "
           f"{max(pressure):.6g} Pa")
     assert min(pressure) > 26487. * 3. / 4. and max(pressure) < 26487. * 7.

@@ -27,7 +27,7 @@ keyblock_restart(order_elastic verification/order_stepped)
 # joints and two stages of excavation, a block that is taken away, factors
 set(two_stages --set "Excavations/Names=room, floor"
   --set "Excavations/floor/Stage=deepen"
-  --set "Excavations/floor/Vertices=-3, -5\; 3, -5\; 3, -3\; -3, -3"
+  --set "Excavations/floor/Vertices=-3, -5@ 3, -5@ 3, -3@ -3, -3"
   --set "Stages/Names=dig, deepen" --set "Stages/deepen/Kind=quasi-static"
   --set "Safety factor/Removal slip=0.05" --set "Safety factor/Blocks=all"
   --set "Safety factor/Bracket=0.02" --set "Check/Closed form=none")

@@ -52,7 +52,8 @@ def command_of(folder, ranks, interval, extra):
                "--set", "Output/Write VTU=false",
                "--set", f"Output/Checkpoint interval={interval}"] + extra
     for assignment in options.set:
-        command += ["--set", assignment]
+        # CMake splits lists at semicolons: @ stands for one
+        command += ["--set", assignment.replace("@", ";")]
     if ranks > 1:
         command = ["mpirun", "--allow-run-as-root", "--oversubscribe",
                    "-n", str(ranks)] + command

@@ -175,6 +175,9 @@ def small_memory():
         resource.setrlimit(resource.RLIMIT_AS, (2 * 2**30,) * 2)
     refused(run(["--validate", "--set", "Mesh/Cells=2000, 1500", INCLINE],
                 preexec_fn=limit), "the 2.15 GB of memory here")
+    refused(run(["--validate", "--set", "Mesh/Refinement levels=10",
+                 PRM / "verification" / "incline_3d.prm"], preexec_fn=limit),
+            "cells by refinement")
 
 
 def huge_normal():
