@@ -105,6 +105,8 @@ def factor_points(run, number, method):
         value = result.get("value")
         value = math.inf if value is None else value
         outcome = result.get("outcome", "value")
+        if outcome.startswith("above "):
+            outcome = "immovable"  # as far as trials go: the same symbol
         if outcome == "value" and not 0. < value < math.inf:
             outcome = "falls freely" if value <= 0. else "immovable"
         if result["stage"] in run.stages:
@@ -178,6 +180,6 @@ def key_of_factors(axes, run, runs, curves):
             fill = "0.3" if marker == "o" else "white"
             axes.plot([], [], color="0.3", linestyle=dashes, marker=marker,
                       markersize=5, markerfacecolor=fill, label=name)
-    for marker, label in (("^", "immovable, stable"), ("v", "falls freely")):
+    for marker, label in (("^", "immovable or above the highest"), ("v", "falls freely")):
         axes.plot([], [], marker, color="0.3", markersize=8, label=label)
     put_legend(axes)

@@ -5,56 +5,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <map>
-#include <ostream>
 
 namespace Keyblock
 {
   template <int dim>
-  std::vector<BlockFace<dim>>
-  list_faces(const Scene<dim> &scene,
-             const SplitMesh<dim> &split,
-             const IsDug &is_dug,
-             const Block<dim> &block)
+  Tensor<1, dim>
+  sum_of(const std::vector<PointForce<dim>> &forces)
   {
-    const unsigned int index = block.id - 1;
-    // one face per joint and side
-    std::map<std::pair<unsigned int, bool>, BlockFace<dim>> faces;
-    const Mesh<dim> &mesh = split.mesh;
-    for (const JointFace &face : split.interface.joint_faces)
-      {
-        const bool is_plus = split.block_of_cell[face.plus_cell] == index;
-        if ((split.block_of_cell[face.minus_cell] == index) == is_plus)
-          continue;
-        if (is_dug(face.minus_cell) || is_dug(face.plus_cell))
-          continue;
-        const Joint<dim> &joint = *scene.joints[face.joint];
-        BlockFace<dim> &entry   = faces[{face.joint, is_plus}];
-        const double area =
-          block.area_ratio(face.joint) *
-          mesh.face_area_vector(face.minus_cell, face.minus_face).norm();
-        entry.inward = (is_plus ? 1. : -1.) * joint.normal();
-        entry.area += area;
-        entry.tangent_friction =
-          std::tan(joint.friction_angle * dealii::numbers::PI / 180.);
-        entry.cohesion = joint.cohesion;
-        entry.name     = joint.name;
-        if (!joint.water_pressure.empty())
-          {
-            const Expression<dim> pressure(joint.water_pressure,
-                                           1,
-                                           "Joints/" + joint.name +
-                                             "/Water pressure");
-            for (const unsigned int v :
-                 mesh.face_vertices(face.minus_cell, face.minus_face))
-              entry.water_force += area / Mesh<dim>::n_face_vertices *
-                                   pressure.value(mesh.vertices[v], 0., 0);
-          }
-      }
-    std::vector<BlockFace<dim>> list;
-    for (const auto &[key, face] : faces)
-      list.push_back(face);
+    Tensor<1, dim> sum;
+    for (const PointForce<dim> &force : forces)
+      sum += force.force;
+    return sum;
+  }
+
+
+
+  template <int dim>
+  std::vector<PointForce<dim>>
+  BlockLoads<dim>::all() const
+  {
+    std::vector<PointForce<dim>> list = {{centroid, weight + seismic}};
+    list.insert(list.end(), tractions.begin(), tractions.end());
+    list.insert(list.end(), water.begin(), water.end());
     return list;
   }
 
@@ -62,179 +35,294 @@ namespace Keyblock
 
   namespace
   {
-    template <int dim>
-    Tensor<1, dim>
-    weight_of(const Scene<dim> &scene,
-              const Block<dim> &block,
-              const double time)
-    {
-      Tensor<1, dim> acceleration;
-      if (!scene.initial_state.gravity.empty())
-        acceleration = Expression<dim>(scene.initial_state.gravity,
-                                       dim,
-                                       "Initial state/Gravity")
-                         .vector(block.centroid, time);
-      for (unsigned int d = 0; d < scene.safety.seismic_coefficient.size(); ++d)
-        acceleration[d] += 9.81 * scene.safety.seismic_coefficient[d];
-      return block.exact_mass() * acceleration;
-    }
+    /** Distance of faces that touch, and cosine of the angle between them, over
+     * the size of a face, and up to which they face each other [-]. */
+    constexpr double touching = 1e-6, opposed = -0.999;
 
-    /** Call @p action(cell, face) for the free faces of a block. */
-    template <int dim, typename Action>
-    void
-    for_each_free_face(const SplitMesh<dim> &split,
-                       const IsDug &is_dug,
-                       const Block<dim> &block,
-                       const Action &action)
+    constexpr double degree = dealii::numbers::PI / 180.;
+
+    /** The faces of one block, filled one face of a cell after the other. */
+    template <int dim>
+    class Collector
     {
-      const Mesh<dim> &mesh = split.mesh;
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        if (split.block_of_cell[c] == block.id - 1 && !is_dug(c))
+    public:
+      Collector(const Ground<dim> &ground, const Block<dim> &block)
+        : ground(ground)
+        , mesh(ground.split.mesh)
+        , block(block)
+        , index(block.id - 1)
+        , pressure(ground.scene.joints.size())
+      {}
+
+      void
+      add_joint_face(const JointFace &face)
+      {
+        const auto &block_of_cell = ground.split.block_of_cell;
+        const bool is_plus        = block_of_cell[face.plus_cell] == index;
+        if ((block_of_cell[face.minus_cell] == index) == is_plus ||
+            ground.is_dug(face.minus_cell) || ground.is_dug(face.plus_cell))
+          return;
+        const Joint<dim> &joint  = *ground.scene.joints[face.joint];
+        const CellFace own       = is_plus
+                                     ? CellFace{face.plus_cell, face.plus_face}
+                                     : CellFace{face.minus_cell, face.minus_face};
+        const unsigned int entry = joint_entry(face.joint, is_plus);
+        const Tensor<1, dim> inward =
+          (is_plus ? 1. : -1.) *
+          mesh.face_area_vector(face.minus_cell, face.minus_face);
+        BlockFace<dim> &into = result.faces[entry];
+        const double across  = std::abs(inward * into.inward);
+        const double area    = block.exact.is_known
+                                 ? block.area_ratio(face.joint) * inward.norm()
+                                 : across;
+        add_area(entry,
+                 own,
+                 area,
+                 block_of_cell[is_plus ? face.minus_cell : face.plus_cell]);
+        const double bend =
+          std::acos(std::min(1., across / inward.norm())) / degree;
+        if (bend > result.largest_bend)
+          {
+            result.largest_bend = bend;
+            result.bent         = joint.name;
+          }
+        if (!joint.water_pressure.empty())
+          add_water(face.joint,
+                    own,
+                    block.exact.is_known ? area * into.inward : inward,
+                    into);
+      }
+
+      /** Put the faces into the order of the joints. */
+      void
+      sort_faces()
+      {
+        BlockSurroundings<dim> sorted = result;
+        sorted.faces.clear();
+        sorted.others.clear();
+        for (auto &[key, entry] : entries)
+          {
+            sorted.faces.push_back(result.faces[entry]);
+            sorted.others.push_back(result.others[entry]);
+            entry = sorted.faces.size() - 1;
+          }
+        result = sorted;
+      }
+
+      /** Tell apart what stays joined to the block, and look for what lies
+       * against its free faces. */
+      void
+      add_other_faces(const FreeFaces<dim> &free)
+      {
+        for (const unsigned int c : free.cells_of_block(index))
           for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-            {
-              const unsigned int other = mesh.neighbor[c][f];
-              // faces on joints have rock behind them
-              if ((other == none && mesh.joint[c][f] == none) ||
-                  (other != none && is_dug(other)))
-                action(c, f);
-            }
+            if (const unsigned int other = mesh.neighbor[c][f];
+                other != none && ground.split.block_of_cell[other] != index &&
+                !ground.is_dug(other))
+              (ground.is_filled(other) ? result.is_on_fill
+                                       : result.is_attached) = true;
+        for (const unsigned int i : free.of_block(index))
+          add_touching_face(free, free.faces[i]);
+      }
+
+      BlockSurroundings<dim> result;
+
+    private:
+      unsigned int
+      new_entry(const Tensor<1, dim> &inward,
+                const std::string &name,
+                const double friction_angle)
+      {
+        BlockFace<dim> face;
+        face.inward           = inward;
+        face.name             = name;
+        face.tangent_friction = std::tan(friction_angle * degree);
+        result.faces.push_back(face);
+        result.others.emplace_back();
+        return result.faces.size() - 1;
+      }
+
+      unsigned int
+      joint_entry(const unsigned int j, const bool is_plus)
+      {
+        const auto found = entries.find({j, is_plus});
+        if (found != entries.end())
+          return found->second;
+        const Joint<dim> &joint = *ground.scene.joints[j];
+        const unsigned int entry =
+          new_entry((is_plus ? 1. : -1.) * joint.normal(),
+                    joint.name,
+                    joint.friction_angle);
+        result.faces[entry].cohesion         = joint.cohesion;
+        result.faces[entry].tensile_strength = joint.tensile_strength;
+        return entries[{j, is_plus}]         = entry;
+      }
+
+      void
+      add_area(const unsigned int entry,
+               const CellFace &own,
+               const double area,
+               const unsigned int other)
+      {
+        result.faces[entry].area += area;
+        for (const unsigned int v : mesh.face_vertices(own.cell, own.face))
+          result.faces[entry].vertices.push_back(mesh.vertices[v]);
+        if (other != none)
+          result.others[entry].insert(other);
+      }
+
+      /** The water beside a face with the vector area @p inward. */
+      void
+      add_water(const unsigned int joint,
+                const CellFace &own,
+                const Tensor<1, dim> &inward,
+                BlockFace<dim> &into)
+      {
+        if (!pressure[joint])
+          pressure[joint] = std::make_unique<Expression<dim>>(
+            ground.scene.joints[joint]->water_pressure,
+            1,
+            "Joints/*/Water pressure");
+        for (const unsigned int v : mesh.face_vertices(own.cell, own.face))
+          {
+            const Tensor<1, dim> force =
+              pressure[joint]->value(mesh.vertices[v], 0., 0) /
+              Mesh<dim>::n_face_vertices * inward;
+            result.loads.water.push_back({mesh.vertices[v], force});
+            into.water_force += force * into.inward;
+            result.loads.water_along +=
+              force - (force * into.inward) * into.inward;
+          }
+      }
+
+      void
+      add_touching_face(const FreeFaces<dim> &free, const CellFace &own)
+      {
+        const Tensor<1, dim> area = mesh.face_area_vector(own.cell, own.face);
+        const Tensor<1, dim> outward = area / area.norm();
+        const double reach = touching * std::pow(area.norm(), 1. / (dim - 1));
+        const auto meeting = free.first_ahead(
+          mesh.face_center(own.cell, own.face), outward, reach, reach, index);
+        if (!meeting)
+          return;
+        const CellFace &other = meeting->face;
+        const Tensor<1, dim> across =
+          mesh.face_area_vector(other.cell, other.face);
+        if (across * outward > opposed * across.norm())
+          return;
+        unsigned int entry = entries.size();
+        while (entry < result.faces.size() &&
+               (result.faces[entry].inward + outward).norm() > touching)
+          ++entry;
+        if (entry == result.faces.size())
+          new_entry(-outward,
+                    "a free face",
+                    ground.scene.contact.default_friction_angle);
+        add_area(entry,
+                 own,
+                 area.norm(),
+                 ground.split.block_of_cell[other.cell]);
+        result.has_free_face = true;
+      }
+
+      const Ground<dim> &ground;
+      const Mesh<dim> &mesh;
+      const Block<dim> &block;
+      const unsigned int index;
+      std::vector<std::unique_ptr<Expression<dim>>> pressure; ///< by joint
+
+      /** Of faces, by joint and side; free faces come after them. */
+      std::map<std::pair<unsigned int, bool>, unsigned int> entries;
+    };
+
+    /** Present mass over that of the materials of the start [-]. */
+    template <int dim>
+    double
+    mass_ratio(const Ground<dim> &ground,
+               const std::vector<unsigned int> &cells)
+    {
+      const Mesh<dim> &mesh = ground.split.mesh;
+      if (mesh.later_materials.empty())
+        return 1.;
+      double now = 0., first = 0.;
+      for (const unsigned int c : cells)
+        {
+          const auto &materials = ground.scene.materials;
+          const double volume   = mesh.cell_volume(c);
+          now += volume * materials[ground.material_of(c)]->density;
+          first += volume * materials[mesh.material[c]]->density;
+        }
+      return now / first;
     }
 
     template <int dim>
-    Tensor<1, dim>
-    tractions_on(const Scene<dim> &scene,
-                 const SplitMesh<dim> &split,
-                 const IsDug &is_dug,
-                 const Block<dim> &block,
-                 const unsigned int number,
-                 const double time)
+    void
+    add_body_forces(const Ground<dim> &ground,
+                    const FreeFaces<dim> &free,
+                    const Block<dim> &block,
+                    const double time,
+                    BlockLoads<dim> &loads)
     {
-      Tensor<1, dim> sum;
-      const Mesh<dim> &mesh = split.mesh;
-      for (const auto &traction : scene.tractions)
+      const Scene<dim> &scene = ground.scene;
+      const double mass       = block.exact_mass() *
+                          mass_ratio(ground, free.cells_of_block(block.id - 1));
+      loads.centroid = block.centroid;
+      if (!scene.initial_state.gravity.empty())
+        loads.weight = mass * Expression<dim>(scene.initial_state.gravity,
+                                              dim,
+                                              "Initial state/Gravity")
+                                .vector(Point<dim>(), time);
+      for (unsigned int d = 0; d < scene.safety.seismic_coefficient.size(); ++d)
+        loads.seismic[d] = mass * 9.81 * scene.safety.seismic_coefficient[d];
+    }
+
+    template <int dim>
+    void
+    add_tractions(const Ground<dim> &ground,
+                  const FreeFaces<dim> &free,
+                  const unsigned int block,
+                  const double time,
+                  BlockLoads<dim> &loads)
+    {
+      const Mesh<dim> &mesh = ground.split.mesh;
+      std::vector<CellFace> own;
+      for (const unsigned int i : free.of_block(block))
+        own.push_back(free.faces[i]);
+      for (const auto &traction : ground.scene.tractions)
         {
-          if (scene.stage_number(traction->stage) > number)
-            continue;
-          const Expression<dim> inside(traction->region.empty()
-                                         ? "-1"
-                                         : traction->region,
-                                       1,
-                                       "Tractions/*/Region");
-          const Expression<dim> force(traction->expression,
+          const Expression<dim> value(traction->expression,
                                       dim,
                                       "Tractions/*/Traction");
-          for_each_free_face(split,
-                             is_dug,
-                             block,
-                             [&](const unsigned int c, const unsigned int f) {
-                               const Point<dim> center = mesh.face_center(c, f);
-                               bool is_loaded =
-                                 inside.value(center, 0., 0) > 0.;
-                               for (const std::string &name :
-                                    traction->boundaries)
-                                 is_loaded =
-                                   is_loaded || mesh.is_on(c, f, name);
-                               if (is_loaded)
-                                 sum += mesh.face_area_vector(c, f).norm() *
-                                        force.vector(center, time);
-                             });
+          for (const CellFace &f : list_loaded_faces(ground, own, *traction))
+            {
+              const Point<dim> center = mesh.face_center(f.cell, f.face);
+              loads.tractions.push_back(
+                {center,
+                 mesh.face_area_vector(f.cell, f.face).norm() *
+                   value.vector(center, time)});
+            }
         }
-      return sum;
-    }
-
-    /** Whether a support holds a free face of the block, which limit
-     * equilibrium does not know. */
-    template <int dim>
-    bool
-    is_supported(const Scene<dim> &scene,
-                 const SplitMesh<dim> &split,
-                 const IsDug &is_dug,
-                 const Block<dim> &block)
-    {
-      bool result = false;
-      for (const auto &support : scene.supports)
-        for_each_free_face(split,
-                           is_dug,
-                           block,
-                           [&](const unsigned int c, const unsigned int f) {
-                             for (const std::string &name : support->boundaries)
-                               result = result || split.mesh.is_on(c, f, name);
-                           });
-      return result;
     }
   } // namespace
 
 
 
   template <int dim>
-  Tensor<1, dim>
-  load_on(const Scene<dim> &scene,
-          const SplitMesh<dim> &split,
-          const IsDug &is_dug,
-          const Block<dim> &block,
-          const unsigned int number,
-          const double time)
+  BlockSurroundings<dim>
+  look_around(const Ground<dim> &ground,
+              const FreeFaces<dim> &free,
+              const Block<dim> &block,
+              const double time)
   {
-    return weight_of(scene, block, time) +
-           tractions_on(scene, split, is_dug, block, number, time);
-  }
-
-
-
-  template <int dim>
-  void
-  print_limit_equilibria(std::ostream &out,
-                         const Scene<dim> &scene,
-                         const SplitMesh<dim> &split,
-                         const Blocks<dim> &blocks)
-  {
-    for (unsigned int s = 0; s < scene.stages.size(); ++s)
-      {
-        const unsigned int number = s + 2;
-        const auto is_dug         = [&](const unsigned int c) {
-          const unsigned int stage = split.mesh.excavation_stage[c];
-          return stage != 0 && stage <= number;
-        };
-        for (const Block<dim> &block : blocks.blocks)
-          {
-            const auto &classes = block.class_of_stage;
-            if (block.is_infinite || block.is_rigid ||
-                classes[std::min<std::size_t>(number, classes.size() - 1)] !=
-                  BlockClass::exposed ||
-                (s > 0 && classes[std::min<std::size_t>(number - 1,
-                                                        classes.size() - 1)] ==
-                            BlockClass::exposed))
-              continue;
-            const auto faces = list_faces(scene, split, is_dug, block);
-            const Tensor<1, dim> load =
-              load_on(scene, split, is_dug, block, number, 0.);
-            const auto limit = solve_limit_equilibrium(faces, load);
-            double water     = 0.;
-            for (const BlockFace<dim> &face : faces)
-              water += std::abs(face.water_force);
-            const double tractions =
-              tractions_on(scene, split, is_dug, block, number, 0.).norm();
-            out << "Limit   block " << block.id << " after "
-                << scene.stages[s]->name << ": ";
-            if (std::isfinite(limit.factor))
-              out << std::setprecision(5) << limit.factor << ", ";
-            out << limit.describe(faces) << "; load " << std::setprecision(4)
-                << 1e-3 * load.norm() << " kN";
-            if (tractions > 0.)
-              out << " with tractions of " << 1e-3 * tractions << " kN";
-            if (!scene.safety.seismic_coefficient.empty())
-              out << ", seismic";
-            if (water > 0.)
-              out << ", water " << 1e-3 * water << " kN on the joints";
-            for (unsigned int i = 0; i < limit.normal_forces.size(); ++i)
-              out << (i == 0 ? ", normal force " : " and ")
-                  << 1e-3 * limit.normal_forces[i] << " kN on "
-                  << faces[limit.faces[i]].name;
-            if (is_supported(scene, split, is_dug, block))
-              out << "; a support that holds it is left out";
-            out << '\n';
-          }
-      }
+    Collector<dim> collector(ground, block);
+    for (const unsigned int i : free.joint_faces_of_block(block.id - 1))
+      collector.add_joint_face(ground.split.interface.joint_faces[i]);
+    collector.sort_faces();
+    collector.add_other_faces(free);
+    BlockLoads<dim> &loads = collector.result.loads;
+    add_body_forces(ground, free, block, time, loads);
+    add_tractions(ground, free, block.id - 1, time, loads);
+    return collector.result;
   }
 
 
@@ -269,40 +357,18 @@ namespace Keyblock
     return force > 0. && strength > 0. ? strength / force : 0.;
   }
 
-  template std::vector<BlockFace<2>> list_faces<2>(const Scene<2> &,
-                                                   const SplitMesh<2> &,
-                                                   const IsDug &,
-                                                   const Block<2> &);
-  template Tensor<1, 2> load_on<2>(const Scene<2> &,
-                                   const SplitMesh<2> &,
-                                   const IsDug &,
-                                   const Block<2> &,
-                                   const unsigned int,
-                                   const double);
-  template void print_limit_equilibria<2>(std::ostream &,
-                                          const Scene<2> &,
-                                          const SplitMesh<2> &,
-                                          const Blocks<2> &);
-  template double stress_ratio<2>(const Scene<2> &,
-                                  const std::vector<BlockFace<2>> &,
-                                  const std::vector<unsigned int> &,
-                                  const std::vector<JointSums<2>> &);
-  template std::vector<BlockFace<3>> list_faces<3>(const Scene<3> &,
-                                                   const SplitMesh<3> &,
-                                                   const IsDug &,
-                                                   const Block<3> &);
-  template Tensor<1, 3> load_on<3>(const Scene<3> &,
-                                   const SplitMesh<3> &,
-                                   const IsDug &,
-                                   const Block<3> &,
-                                   const unsigned int,
-                                   const double);
-  template void print_limit_equilibria<3>(std::ostream &,
-                                          const Scene<3> &,
-                                          const SplitMesh<3> &,
-                                          const Blocks<3> &);
-  template double stress_ratio<3>(const Scene<3> &,
-                                  const std::vector<BlockFace<3>> &,
-                                  const std::vector<unsigned int> &,
-                                  const std::vector<JointSums<3>> &);
+#define INSTANTIATE(dim)                                                       \
+  template struct BlockLoads<dim>;                                             \
+  template Tensor<1, dim> sum_of(const std::vector<PointForce<dim>> &);        \
+  template BlockSurroundings<dim> look_around(const Ground<dim> &,             \
+                                              const FreeFaces<dim> &,          \
+                                              const Block<dim> &,              \
+                                              const double);                   \
+  template double stress_ratio<dim>(const Scene<dim> &,                        \
+                                    const std::vector<BlockFace<dim>> &,       \
+                                    const std::vector<unsigned int> &,         \
+                                    const std::vector<JointSums<dim>> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Keyblock

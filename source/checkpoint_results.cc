@@ -101,6 +101,10 @@ namespace Keyblock
                    group + "limit_mode",
                    factors,
                    &SafetyFactor::limit_mode);
+    exchange_texts(file,
+                   group + "limit_remark",
+                   factors,
+                   &SafetyFactor::limit_remark);
     std::vector<unsigned int> n_trials;
     std::vector<Trial> trials;
     for (const SafetyFactor &factor : factors)
@@ -133,8 +137,10 @@ namespace Keyblock
         for (const Trial &trial : factor.trials)
           for (const double number : numbers_of(trial))
             packed.first.back().push_back(number);
-        for (const std::string &text :
-             {factor.stage, factor.failure_mode, factor.limit_mode})
+        for (const std::string &text : {factor.stage,
+                                        factor.failure_mode,
+                                        factor.limit_mode,
+                                        factor.limit_remark})
           packed.second.push_back(text);
       }
     const std::size_t n = numbers_of(Trial()).size();
@@ -147,9 +153,10 @@ namespace Keyblock
           for (std::size_t t = 0; t + n <= rows[2 * f + 1].size(); t += n)
             factor.trials.push_back(
               from_numbers<Trial>(rows[2 * f + 1].data() + t));
-          factor.stage        = texts[3 * f];
-          factor.failure_mode = texts[3 * f + 1];
-          factor.limit_mode   = texts[3 * f + 2];
+          factor.stage        = texts[4 * f];
+          factor.failure_mode = texts[4 * f + 1];
+          factor.limit_mode   = texts[4 * f + 2];
+          factor.limit_remark = texts[4 * f + 3];
           const auto is_same  = [&](const SafetyFactor &other) {
             return other.block == factor.block;
           };

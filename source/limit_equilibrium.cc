@@ -14,6 +14,9 @@ namespace Keyblock
     /** Cosines below this are taken for a movement along the face. */
     constexpr double tolerance = 1e-9;
 
+    /** Difference of unit normals up to which faces count as parallel. */
+    constexpr double parallel = 1e-6;
+
     template <int dim>
     bool
     closes_none(const std::vector<BlockFace<dim>> &faces,
@@ -56,28 +59,66 @@ namespace Keyblock
       return resistance;
     }
 
+    /** Let @p planes be pressed, and all faces parallel to them, which share
+     * their normal forces [N]. */
+    template <int dim>
+    void
+    press(const std::vector<BlockFace<dim>> &faces,
+          const std::vector<unsigned int> &planes,
+          const std::vector<double> &normal_forces,
+          LimitEquilibrium<dim> &result)
+    {
+      for (unsigned int p = 0; p < planes.size(); ++p)
+        {
+          std::vector<unsigned int> group;
+          double area = 0.;
+          for (unsigned int i = 0; i < faces.size(); ++i)
+            if ((faces[i].inward - faces[planes[p]].inward).norm() < parallel)
+              {
+                group.push_back(i);
+                area += faces[i].area;
+              }
+          for (const unsigned int i : group)
+            {
+              result.faces.push_back(i);
+              result.normal_forces.push_back(
+                normal_forces[p] *
+                (area > 0. ? faces[i].area / area : 1. / group.size()));
+            }
+        }
+      result.n_pressed = result.faces.size();
+    }
+
+    /** Effective normal forces on one or two @p planes that balance the
+     * resultant across the direction of sliding [N]. */
+    template <int dim>
+    std::vector<double>
+    normal_forces_on(const std::vector<BlockFace<dim>> &faces,
+                     const std::vector<unsigned int> &planes,
+                     const Tensor<1, dim> &resultant)
+    {
+      const Tensor<1, dim> &a = faces[planes[0]].inward;
+      if (planes.size() == 1)
+        return {-(resultant * a)};
+      const Tensor<1, dim> &b  = faces[planes[1]].inward;
+      const double cosine      = a * b;
+      const double determinant = 1. - cosine * cosine;
+      const double ra = -(resultant * a), rb = -(resultant * b);
+      return {(ra - cosine * rb) / determinant,
+              (rb - cosine * ra) / determinant};
+    }
+
     /** Factor and forces of a block that slides along result.direction on
-     * result.faces, which it presses on. */
+     * @p planes, which it presses on. */
     template <int dim>
     void
     resist(const std::vector<BlockFace<dim>> &faces,
+           const std::vector<unsigned int> &planes,
            const Tensor<1, dim> &resultant,
            LimitEquilibrium<dim> &result)
     {
       result.driving_force = resultant * result.direction;
-      // N_i n_i (+ N_j n_j) balances the resultant across the direction
-      const Tensor<1, dim> &a = faces[result.faces[0]].inward;
-      if (result.faces.size() == 1)
-        result.normal_forces = {-(resultant * a)};
-      else
-        {
-          const Tensor<1, dim> &b  = faces[result.faces[1]].inward;
-          const double cosine      = a * b;
-          const double determinant = 1. - cosine * cosine;
-          const double ra = -(resultant * a), rb = -(resultant * b);
-          result.normal_forces = {(ra - cosine * rb) / determinant,
-                                  (rb - cosine * ra) / determinant};
-        }
+      press(faces, planes, normal_forces_on(faces, planes, resultant), result);
       double resistance = 0.;
       for (unsigned int i = 0; i < result.faces.size(); ++i)
         {
@@ -123,9 +164,8 @@ namespace Keyblock
           if (s.norm() > 0. && closes_none(faces, s))
             {
               result.mode      = Mode::one_plane;
-              result.faces     = {i};
               result.direction = s;
-              resist(faces, resultant, result);
+              resist(faces, {i}, resultant, result);
               return result;
             }
         }
@@ -144,13 +184,14 @@ namespace Keyblock
                 along(faces[j], resultant) * faces[i].inward > 0.)
               continue;
             LimitEquilibrium<dim> candidate;
+            const std::vector<double> normal_forces =
+              normal_forces_on(faces, {i, j}, resultant);
+            if (normal_forces[0] < 0. || normal_forces[1] < 0.)
+              continue;
             candidate.mode      = Mode::two_planes;
-            candidate.faces     = {i, j};
             candidate.direction = s;
-            resist(faces, resultant, candidate);
-            if (candidate.normal_forces[0] >= 0. &&
-                candidate.normal_forces[1] >= 0.)
-              return candidate;
+            resist(faces, {i, j}, resultant, candidate);
+            return candidate;
           }
     result.factor = std::numeric_limits<double>::infinity();
     return result;
@@ -171,11 +212,29 @@ namespace Keyblock
         case Mode::lifting:
           return "lifting";
         case Mode::one_plane:
-          return "sliding on " + all[faces[0]].name;
         case Mode::two_planes:
-          return "sliding on " + all[faces[0]].name + "/" + all[faces[1]].name;
+          return "sliding on " + names(all);
+        case Mode::rotating:
+          return "rotating on " + names(all);
       }
     return "";
+  }
+
+
+
+  template <int dim>
+  std::string
+  LimitEquilibrium<dim>::names(const std::vector<BlockFace<dim>> &all) const
+  {
+    std::vector<std::string> found;
+    for (unsigned int i = 0; i < n_pressed; ++i)
+      if (const std::string &name = all[faces[i]].name;
+          std::find(found.begin(), found.end(), name) == found.end())
+        found.push_back(name);
+    std::string text;
+    for (const std::string &name : found)
+      text += (text.empty() ? "" : "/") + name;
+    return text;
   }
 
   template struct LimitEquilibrium<2>;

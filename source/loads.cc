@@ -51,42 +51,34 @@ namespace Keyblock
     set_up_water();
     nodal_tractions.clear();
     is_load_set = false;
+    std::vector<CellFace> free;
+    if (!scene.tractions.empty())
+      free = list_free_faces(ground());
     for (unsigned int t = 0; t < scene.tractions.size(); ++t)
       {
         const Traction<dim> &traction = *scene.tractions[t];
         if (scene.stage_number(traction.stage) > stage_number)
           continue;
-        const Expression<dim> inside(traction.region.empty() ? "-1"
-                                                             : traction.region,
-                                     1,
-                                     "Tractions/*/Region");
-        unsigned int n_hits = 0;
-        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-            {
-              const unsigned int other = mesh.neighbor[c][f];
-              if (is_dug(c) || (other != none && !is_dug(other)))
-                continue;
-              const Point<dim> center = mesh.face_center(c, f);
-              bool is_loaded          = inside.value(center, 0., 0) > 0.;
-              for (const std::string &name : traction.boundaries)
-                is_loaded = is_loaded || mesh.is_on(c, f, name);
-              if (!is_loaded)
-                continue;
-              ++n_hits;
-              const double area =
-                mesh.face_area_vector(c, f).norm() / Mesh<dim>::n_face_vertices;
-              for (const unsigned int v : mesh.face_vertices(c, f))
-                split.for_each_carrier(
-                  v, [&](const unsigned int carrier, const double weight) {
-                    if (numbering.is_owned(carrier))
-                      nodal_tractions.push_back({numbering.local_node(carrier),
-                                                 t,
-                                                 weight * area,
-                                                 center});
-                  });
-            }
-        AssertThrow(n_hits > 0 || stage_number > 1,
+        const std::vector<CellFace> loaded =
+          list_loaded_faces(ground(), free, traction);
+        for (const CellFace &face : loaded)
+          {
+            const Point<dim> center = mesh.face_center(face.cell, face.face);
+            const double area =
+              mesh.face_area_vector(face.cell, face.face).norm() /
+              Mesh<dim>::n_face_vertices;
+            for (const unsigned int v :
+                 mesh.face_vertices(face.cell, face.face))
+              split.for_each_carrier(
+                v, [&](const unsigned int carrier, const double weight) {
+                  if (numbering.is_owned(carrier))
+                    nodal_tractions.push_back({numbering.local_node(carrier),
+                                               t,
+                                               weight * area,
+                                               center});
+                });
+          }
+        AssertThrow(!loaded.empty() || stage_number > 1,
                     InputError("The traction '" + traction.name +
                                "' loads no face; check 'Tractions/" +
                                traction.name +

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The search for the factor between holding and failing.
-#include <keyblock/block_faces.h>
+#include <keyblock/block_statics.h>
 #include <keyblock/safety_factor.h>
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace Keyblock
 {
   std::string
-  to_string(const SafetyFactor::Outcome outcome)
+  describe_outcome(const SafetyFactor &factor)
   {
-    switch (outcome)
+    std::ostringstream above;
+    above << "above " << factor.lower;
+    switch (factor.outcome)
       {
         case SafetyFactor::Outcome::bracketed:
           return "value";
@@ -19,6 +22,10 @@ namespace Keyblock
           return "falls freely";
         case SafetyFactor::Outcome::immovable:
           return "immovable";
+        case SafetyFactor::Outcome::clamped:
+          return above.str() + (factor.limit_factor < factor.lower
+                                  ? ", held by clamping"
+                                  : "");
         case SafetyFactor::Outcome::undecided:
           return "undecided";
       }
@@ -221,7 +228,7 @@ namespace Keyblock
   {
     SafetyFactor result;
     result.block = block;
-    add_cheap_answers(block, number, result);
+    add_cheap_answers(block, result);
     trials.forget_failure();
     {
       Search search(*this, block, number, known, result.trials);
@@ -235,6 +242,8 @@ namespace Keyblock
     }
     if (result.outcome != SafetyFactor::Outcome::immovable)
       result.failure_mode = trials.failure();
+    else if (std::isfinite(result.limit_factor))
+      result.outcome = SafetyFactor::Outcome::clamped;
     trials.reduce(block, 1.);
     return result;
   }
@@ -366,21 +375,17 @@ namespace Keyblock
   template <int dim>
   void
   StrengthReductionSearch<dim>::add_cheap_answers(const unsigned int block,
-                                                  const unsigned int number,
                                                   SafetyFactor &result) const
   {
-    const IsDug is_dug = [&](const unsigned int cell) {
-      return run.conditions.is_dug(cell);
-    };
-    const Block<dim> &b = blocks.blocks[block];
-    const auto faces    = list_faces<dim>(scene, split, is_dug, b);
-    const LimitEquilibrium<dim> limit = solve_limit_equilibrium<dim>(
-      faces, load_on<dim>(scene, split, is_dug, b, number, run.step.time));
-    result.limit_mode   = limit.describe(faces);
-    result.limit_factor = limit.factor;
+    const Ground<dim> ground        = run.conditions.ground();
+    const BlockStatics<dim> statics = judge_block<dim>(
+      ground, FreeFaces<dim>(ground), blocks, block, run.step.time);
+    result.limit_mode   = statics.mode();
+    result.limit_remark = statics.remark();
+    result.limit_factor = statics.limit.factor;
     result.stress_ratio = stress_ratio<dim>(scene,
-                                            faces,
-                                            limit.faces,
+                                            statics.around.faces,
+                                            statics.limit.faces,
                                             run.contact->sum_over_block(block));
   }
 

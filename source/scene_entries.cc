@@ -617,7 +617,8 @@ namespace Keyblock
                       positive);
     prm.add_parameter("Highest",
                       highest,
-                      "A block that holds at this factor is immovable [-].",
+                      "A block that holds at this factor is immovable, or held "
+                      "by clamping if limit equilibrium can move it [-].",
                       positive);
     prm.add_parameter(
       "Mass damping",
@@ -668,7 +669,8 @@ namespace Keyblock
     prm.add_parameter("Seismic coefficient",
                       seismic_coefficient,
                       "Acceleration per axis over 9.81 m/s2 that limit "
-                      "equilibrium adds to gravity; empty: none [-].");
+                      "equilibrium adds to gravity, and nothing else does; "
+                      "empty: none [-].");
     prm.add_parameter("Removal slip",
                       removal_slip,
                       "In quasi-static stages a block that has slid this share "

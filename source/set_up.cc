@@ -136,76 +136,9 @@ namespace Keyblock
 
   template <int dim>
   bool
-  Conditions<dim>::is_filled(const unsigned int mesh_cell) const
-  {
-    if (split.mesh.excavation_stage[mesh_cell] == 0)
-      return false;
-    const Excavation<dim> &excavation =
-      *scene.excavations[split.mesh.excavation[mesh_cell]];
-    return !excavation.backfill_stage.empty() &&
-           scene.stage_number(excavation.backfill_stage) <= stage_number;
-  }
-
-
-
-  template <int dim>
-  bool
-  Conditions<dim>::is_dug(const unsigned int mesh_cell) const
-  {
-    const unsigned int block = split.block_of_cell[mesh_cell];
-    if (block != none && is_removed_block(block))
-      return true;
-    const unsigned int dug = split.mesh.excavation_stage[mesh_cell];
-    return dug > 0 && dug <= stage_number && !is_filled(mesh_cell);
-  }
-
-
-
-  template <int dim>
-  unsigned int
-  Conditions<dim>::material_of(const unsigned int mesh_cell) const
-  {
-    unsigned int material = split.mesh.material[mesh_cell], since = 0;
-    if (is_filled(mesh_cell))
-      {
-        const Excavation<dim> &excavation =
-          *scene.excavations[split.mesh.excavation[mesh_cell]];
-        material = scene.material_index(excavation.backfill_material);
-        since    = scene.stage_number(excavation.backfill_stage);
-      }
-    if (!split.mesh.later_materials.empty())
-      for (const unsigned int later : split.mesh.later_materials[mesh_cell])
-        {
-          const unsigned int from =
-            scene.stage_number(scene.materials[later]->stage);
-          if (from <= stage_number && from >= since)
-            {
-              material = later;
-              since    = from;
-            }
-        }
-    return material;
-  }
-
-
-
-  template <int dim>
-  bool
   Conditions<dim>::changes(const unsigned int number) const
   {
-    for (const auto &excavation : scene.excavations)
-      if (scene.stage_number(excavation->stage) == number ||
-          (!excavation->backfill_stage.empty() &&
-           scene.stage_number(excavation->backfill_stage) == number))
-        return true;
-    for (const auto &traction : scene.tractions)
-      if (scene.stage_number(traction->stage) == number)
-        return true;
-    for (const auto &material : scene.materials)
-      if (!material->stage.empty() &&
-          scene.stage_number(material->stage) == number)
-        return true;
-    return false;
+    return is_changing(scene, number);
   }
 
 

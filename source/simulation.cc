@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/simulation.h>
 
-#include <keyblock/block_faces.h>
 #include <keyblock/block_resolution.h>
+#include <keyblock/block_statics.h>
 #include <keyblock/block_theory.h>
 #include <keyblock/initial_tension.h>
 #include <keyblock/mpi.h>
@@ -256,7 +256,7 @@ namespace Keyblock
         for (const std::string &warning : scene.warnings())
           std::cout << "Warning: " << warning << '\n';
         print_set_up(std::cout);
-        print_limit_equilibria(std::cout, scene, split, blocks);
+        print_block_statics(std::cout, scene, split, blocks);
         std::cout << "The scene is valid.\n";
       }
   }

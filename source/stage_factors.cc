@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Blocks that fail in a stage, and the safety factors at its end.
 #include <keyblock/block_resolution.h>
+#include <keyblock/block_statics.h>
 #include <keyblock/mpi.h>
 #include <keyblock/simulation.h>
 #include <keyblock/teams.h>
@@ -156,7 +157,7 @@ namespace Keyblock
         known.stable   = lowest;
         known.unstable = 1.;
         known.start    = lowest;
-        search.add_cheap_answers(block, number, result);
+        search.add_cheap_answers(block, result);
         if (std::isfinite(result.limit_factor))
           known.limit = result.limit_factor;
         result = search.find(block, number, known);
@@ -169,7 +170,7 @@ namespace Keyblock
         result.failure_mode = "falling";
         recall(before, parts());
         step->dig(number);
-        search.add_cheap_answers(block, number, result);
+        search.add_cheap_answers(block, result);
       }
     contact->reduce_strength(StrengthReduction());
     return result;
@@ -195,7 +196,7 @@ namespace Keyblock
         stage.unbalanced_ratio > 0.)
       known.stable = 1.;
     SafetyFactor cheap;
-    search.add_cheap_answers(block, index + 2, cheap);
+    search.add_cheap_answers(block, cheap);
     if (known.stable > 0.)
       known.onset = cheap.stress_ratio;
     if (std::isfinite(cheap.limit_factor))
@@ -281,14 +282,17 @@ namespace Keyblock
       std::cout << factor.value() << " [" << factor.lower << ", "
                 << factor.upper << "]";
     else
-      std::cout << to_string(factor.outcome);
+      std::cout << describe_outcome(factor);
     if (factor.undecided_upper > 0.)
       std::cout << ", undecided from " << factor.undecided_lower << " to "
                 << factor.undecided_upper;
     if (!factor.failure_mode.empty())
       std::cout << ", " << factor.failure_mode;
-    std::cout << "; limit equilibrium " << factor.limit_factor << " ("
-              << factor.limit_mode << ")";
+    std::cout << "; limit equilibrium "
+              << (has_initial_stress(scene) ? "without in-situ clamping " : "")
+              << factor.limit_factor << " (" << factor.limit_mode
+              << (factor.limit_remark.empty() ? "" : "; ")
+              << factor.limit_remark << ")";
     if (factor.stress_ratio > 0.)
       std::cout << ", stress ratio " << factor.stress_ratio;
     const Block<dim> &block = blocks.blocks[factor.block];

@@ -167,19 +167,23 @@ namespace Keyblock
           Tree one, cheap, stress;
           put(one, "stage", factor.stage);
           put(one, "lower", factor.lower);
-          put(one, "upper", factor.upper);
-          put(one, "value", factor.value());
+          if (factor.outcome != SafetyFactor::Outcome::clamped)
+            {
+              put(one, "upper", factor.upper);
+              put(one, "value", factor.value());
+            }
           if (factor.undecided_upper > 0.)
             {
               put(one, "undecided_lower", factor.undecided_lower);
               put(one, "undecided_upper", factor.undecided_upper);
             }
-          put(one, "outcome", to_string(factor.outcome));
+          put(one, "outcome", describe_outcome(factor));
           put(one, "failure_mode", factor.failure_mode);
           one.add_child("trials", trials_as_tree(factor.trials));
           strength.push_back({"", one});
           put(cheap, "stage", factor.stage);
           put(cheap, "mode", factor.limit_mode);
+          put(cheap, "remark", factor.limit_remark);
           put_limit_factor(factor.limit_factor, cheap);
           limit.push_back({"", cheap});
           put(stress, "stage", factor.stage);

@@ -2,6 +2,7 @@
 #ifndef keyblock_limit_equilibrium_h
 #define keyblock_limit_equilibrium_h
 
+#include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
 #include <string>
@@ -19,6 +20,10 @@ namespace Keyblock
     double cohesion         = 0.;  ///< [Pa]
     double water_force      = 0.;  ///< pressure times area, pushes inwards [N]
     std::string name;              ///< of the joint
+
+    // only for judge_rotation()
+    double tensile_strength = 0.;               ///< [Pa]
+    std::vector<dealii::Point<dim>> vertices{}; ///< of the mesh on it
   };
 
   /** What a rigid block without a state of stress would do. */
@@ -31,25 +36,30 @@ namespace Keyblock
       falling, ///< leaves all faces, downwards
       lifting, ///< leaves all faces, upwards
       one_plane,
-      two_planes
+      two_planes,
+      rotating ///< turns about an edge of the one plane it is pressed on
     };
     Mode mode = Mode::stable;
 
-    /** Those it slides on (none, one or two), then those with cohesion that it
-     * moves along without pressing on them. */
+    /** Those it is pressed on (those of one or two planes, or none), then those
+     * with cohesion that it moves along without pressing on them. */
     std::vector<unsigned int> faces;
+    unsigned int n_pressed = 0; ///< how many of them it is pressed on
     dealii::Tensor<1, dim> direction;
 
     /** Effective normal forces on those faces, compression positive [N]. */
     std::vector<double> normal_forces;
     double driving_force = 0.; ///< along the direction [N]
 
-    /** Resistance over driving force; 0 if falling or lifting; infinite if
-     * stable [-]. */
+    /** Resistance over driving force; cohesion alone resists falling and
+     * lifting; 0 if rotating, infinite if stable [-]. */
     double factor = 0.;
 
-    /** The mode in words, with the names of the joints. */
+    /** The mode in words: falling, sliding on J1, sliding on J1/J2. */
     std::string describe(const std::vector<BlockFace<dim>> &all) const;
+
+    /** Names of the faces it is pressed on, J1/J2. */
+    std::string names(const std::vector<BlockFace<dim>> &all) const;
   };
 
   /**
@@ -58,9 +68,10 @@ namespace Keyblock
    * directions that leave no face closed in, the block takes that along which
    * the resultant of load and water drives it: off all faces, else along one
    * plane that it is pressed on, else along two (Warburton 1981; Goodman and
-   * Shi 1985). Faces that it moves along without pressing on them resist by
-   * their cohesion, faces that open by nothing. Moments are ignored: no
-   * toppling.
+   * Shi 1985). Faces with one normal, as the pieces of a stepped base, share
+   * the normal force by their areas. Faces that it moves along without pressing
+   * on them resist by their cohesion, faces that open by nothing. Moments are
+   * ignored; see judge_rotation().
    */
   template <int dim>
   LimitEquilibrium<dim>

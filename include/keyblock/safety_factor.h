@@ -14,6 +14,7 @@ namespace Keyblock
       bracketed,
       falls_freely, ///< fails at SafetySettings::lowest
       immovable,    ///< holds at SafetySettings::highest
+      clamped,      ///< the same, though it can move (limit equilibrium)
       undecided     ///< neither holds nor fails wherever it was tried
     };
     unsigned int block = 0; ///< index
@@ -30,7 +31,7 @@ namespace Keyblock
     std::vector<Trial> trials;
 
     // the two cheap answers
-    std::string limit_mode;
+    std::string limit_mode, limit_remark;
     double limit_factor = 0.;
     double stress_ratio = 0.; ///< on the faces it slides on; 0: none
 
@@ -43,7 +44,9 @@ namespace Keyblock
     }
   };
 
-  std::string to_string(const SafetyFactor::Outcome outcome);
+  /** The outcome in words; a value, falls freely, immovable, above 100, held by
+   * clamping, or undecided. */
+  std::string describe_outcome(const SafetyFactor &factor);
 
   /**
    * Looks for the factor between holding and failing of one block by trials:
@@ -81,7 +84,6 @@ namespace Keyblock
 
     /** Limit equilibrium and stress ratio of @p block in the present state. */
     void add_cheap_answers(const unsigned int block,
-                           const unsigned int number,
                            SafetyFactor &result) const;
 
   private:

@@ -5,6 +5,7 @@
 #include <keyblock/dofs.h>
 #include <keyblock/expression.h>
 #include <keyblock/fields.h>
+#include <keyblock/ground.h>
 #include <keyblock/internal_force.h>
 #include <keyblock/mass_scaling.h>
 #include <keyblock/step_spread.h>
@@ -174,11 +175,25 @@ namespace Keyblock
     /** Displacement [m] that a support prescribes at the end of the ramp. */
     Tensor<1, dim> prescribed_displacement(const NodeSupport<dim> &s) const;
 
-    bool is_dug(const unsigned int mesh_cell) const;
-    bool is_filled(const unsigned int mesh_cell) const;
+    /** What is there now. */
+    Ground<dim>
+    ground() const
+    {
+      return {scene, split, stage_number, &is_removed};
+    }
+
+    bool
+    is_dug(const unsigned int mesh_cell) const
+    {
+      return ground().is_dug(mesh_cell);
+    }
 
     /** Index into Scene::materials, that of the fill where it is filled. */
-    unsigned int material_of(const unsigned int mesh_cell) const;
+    unsigned int
+    material_of(const unsigned int mesh_cell) const
+    {
+      return ground().material_of(mesh_cell);
+    }
 
     StableStep<dim> stable_step;   ///< of the masses in use
     std::vector<double> frequency; ///< of each deformable cell here [rad/s]

@@ -246,6 +246,26 @@ BOOST_AUTO_TEST_CASE(cohesion_on_faces_along_the_motion)
   BOOST_TEST(is_near(prism.factor, 0.15, 1e-14));
 }
 
+BOOST_AUTO_TEST_CASE(pieces_of_one_plane_share_its_force)
+{
+  // a base of two joints of 1 and 3 m2 besides one that stands across
+  std::vector<BlockFace<3>> faces = {face(upward(35., 90.), 20., "weak"),
+                                     face(upward(90., 90.), 30., "back"),
+                                     face(upward(35., 90.), 40., "strong")};
+  faces[2].area                   = 3.;
+  faces[0].cohesion               = 0.1;
+  const auto result               = solve_limit_equilibrium<3>(faces, down);
+  BOOST_TEST(result.describe(faces) == "sliding on weak/strong");
+  BOOST_TEST(result.n_pressed == 2);
+  const double normal = std::cos(35. * radian);
+  BOOST_TEST(is_near(result.normal_forces[0], 0.25 * normal, 1e-14));
+  BOOST_TEST(is_near(result.factor,
+                     (0.1 + normal * (0.25 * std::tan(20. * radian) +
+                                      0.75 * std::tan(40. * radian))) /
+                       std::sin(35. * radian),
+                     1e-14));
+}
+
 BOOST_AUTO_TEST_CASE(pinned_blocks_are_stable)
 {
   // the wedge between two planes with a joint across its way
