@@ -89,8 +89,6 @@ BOOST_AUTO_TEST_SUITE(contact_search)
 
 BOOST_AUTO_TEST_CASE(no_contact_through_rock)
 {
-  if (!is_root())
-    return;
   std::mt19937 random(7);
   for (unsigned int i = 0; i < 4; ++i)
     {
@@ -119,8 +117,6 @@ BOOST_AUTO_TEST_CASE(no_contact_through_rock)
 // limb is in front of it or behind it.
 BOOST_AUTO_TEST_CASE(kinked_joint_keeps_its_partners)
 {
-  if (!is_root())
-    return;
   for (const char *end : {"3, 2.2", "3, 1.1", "1.4, 2.4"})
     {
       const Set<2> set("kink",
@@ -154,8 +150,6 @@ BOOST_AUTO_TEST_CASE(kinked_joint_keeps_its_partners)
 
 BOOST_AUTO_TEST_CASE(overlaps_add_up)
 {
-  if (!is_root())
-    return;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> shift(-0.9, 0.9);
   const Set<3> set("floor",
@@ -191,8 +185,6 @@ BOOST_AUTO_TEST_CASE(overlaps_add_up)
 
 BOOST_AUTO_TEST_CASE(overlap_is_found_and_measured)
 {
-  if (!is_root())
-    return;
   const Set<2> set("pressed",
                    "3, 2",
                    " set Names = floor\n subsection floor\n  set Point = 0, "
