@@ -17,18 +17,20 @@ using namespace Keyblock;
 
 namespace
 {
-  /** Names of files that no other rank or number of ranks has. */
+  /** Names of files that no other number of ranks has. */
   std::string
   own(const std::string &name)
   {
-    return "joints_" + std::to_string(n_ranks()) + "_" +
-           std::to_string(this_rank()) + "_" + name;
+    return "joints_" + std::to_string(n_ranks()) + "_" + name;
   }
 
   void
   write(const std::string &name, const std::string &content)
   {
-    std::ofstream(own(name), std::ios::binary) << content;
+    MPI_Barrier(world());
+    if (is_root())
+      std::ofstream(own(name), std::ios::binary) << content;
+    MPI_Barrier(world());
   }
 
   /** A scene in a box of 20 m with this in the place of its joints. */
@@ -156,7 +158,9 @@ BOOST_AUTO_TEST_CASE(used_entries_give_the_same_joints)
   write("table.csv", table);
   write_scene(scene_of_all());
   const auto scene = read({"Joints/c/Normal=1, 2, 3"});
-  scene->write_used(own("used.prm"));
+  if (is_root())
+    scene->write_used(own("used.prm"));
+  MPI_Barrier(world());
   write("table.csv", "is not looked at\n");
   const auto again = read({}, "used.prm");
   BOOST_TEST(again->used_entries() == scene->used_entries());
@@ -172,7 +176,9 @@ BOOST_AUTO_TEST_CASE(used_entries_give_the_same_joints)
       BOOST_TEST(one.radius == other.radius);
       BOOST_TEST(one.friction_angle == other.friction_angle);
     }
-  again->write_used(own("used_again.prm"));
+  if (is_root())
+    again->write_used(own("used_again.prm"));
+  MPI_Barrier(world());
   BOOST_TEST(content_of(own("used_again.prm")) == content_of(own("used.prm")));
 }
 
@@ -223,7 +229,9 @@ BOOST_AUTO_TEST_CASE(written_network_is_read_again)
   // (coordinates in the grid of an origin are rounded there)
   const std::string origin = "Domain/Origin=0, 0, 0";
   const auto scene = read({origin, "Joints/b/Water pressure=9810*(20-z)"});
-  write_joint_table(own("written.csv"), *scene);
+  if (is_root())
+    write_joint_table(own("written.csv"), *scene);
+  MPI_Barrier(world());
   write_scene("subsection Joints\n set File = " + own("written.csv") +
               "\nend\n");
   const auto again = read({origin});
@@ -250,7 +258,9 @@ BOOST_AUTO_TEST_CASE(ten_thousand_rows)
   BOOST_TEST(seconds.count() < 20.);
 
   const auto start_again = std::chrono::steady_clock::now();
-  scene->write_used(own("used.prm"));
+  if (is_root())
+    scene->write_used(own("used.prm"));
+  MPI_Barrier(world());
   const auto again = read({}, "used.prm");
   const std::chrono::duration<double> more =
     std::chrono::steady_clock::now() - start_again;
