@@ -19,6 +19,7 @@ namespace Keyblock
   {
     action(trial.factor);
     action(trial.start);
+    action(trial.is_of_group);
     action(trial.is_stable);
     action(trial.is_undecided);
     action(trial.n_broken);
@@ -42,6 +43,8 @@ namespace Keyblock
     action(factor.upper);
     action(factor.undecided_lower);
     action(factor.undecided_upper);
+    action(factor.group_lower);
+    action(factor.group_upper);
     action(factor.limit_factor);
     action(factor.stress_ratio);
   }
@@ -105,6 +108,7 @@ namespace Keyblock
                    group + "limit_remark",
                    factors,
                    &SafetyFactor::limit_remark);
+    exchange_texts(file, group + "group", factors, &SafetyFactor::group);
     std::vector<unsigned int> n_trials;
     std::vector<Trial> trials;
     for (const SafetyFactor &factor : factors)
@@ -140,7 +144,8 @@ namespace Keyblock
         for (const std::string &text : {factor.stage,
                                         factor.failure_mode,
                                         factor.limit_mode,
-                                        factor.limit_remark})
+                                        factor.limit_remark,
+                                        factor.group})
           packed.second.push_back(text);
       }
     const std::size_t n = numbers_of(Trial()).size();
@@ -153,10 +158,11 @@ namespace Keyblock
           for (std::size_t t = 0; t + n <= rows[2 * f + 1].size(); t += n)
             factor.trials.push_back(
               from_numbers<Trial>(rows[2 * f + 1].data() + t));
-          factor.stage        = texts[4 * f];
-          factor.failure_mode = texts[4 * f + 1];
-          factor.limit_mode   = texts[4 * f + 2];
-          factor.limit_remark = texts[4 * f + 3];
+          factor.stage        = texts[5 * f];
+          factor.failure_mode = texts[5 * f + 1];
+          factor.limit_mode   = texts[5 * f + 2];
+          factor.limit_remark = texts[5 * f + 3];
+          factor.group        = texts[5 * f + 4];
           const auto is_same  = [&](const SafetyFactor &other) {
             return other.block == factor.block;
           };

@@ -244,8 +244,71 @@ namespace Keyblock
       result.failure_mode = trials.failure();
     else if (std::isfinite(result.limit_factor))
       result.outcome = SafetyFactor::Outcome::clamped;
+    if (result.outcome == SafetyFactor::Outcome::bracketed &&
+        scene.safety.reduced_joints != "all")
+      find_group(number, known, result);
     trials.reduce(block, 1.);
     return result;
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthReductionSearch<dim>::find_group(const unsigned int number,
+                                           const Known &known,
+                                           SafetyFactor &result)
+  {
+    Known guess = known;
+    guess.hint  = result.value();
+    for (std::vector<unsigned int> more = trials.blocks_along(); !more.empty();)
+      {
+        trials.companions.insert(trials.companions.end(),
+                                 more.begin(),
+                                 more.end());
+        std::vector<Trial> tried;
+        Search search(*this, result.block, number, guess, tried);
+        const auto outcome = bisect(search, guess);
+        search.finish();
+        for (Trial &trial : tried)
+          {
+            trial.is_of_group = true;
+            result.trials.push_back(trial);
+          }
+        if (outcome != SafetyFactor::Outcome::bracketed)
+          break;
+        result.group       = ids_of_group(result.block);
+        result.group_lower = search.stable;
+        result.group_upper = search.unstable;
+        // those that move with the group only
+        more = trials.blocks_along();
+        more.erase(std::remove_if(more.begin(),
+                                  more.end(),
+                                  [&](const unsigned int b) {
+                                    return std::count(trials.companions.begin(),
+                                                      trials.companions.end(),
+                                                      b) > 0;
+                                  }),
+                   more.end());
+        guess.hint = 0.5 * (result.group_lower + result.group_upper);
+      }
+    trials.companions.clear();
+  }
+
+
+
+  template <int dim>
+  std::string
+  StrengthReductionSearch<dim>::ids_of_group(const unsigned int block) const
+  {
+    std::vector<unsigned int> ids = {blocks.blocks[block].id};
+    for (const unsigned int b : trials.companions)
+      ids.push_back(blocks.blocks[b].id);
+    std::sort(ids.begin(), ids.end());
+    std::string text;
+    for (const unsigned int id : ids)
+      text += (text.empty() ? "" : ", ") + std::to_string(id);
+    return text;
   }
 
 
@@ -258,12 +321,17 @@ namespace Keyblock
     if (settings.reach == 0. || settings.reduced_joints == "all" ||
         settings.reduces_rock)
       return false;
-    const Block<dim> &b = blocks.blocks[block];
+    std::vector<unsigned int> moving = trials.companions;
+    moving.push_back(block);
     std::vector<bool> is_frozen(split.mesh.n_cells());
     for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
-      is_frozen[c] = split.block_of_cell[c] != block &&
-                     split.mesh.cell_center(c).distance(b.centroid) >
-                       (0.5 + settings.reach) * b.size;
+      is_frozen[c] =
+        std::none_of(moving.begin(), moving.end(), [&](const unsigned int m) {
+          const Block<dim> &b = blocks.blocks[m];
+          return split.block_of_cell[c] == m ||
+                 split.mesh.cell_center(c).distance(b.centroid) <=
+                   (0.5 + settings.reach) * b.size;
+        });
     run.conditions.freeze(is_frozen);
     return true;
   }

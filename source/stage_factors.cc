@@ -253,8 +253,8 @@ namespace Keyblock
     recall(before, parts());
     std::fill(removal_stage.begin(), removal_stage.end(), 0);
     StrengthReduction strong;
-    strong.block = block;
-    strong.share = 1. / scene.safety.lowest;
+    strong.blocks = {block};
+    strong.share  = 1. / scene.safety.lowest;
     contact->reduce_strength(strong);
     is_trial = true;
     dig_stage(stage, number);
@@ -288,6 +288,10 @@ namespace Keyblock
                 << factor.undecided_upper;
     if (!factor.failure_mode.empty())
       std::cout << ", " << factor.failure_mode;
+    if (!factor.group.empty())
+      std::cout << "; blocks " << factor.group << " move together: "
+                << 0.5 * (factor.group_lower + factor.group_upper) << " ["
+                << factor.group_lower << ", " << factor.group_upper << "]";
     std::cout << "; limit equilibrium "
               << (has_initial_stress(scene) ? "without in-situ clamping " : "")
               << factor.limit_factor << " (" << factor.limit_mode
@@ -298,7 +302,7 @@ namespace Keyblock
     const Block<dim> &block = blocks.blocks[factor.block];
     unsigned int n_broken   = 0;
     for (const Trial &trial : factor.trials)
-      if (trial.is_stable && trial.factor == factor.lower)
+      if (trial.is_stable && !trial.is_of_group && trial.factor == factor.lower)
         n_broken = trial.n_broken;
     if (n_broken > 0)
       std::cout << "; " << n_broken << " bonds broke in the last that held";

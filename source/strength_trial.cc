@@ -59,6 +59,10 @@ namespace Keyblock
     /** Windows over which such an acceleration must stay. */
     constexpr unsigned int n_steady = 6;
 
+    /** Way of another block, in the direction of the one that fails and over
+     * its way, from which on they move together [-]. */
+    constexpr double along_share = 0.5;
+
     /** Times that a block which neither rests nor speeds up is looked at. */
     constexpr unsigned int n_rounds = 5;
   } // namespace
@@ -97,7 +101,11 @@ namespace Keyblock
   StrengthTrials<dim>::reduce(const unsigned int block, const double factor)
   {
     StrengthReduction reduction;
-    reduction.block = scene.safety.reduced_joints == "all" ? none : block;
+    if (scene.safety.reduced_joints != "all")
+      {
+        reduction.blocks = companions;
+        reduction.blocks.push_back(block);
+      }
     if (!scene.safety.joints.empty())
       reduction.joints.assign(scene.joints.size(), false);
     for (const std::string &name : scene.safety.joints)
@@ -517,13 +525,52 @@ namespace Keyblock
     run.step.keeps_ledger  = keeps_ledger;
     run.step.skips_resting = skips_resting;
     if (verdict == Verdict::fails)
-      last_failure = name_failure(block);
+      {
+        last_failure = name_failure(block);
+        last_along   = list_blocks_along(block);
+      }
     // of the true masses
     const double ratio = mass_in_use(block) / true_mass;
     trial.velocity *= std::sqrt(ratio);
     trial.acceleration *= ratio;
     trial.seconds = MPI_Wtime() - begin;
     return trial;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  StrengthTrials<dim>::list_blocks_along(const unsigned int block) const
+  {
+    // mean ways of the blocks in the second phase
+    const unsigned int n_blocks = blocks.blocks.size();
+    std::vector<double> sums((dim + 1) * n_blocks, 0.);
+    for (unsigned int b = 0; b < n_blocks; ++b)
+      for (const unsigned int node : nodes_of_block[b])
+        {
+          const double m = run.fields.mass[node];
+          for (unsigned int d = 0; d < dim; ++d)
+            sums[(dim + 1) * b + d] +=
+              m * (run.fields.displacement[dim * node + d] -
+                   displacement_before[dim * node + d]);
+          sums[(dim + 1) * b + dim] += m;
+        }
+    sum_lists(sums);
+    const auto way = [&](const unsigned int b) {
+      Vector<dim> mean{};
+      for (unsigned int d = 0; d < dim && sums[(dim + 1) * b + dim] > 0.; ++d)
+        mean[d] = sums[(dim + 1) * b + d] / sums[(dim + 1) * b + dim];
+      return mean;
+    };
+    const Vector<dim> own = way(block);
+    std::vector<unsigned int> along;
+    for (unsigned int b = 0; b < n_blocks; ++b)
+      if (b != block && !blocks.blocks[b].is_infinite &&
+          !blocks.blocks[b].is_rigid &&
+          dot<dim>(way(b), own) > along_share * dot<dim>(own, own))
+        along.push_back(b);
+    return along;
   }
 
 

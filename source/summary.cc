@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/revision.h>
+#include <deal.II/base/utilities.h>
 
 #include <keyblock/block_theory.h>
 #include <keyblock/mpi.h>
@@ -137,6 +138,7 @@ namespace Keyblock
           Tree tree;
           put(tree, "factor", trial.factor);
           put(tree, "start", trial.start);
+          put(tree, "of_group", trial.is_of_group);
           put(tree, "stable", trial.is_stable);
           put(tree, "undecided", trial.is_undecided);
           put(tree, "broken_bonds", trial.n_broken);
@@ -151,6 +153,21 @@ namespace Keyblock
           list.push_back({"", tree});
         }
       return list;
+    }
+
+    /** The blocks that move together, and their factor. */
+    Tree
+    group_as_tree(const SafetyFactor &factor)
+    {
+      Tree tree, ids;
+      for (const std::string &id :
+           dealii::Utilities::split_string_list(factor.group))
+        ids.push_back({"", Tree("#" + id)});
+      tree.add_child("blocks", ids);
+      put(tree, "lower", factor.group_lower);
+      put(tree, "upper", factor.group_upper);
+      put(tree, "value", 0.5 * (factor.group_lower + factor.group_upper));
+      return tree;
     }
 
     /** Factors of one block, in the order of the stages. */
@@ -179,6 +196,8 @@ namespace Keyblock
             }
           put(one, "outcome", describe_outcome(factor));
           put(one, "failure_mode", factor.failure_mode);
+          if (!factor.group.empty())
+            one.add_child("group", group_as_tree(factor));
           one.add_child("trials", trials_as_tree(factor.trials));
           strength.push_back({"", one});
           put(cheap, "stage", factor.stage);

@@ -30,9 +30,9 @@ namespace Keyblock
   /** Which strengths are divided by a trial's reduction factor. */
   struct StrengthReduction
   {
-    unsigned int block = none; ///< only its joints; `none`: everywhere
-    std::vector<bool> joints;  ///< by joint; empty: all of them
-    double share = 1.;         ///< of the strength that is left, 1 / F [-]
+    std::vector<unsigned int> blocks; ///< only their joints; empty: all
+    std::vector<bool> joints;         ///< by joint; empty: all of them
+    double share = 1.; ///< of the strength that is left, 1 / F [-]
 
     /** Share of strength between two blocks (`none`: no block) on a joint. */
     double
@@ -40,9 +40,11 @@ namespace Keyblock
                   const unsigned int b,
                   const unsigned int joint) const
     {
-      const bool is_meant =
-        (block == none || a == block || b == block) &&
-        (joints.empty() || (joint != none && joints[joint]));
+      bool is_meant = blocks.empty();
+      for (const unsigned int block : blocks)
+        is_meant = is_meant || a == block || b == block;
+      is_meant =
+        is_meant && (joints.empty() || (joint != none && joints[joint]));
       return is_meant ? share : 1.;
     }
   };

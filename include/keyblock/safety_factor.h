@@ -28,6 +28,13 @@ namespace Keyblock
     double undecided_lower = 0., undecided_upper = 0.;
 
     std::string failure_mode;
+
+    /** Ids of the blocks that move together when this one fails, as `1, 2`;
+     * empty: it moves alone. With the strength of all their joints divided by
+     * the same number, it holds at group_lower and fails at group_upper. */
+    std::string group;
+    double group_lower = 0., group_upper = 0.;
+
     std::vector<Trial> trials;
 
     // the two cheap answers
@@ -89,8 +96,17 @@ namespace Keyblock
   private:
     class Search;
 
-    /** Leave all but the surroundings of @p block as they are; whether there
-     * is anything to leave. */
+    /** Factor of the blocks that moved together when @p result, that of one of
+     * them, was found. */
+    void find_group(const unsigned int number,
+                    const Known &known,
+                    SafetyFactor &result);
+
+    /** Ids of @p block and its companions, as SafetyFactor::group. */
+    std::string ids_of_group(const unsigned int block) const;
+
+    /** Leave all but the surroundings of @p block and its companions as they
+     * are; whether there is anything to leave. */
     bool freeze_beyond_reach(const unsigned int block);
 
     /** Try a factor on either side of @p guess, unless it is known by now

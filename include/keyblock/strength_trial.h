@@ -11,6 +11,7 @@ namespace Keyblock
   {
     double factor          = 0.;
     double start           = 0.; ///< factor of the equilibrium it started from
+    bool is_of_group       = false; ///< of all blocks that move together
     bool is_stable         = false;
     bool is_undecided      = false; ///< neither at rest nor failing
     unsigned int phase     = 1;     ///< that decided
@@ -62,14 +63,28 @@ namespace Keyblock
                      const double factor,
                      const Vector<dim> &first);
 
-    /** Divide the strength of the block's joints by @p factor. */
+    /** Divide the strength of the joints of the block, and of its companions,
+     * by @p factor. */
     void reduce(const unsigned int block, const double factor);
+
+    /** Blocks (indices) whose joints are reduced with those of the block that
+     * is tried; empty: none. */
+    std::vector<unsigned int> companions;
 
     /** Nothing has failed yet. */
     void
     forget_failure()
     {
       last_failure.clear();
+      last_along.clear();
+    }
+
+    /** Blocks (indices) that moved along in the last trial that failed: other
+     * finite ones, by at least half of its way in its direction. */
+    const std::vector<unsigned int> &
+    blocks_along() const
+    {
+      return last_along;
     }
 
     /** How the block moved in the last trial that failed; empty: none. */
@@ -153,12 +168,16 @@ namespace Keyblock
 
     std::string name_failure(const unsigned int block) const;
 
+    /** See blocks_along(). */
+    std::vector<unsigned int> list_blocks_along(const unsigned int block) const;
+
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
     const Blocks<dim> &blocks;
     RunParts<dim> run;
     std::vector<std::vector<unsigned int>> nodes_of_block; ///< owned ones
     std::string last_failure;
+    std::vector<unsigned int> last_along;
     std::vector<double> displacement_before; ///< of the second phase [m]
     std::vector<double> joint_force;         ///< in its windows, added up [N]
   };
