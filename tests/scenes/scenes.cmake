@@ -76,6 +76,8 @@ keyblock_scene(verification/factor_incline REFERENCES factor_incline_two_blocks
   RANKS 2 4 SET "Safety factor/Teams=2"
   "Excavations/Names=uphill, downhill, slot" "Excavations/slot/Shape=box"
   "Excavations/slot/Corner=-0.05, 0" "Excavations/slot/Size=0.1, 0.1")
+# two blocks that lean on each other, and the factor of both
+keyblock_scene(verification/factor_group RANKS 1 2)
 foreach(case 10_40 68_40 25_50 60_40 50_25 75_68 77_76 80_75)
   string(REPLACE "_" ";" angles ${case})
   list(GET angles 0 friction)
