@@ -274,7 +274,11 @@ namespace Keyblock
         speed = std::max(speed, std::abs(slot_velocity[dim * slot + d]));
     const double reach = 2. * dim * speed * step.step + 1e-6 * search.skin();
 
-    find_surface_contacts(step, reach);
+    // what is tied is the rock before it was cut, where no surface meets another
+    if (is_tied)
+      contacts.clear();
+    else
+      find_surface_contacts(step, reach);
     std::vector<ContactPoint<dim>> points;
     for (const SurfaceContact<dim> &contact : contacts)
       points.push_back(contact.point);

@@ -313,6 +313,27 @@ namespace Keyblock
 
 
   template <int dim>
+  JointSums<dim>
+  Contact<dim>::count_pairs() const
+  {
+    std::vector<double> n(2, 0.);
+    for (unsigned int p = 0; p < state.size(); ++p)
+      if (is_primary(group_of_pair[p]) && !state[p].is_converted &&
+          !state[p].is_removed)
+        {
+          n[0] += state[p].status == ContactStatus::open;
+          n[1] += state[p].status == ContactStatus::sliding;
+        }
+    sum_lists(n);
+    JointSums<dim> sums;
+    sums.n_open    = n[0];
+    sums.n_sliding = n[1];
+    return sums;
+  }
+
+
+
+  template <int dim>
   std::vector<double>
   Contact<dim>::list_sliding_blocks() const
   {
@@ -349,6 +370,8 @@ namespace Keyblock
   Contact<3>::sum_over_block(const unsigned int) const;
   template Vector<2> Contact<2>::mean_slip(const unsigned int) const;
   template Vector<3> Contact<3>::mean_slip(const unsigned int) const;
+  template JointSums<2> Contact<2>::count_pairs() const;
+  template JointSums<3> Contact<3>::count_pairs() const;
   template JointSums<2> Contact<2>::count_points() const;
   template JointSums<3> Contact<3>::count_points() const;
 } // namespace Keyblock

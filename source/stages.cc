@@ -79,7 +79,10 @@ namespace Keyblock
     step->choose_step(1);
     if (contact == nullptr)
       return;
+    // the second time all stick, and the forces of points that meet are the
+    // nearest to the rock's stress
     contact->tie(true);
+    step->settle_contact();
     step->settle_contact();
     contact->tie(false);
     std::vector<bool> is_exposed;
@@ -94,7 +97,7 @@ namespace Keyblock
                    "is excavated or shaken"
                 << std::endl;
     step->settle_contact();
-    const JointSums<dim> points = contact->count_points();
+    const JointSums<dim> points = contact->count_pairs();
     if (is_root() && points.n_open + points.n_sliding > 0)
       std::cout << "Joints  " << points.n_open + points.n_sliding
                 << " points cannot bear the initial stress: " << points.n_open

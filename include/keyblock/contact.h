@@ -113,6 +113,10 @@ namespace Keyblock
     /** Numbers of open, sliding, sticking and intact points over all ranks. */
     JointSums<dim> count_points() const;
 
+    /** The same of pairs alone, open and sliding ones: surfaces that merely
+     * touch, as beside them, bear nothing and do not count. */
+    JointSums<dim> count_pairs() const;
+
     /** 1 for blocks with a point that slid in the last step, by index of the
      * block, else 0 (collective). */
     std::vector<double> list_sliding_blocks() const;
