@@ -57,6 +57,7 @@ namespace Keyblock
     action(pair.is_removed);
     action(pair.has_opened);
     action(pair.bend_shear);
+    action(pair.bend_tension);
     action(pair.weld_shear);
     action(pair.weld_tension);
   }

@@ -91,25 +91,15 @@ namespace Keyblock
     if (pairs.empty())
       return;
     const std::vector<PairState<dim>> all = gather_pair_states();
-    const double kick                     = present_kick();
     for (const unsigned int p : pairs)
       {
         const Joint<dim> &joint = *scene.joints[interface.pairs[p].joint];
         state[p].is_welded      = false;
         state[p].is_intact = scene.contact.tie_all || joint.cohesion > 0. ||
                              joint.tensile_strength > 0.;
-        const PointStrength strength =
-          pair_strength(p, state[p].is_intact, kick);
-        const double pressure = dot<dim>(all[p].impulse, normal[p]);
-        const double shear =
-          norm<dim>(add<dim>(all[p].impulse, -pressure, normal[p]));
-        state[p].weld_tension =
-          std::max(0., -pressure - strength.tension) / kick;
-        state[p].weld_shear =
-          std::max(0.,
-                   shear - strength.cohesion -
-                     strength.static_friction * std::max(0., pressure)) /
-          kick;
+        const auto [tension, shear] = beyond_strength(p, all[p]);
+        state[p].weld_tension       = tension;
+        state[p].weld_shear         = shear;
       }
   }
 
@@ -123,31 +113,57 @@ namespace Keyblock
     constexpr double margin = 1.5;
     const double kick       = present_kick();
     unsigned int n_held     = 0;
-    for (unsigned int p = 0; p < state.size(); ++p)
+    for (unsigned int g = 0; g < interface.n_groups(); ++g)
       {
-        const Pair<dim> &pair = interface.pairs[p];
-        const auto sides      = blocks_of_pair(p);
-        if (is_exposed[sides[0]] || is_exposed[sides[1]] ||
-            state[p].is_welded || state[p].is_removed)
-          continue;
-        const double in_plane = pair.area_vector * pair.normal;
-        const double bend =
-          (pair.area_vector - in_plane * pair.normal).norm() / pair.area;
-        const double pressure = dot<dim>(state[p].impulse, normal[p]) / kick;
-        const double shear =
-          norm<dim>(add<dim>(state[p].impulse, -pressure * kick, normal[p])) /
-          kick;
-        const PointStrength strength =
-          pair_strength(p, state[p].is_intact, kick);
-        const double missing = shear - strength.cohesion / kick -
-                               strength.static_friction * pressure;
-        if (pressure <= 0. || missing <= 0. ||
-            missing > margin * bend * pressure)
-          continue;
-        state[p].bend_shear = 1.001 * missing;
-        n_held += is_primary(group_of_pair[p]);
+        const unsigned int begin = interface.group_pairs_begin[g];
+        const unsigned int end   = interface.group_pairs_begin[g + 1];
+        // points that meet share what the bend of one of them makes
+        double bend = 0., largest = 0.;
+        for (unsigned int p = begin; p < end; ++p)
+          {
+            const Pair<dim> &pair = interface.pairs[p];
+            const Tensor<1, dim> direction =
+              pair.area_vector / pair.area_vector.norm();
+            bend    = std::max(bend, (direction - pair.normal).norm());
+            largest = std::max(largest, norm<dim>(state[p].impulse) / kick);
+          }
+        const double unsure = margin * bend * largest;
+        for (unsigned int p = begin; p < end; ++p)
+          {
+            const auto sides = blocks_of_pair(p);
+            if (is_exposed[sides[0]] || is_exposed[sides[1]] ||
+                state[p].is_welded || state[p].is_removed)
+              continue;
+            const auto [tension, shear] = beyond_strength(p, state[p]);
+            if (std::max(tension, shear) <= 0. || tension > unsure ||
+                shear > unsure)
+              continue;
+            state[p].bend_tension = 1.001 * tension;
+            state[p].bend_shear   = 1.001 * shear;
+            n_held += is_primary(g);
+          }
       }
     return sum_over_ranks(n_held);
+  }
+
+
+
+  template <int dim>
+  std::array<double, 2>
+  Contact<dim>::beyond_strength(const unsigned int pair,
+                                const PairState<dim> &now) const
+  {
+    const double kick = present_kick();
+    const PointStrength strength =
+      pair_strength(pair, state[pair].is_intact, kick);
+    const double pressure = dot<dim>(now.impulse, normal[pair]);
+    const double shear =
+      norm<dim>(add<dim>(now.impulse, -pressure, normal[pair]));
+    return {{std::max(0., -pressure - strength.tension) / kick,
+             std::max(0.,
+                      shear - strength.cohesion -
+                        strength.static_friction * std::max(0., pressure)) /
+               kick}};
   }
 
 
@@ -159,7 +175,8 @@ namespace Keyblock
     for (PairState<dim> &pair : state)
       {
         pair.weld_shear += pair.bend_shear;
-        pair.bend_shear = 0.;
+        pair.weld_tension += pair.bend_tension;
+        pair.bend_shear = pair.bend_tension = 0.;
       }
   }
 
@@ -213,7 +230,8 @@ namespace Keyblock
       is_intact ? share * joint.tensile_strength * p.area * kick : 0.;
     strength.cohesion +=
       (state[pair].bend_shear + weld_share * state[pair].weld_shear) * kick;
-    strength.tension += weld_share * state[pair].weld_tension * kick;
+    strength.tension +=
+      (state[pair].bend_tension + weld_share * state[pair].weld_tension) * kick;
     if (scene.contact.tie_all || state[pair].is_welded || is_tied)
       strength.cohesion = strength.tension = 1e100;
     return strength;

@@ -37,6 +37,7 @@ namespace Keyblock
         result[p].is_welded    = state[p].is_welded;
         result[p].is_removed   = state[p].is_removed;
         result[p].bend_shear   = state[p].bend_shear;
+        result[p].bend_tension = state[p].bend_tension;
         result[p].weld_shear   = state[p].weld_shear;
         result[p].weld_tension = state[p].weld_tension;
       }

@@ -279,6 +279,10 @@ namespace Keyblock
     std::vector<double> gather_positions() const;
     bool is_primary(const unsigned int group) const;
 
+    /** Tension and shear of a pair in state @p now beyond its strength [N]. */
+    std::array<double, 2> beyond_strength(const unsigned int pair,
+                                          const PairState<dim> &now) const;
+
     const Scene<dim> &scene;
     const Interface<dim> &interface;
     const SplitMesh<dim> &split;

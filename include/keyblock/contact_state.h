@@ -20,7 +20,8 @@ namespace Keyblock
     bool has_opened      = false; ///< so that cohesion is gone
 
     /** Shear that pressure on faces bent by the mesh asks for [N]. */
-    double bend_shear = 0.;
+    double bend_shear   = 0.;
+    double bend_tension = 0.;
 
     // what a weld bore beyond the joint's strength when it was let go [N]
     double weld_shear   = 0.;
