@@ -110,7 +110,7 @@ namespace Keyblock
   Contact<dim>::hold_bent_points(const std::vector<bool> &is_exposed)
   {
     // bends are measured to rounding and to what the mesh's cells make of them
-    constexpr double margin = 1.5;
+    constexpr double margin = 2.;
     const double kick       = present_kick();
     unsigned int n_held     = 0;
     for (unsigned int g = 0; g < interface.n_groups(); ++g)
