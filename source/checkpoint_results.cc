@@ -66,6 +66,7 @@ namespace Keyblock
     action(report.points.sliding);
     action(report.points.sticking);
     action(report.points.intact);
+    action(report.through_rock);
     action(report.largest_overlap);
     for (double &coordinate : report.overlap_place)
       action(coordinate);

@@ -314,6 +314,27 @@ namespace Keyblock
 
 
   template <int dim>
+  unsigned int
+  Contact<dim>::count_through_rock() const
+  {
+    // share of the skin that is no depth
+    constexpr double shallow = 0.02;
+    return std::count_if(contacts.begin(),
+                         contacts.end(),
+                         [&](const SurfaceContact<dim> &contact) {
+                           const unsigned int block =
+                             search.block_of_slot[contact.slave];
+                           return !contact.is_ridge &&
+                                  block == contact.master_block &&
+                                  search.start_distance(contact.slave,
+                                                        contact.face) <
+                                    -shallow * search.skin();
+                         });
+  }
+
+
+
+  template <int dim>
   JointSums<dim>
   Contact<dim>::count_pairs() const
   {
@@ -371,6 +392,8 @@ namespace Keyblock
   Contact<3>::sum_over_block(const unsigned int) const;
   template Vector<2> Contact<2>::mean_slip(const unsigned int) const;
   template Vector<3> Contact<3>::mean_slip(const unsigned int) const;
+  template unsigned int Contact<2>::count_through_rock() const;
+  template unsigned int Contact<3>::count_through_rock() const;
   template JointSums<2> Contact<2>::count_pairs() const;
   template JointSums<3> Contact<3>::count_pairs() const;
   template JointSums<2> Contact<2>::count_points() const;

@@ -160,6 +160,15 @@ namespace Keyblock
     file.exchange("run/n_planned", present.n_planned);
     file.exchange("run/n_done", present.n_done);
     file.exchange("run/n_vtu", present.n_vtu);
+    std::vector<double> overlap(present.overlap_place.begin(),
+                                present.overlap_place.end());
+    overlap.push_back(present.largest_overlap);
+    file.exchange("run/overlap", overlap);
+    if (file.is_read())
+      {
+        present.largest_overlap = overlap.back();
+        std::copy_n(overlap.begin(), 3, present.overlap_place.begin());
+      }
     file.exchange("run/has_removed", present.has_removed);
     file.exchange("run/is_reported", present.is_reported);
     file.exchange("run/wants_factors", present.wants_factors);

@@ -42,6 +42,9 @@ namespace Keyblock
      * it is on its way, however slow [-]. */
     constexpr double least_creep = 1e-5;
 
+    /** Overlaps from this share of the largest displacement on are told [-]. */
+    constexpr double notable_overlap = 0.02;
+
     std::string
     short_number(const double value)
     {
@@ -258,6 +261,7 @@ namespace Keyblock
       book_time();
       output->write_vtu(step->time);
       ++progress.n_vtu;
+      look_for_overlap(progress);
       loop_start = MPI_Wtime();
     };
     const bool writes =
@@ -408,6 +412,23 @@ namespace Keyblock
 
   template <int dim>
   void
+  Simulation<dim>::look_for_overlap(StageProgress<dim> &progress) const
+  {
+    if (!contact)
+      return;
+    const Overlap<dim> overlap = contact->largest_overlap();
+    if (overlap.depth <= progress.largest_overlap)
+      return;
+    progress.largest_overlap = overlap.depth;
+    std::copy(overlap.place.begin(),
+              overlap.place.end(),
+              progress.overlap_place.begin());
+  }
+
+
+
+  template <int dim>
+  void
   Simulation<dim>::report_stage(const Stage &stage, const std::uint64_t n_steps)
   {
     StageReport result;
@@ -428,11 +449,10 @@ namespace Keyblock
                                        points.n_sliding,
                                        points.n_sticking,
                                        points.n_intact};
-        const Overlap<dim> overlap  = contact->largest_overlap();
-        result.largest_overlap      = overlap.depth;
-        std::copy(overlap.place.begin(),
-                  overlap.place.end(),
-                  result.overlap_place.begin());
+        result.through_rock         = contact->count_through_rock();
+        look_for_overlap(present);
+        result.largest_overlap = present.largest_overlap;
+        result.overlap_place   = present.overlap_place;
       }
     result.remark = name_what_moves(present);
     for (unsigned int b = 0; b < removal_stage.size(); ++b)
@@ -468,6 +488,17 @@ namespace Keyblock
                 << std::endl;
     else if (!result.remark.empty())
       std::cout << "        " << result.remark << std::endl;
+    if (result.largest_overlap > notable_overlap * result.max_displacement)
+      {
+        std::cout << "        a node was up to " << std::setprecision(3)
+                  << result.largest_overlap << " m inside another block, at (";
+        for (unsigned int d = 0; d < dim; ++d)
+          std::cout << (d ? ", " : "") << result.overlap_place[d];
+        std::cout << ')' << std::endl;
+      }
+    if (result.through_rock > 0)
+      std::cout << "Warning: " << result.through_rock
+                << " contacts act through the rock of a block." << std::endl;
   }
 
   template void Simulation<2>::establish_initial_state();

@@ -408,6 +408,7 @@ namespace Keyblock
         put(tree, "open_points", stage.points.open);
         put(tree, "sliding_points", stage.points.sliding);
         put(tree, "sticking_points", stage.points.sticking);
+        put(tree, "contacts_through_rock", stage.through_rock);
         put(tree, "largest_overlap", stage.largest_overlap);
         if (stage.largest_overlap > 0.)
           tree.add_child("largest_overlap_at",

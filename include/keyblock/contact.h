@@ -110,6 +110,10 @@ namespace Keyblock
       return search.find_largest_overlap(gather_positions(), is_removed_block);
     }
 
+    /** Contacts of nodes with faces of their own block that they lay behind at
+     * the start: through the rock, where there should be none. */
+    unsigned int count_through_rock() const;
+
     /** Numbers of open, sliding, sticking and intact points over all ranks. */
     JointSums<dim> count_points() const;
 

@@ -32,7 +32,8 @@ namespace Keyblock
     unsigned int plastic_cells   = 0; ///< of these in the plastic loop
     unsigned int yielding_points = 0; ///< Gauss points, last step
     JointPoints points;
-    double largest_overlap = 0.; ///< of nodes in other blocks, at the end [m]
+    unsigned int through_rock = 0; ///< contacts within a block, at the end
+    double largest_overlap = 0.;   ///< of nodes in other blocks, at the end [m]
     std::array<double, 3> overlap_place{{0., 0., 0.}};
     Energies energies;
   };

@@ -19,10 +19,12 @@ namespace Keyblock
     std::uint64_t first_step = 0; ///< of the run, when the stage began
     std::uint64_t n_planned  = 0; ///< steps
     std::uint64_t n_done     = 0;
-    unsigned int n_vtu       = 0;     ///< outputs written
-    bool has_removed         = false; ///< a block, in the last step
-    bool is_reported         = false; ///< only safety factors are left
-    bool wants_factors       = false;
+    unsigned int n_vtu       = 0;  ///< outputs written
+    double largest_overlap   = 0.; ///< in them, so far [m]
+    std::array<double, 3> overlap_place{{0., 0., 0.}};
+    bool has_removed   = false; ///< a block, in the last step
+    bool is_reported   = false; ///< only safety factors are left
+    bool wants_factors = false;
     SlipRecord slips;     ///< since the ramp has ended
     Snapshot<dim> before; ///< the state it began with, if it wants factors
   };
@@ -184,6 +186,10 @@ namespace Keyblock
     }
     void pace_ramp(const Stage &stage);
     double ramp_duration_of(const Stage &stage) const;
+    /** Deepest overlap of nodes and other blocks, now or before (collective).
+     */
+    void look_for_overlap(StageProgress<dim> &progress) const;
+
     void report_stage(const Stage &stage, const std::uint64_t n_steps);
     std::string name_what_moves(const StageProgress<dim> &progress) const;
 
