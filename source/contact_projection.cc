@@ -308,8 +308,15 @@ namespace Keyblock
     };
 
     // over faces: the nearest of those with nearly one normal, and of those of
-    // a convex edge the one that the slave is least deep below; else one per
-    // face, but for those behind another, as the sides of a joint in a bed
+    // a convex edge the one that the slave is least deep below, or that of the
+    // joint that it slides along; else one per face, but for those behind
+    // another, as the sides of a joint in a bed
+    const auto leads = [&](const Projection &a, const Projection &b) {
+      return interface.surface[a.face].joint != none &&
+             interface.surface[b.face].joint == none &&
+             std::abs(a.gap) < 0.01 * a.size &&
+             std::abs(start_distance(candidate.slave, a.face)) < 1e-3 * a.size;
+    };
     std::sort(inside.begin(), inside.end(), [](const auto &a, const auto &b) {
       return std::abs(a.gap) < std::abs(b.gap) ||
              (std::abs(a.gap) == std::abs(b.gap) && a.face < b.face);
@@ -326,8 +333,11 @@ namespace Keyblock
           is_covered = is_covered || is_coplanar(other, inside[i]);
         for (unsigned int j = 0; j < inside.size() && !is_covered; ++j)
           {
-            const bool is_before = inside[j].gap > inside[i].gap ||
-                                   (inside[j].gap == inside[i].gap && j < i);
+            const bool is_before =
+              leads(inside[j], inside[i]) ||
+              (!leads(inside[i], inside[j]) &&
+               (inside[j].gap > inside[i].gap ||
+                (inside[j].gap == inside[i].gap && j < i)));
             is_covered =
               ((is_opposed[j] || inside[j].gap > 0.) && is_before &&
                is_convex(position, inside[j], inside[i])) ||
