@@ -96,9 +96,9 @@ namespace Keyblock
       }
 
       /** Points of the batch that might yield go to the yield surface one by
-       * one. */
+       * one. Returns the lanes, as bits, of those that did. */
       template <int dim, typename Number>
-      KEYBLOCK_ALWAYS_INLINE void
+      KEYBLOCK_ALWAYS_INLINE unsigned int
       yield(const Batch<dim, Number> &batch,
             const Bounds<Number> &bounds,
             const int q,
@@ -120,7 +120,8 @@ namespace Keyblock
           is_positive(shear * shear - bounds.factor * j2) &
           is_positive(pull * pull - (4. / 3.) * j2);
         if (is_true<width>(is_elastic))
-          return;
+          return 0;
+        unsigned int yielding = 0;
         for (int l = 0; l < width; ++l)
           if (!is_true<width>(is_elastic, l))
             {
@@ -134,14 +135,20 @@ namespace Keyblock
                   old[k]   = values[0][k][l];
                   trial[k] = values[1][k][l];
                 }
-              batch.pass.yield(
-                batch.pass.owner, batch.first + l, q, volumes[l], old, trial);
+              if (batch.pass.yield(batch.pass.owner,
+                                   batch.first + l,
+                                   q,
+                                   volumes[l],
+                                   old,
+                                   trial))
+                yielding |= 1u << l;
               for (int k = 0; k < n_stress<dim>; ++k)
                 {
                   values[1][k][l] = trial[k];
                   stress[k]       = load<Number>(values[1][k]);
                 }
             }
+        return yielding;
       }
 
       /** Whether a component of the stress is kept in a form that elastic
@@ -154,9 +161,10 @@ namespace Keyblock
       }
 
       /** Advance the stress at a point by the strain rate @p g, to whose
-       * normal components @p third is added; @p viscous is set. */
+       * normal components @p third is added; @p viscous is set. Returns the
+       * lanes that yield, as bits. */
       template <int dim, bool is_large, Kind kind, typename Number>
-      KEYBLOCK_ALWAYS_INLINE void
+      KEYBLOCK_ALWAYS_INLINE unsigned int
       advance_stress(const Batch<dim, Number> &batch,
                      const Bounds<Number> &bounds,
                      const int q,
@@ -194,11 +202,14 @@ namespace Keyblock
             stress[k] += batch.pass.step * rate[k];
             viscous[k] = batch.beta * rate[k];
           }
+        unsigned int yielding = 0;
         if constexpr (kind == Kind::plastic)
-          yield<dim, Number>(batch, bounds, q, volume, before, stress);
+          yielding =
+            yield<dim, Number>(batch, bounds, q, volume, before, stress);
         for (int k = 0; k < n_stress<dim>; ++k)
           if (!is_kept<dim, kind>(k))
             store(stress[k], batch.stress_at(q, k));
+        return yielding;
       }
 
       // ---- cells
@@ -266,6 +277,50 @@ namespace Keyblock
           }
       }
 
+      /** Give all points of the cells that yield, the bits of @p yielding, the
+       * mean pressure of their cell, and book the elastic energy that this
+       * costs as plastic work. The volume change is the same at all points, the
+       * plastic one is not: what differs would grow for ever. */
+      template <int dim, typename Number>
+      KEYBLOCK_ALWAYS_INLINE void
+      level_pressure(const Batch<dim, Number> &batch,
+                     const unsigned int yielding,
+                     const Jacobian<dim, Number> (&jacobian)[1 << dim],
+                     Number (&stress)[1 << dim][n_stress<dim>])
+      {
+        constexpr int n     = 1 << dim;
+        constexpr int width = n_lanes<Number>;
+        Number trace[n], volume = Number(), mean = Number();
+        for (int q = 0; q < n; ++q)
+          {
+            trace[q] = stress[q][0] + stress[q][1] + stress[q][2];
+            volume += jacobian[q].determinant;
+            mean += jacobian[q].determinant * trace[q];
+          }
+        mean /= volume;
+        double chosen[width];
+        for (int l = 0; l < width; ++l)
+          chosen[l] = (yielding >> l) & 1;
+        const Number third = load<Number>(chosen) * (1. / 3.);
+        Number work        = Number();
+        for (int q = 0; q < n; ++q)
+          {
+            const Number shift = third * (mean - trace[q]);
+            for (int k = 0; k < 3; ++k)
+              {
+                stress[q][k] += shift;
+                store(stress[q][k], batch.stress_at(q, k));
+              }
+            const Number after = stress[q][0] + stress[q][1] + stress[q][2];
+            work += Shape<dim>::weight * jacobian[q].determinant *
+                    (trace[q] - after) * (trace[q] + after);
+          }
+        double lost[width];
+        store(work / (6. * (3. * batch.lambda + 2. * batch.mu)), lost);
+        for (const double loss : lost)
+          *batch.pass.plastic_work += loss;
+      }
+
       /** Volume change and pressure averaged over the cell. */
       template <int dim,
                 bool is_large,
@@ -293,10 +348,11 @@ namespace Keyblock
         if constexpr (kind == Kind::plastic)
           bounds = bounds_of<dim, Number>(batch);
         Number stress[n][n_stress<dim>], viscous[n][n_stress<dim>];
+        unsigned int yielding = 0;
         for (int q = 0; q < n; ++q)
           {
             const auto g = gradient_at<dim>(q, rate, jacobian[q]);
-            advance_stress<dim, is_large, kind, Number>(
+            yielding |= advance_stress<dim, is_large, kind, Number>(
               batch,
               bounds,
               q,
@@ -306,6 +362,8 @@ namespace Keyblock
               stress[q],
               viscous[q]);
           }
+        if (kind == Kind::plastic && yielding != 0)
+          level_pressure<dim, Number>(batch, yielding, jacobian, stress);
         if constexpr (is_large)
           for (int q = 0; q < n; ++q)
             jacobian[q] = jacobian_at<dim>(q, end);

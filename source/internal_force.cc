@@ -107,9 +107,10 @@ namespace Keyblock
       return bound;
     }
 
-    /** Return a point that may yield to the yield surface. */
+    /** Return a point that may yield to the yield surface; whether it was
+     * outside. */
     template <int dim>
-    void
+    bool
     yield(void *owner,
           const unsigned int cell,
           const unsigned int point,
@@ -127,13 +128,14 @@ namespace Keyblock
                                    cells.lambda[cell],
                                    cells.mu[cell],
                                    stress))
-        return;
+        return false;
       double size       = 0.;
       const double work = plastic_work_density<dim>(
         before, trial.data(), stress, cells.lambda[cell], cells.mu[cell], size);
       ++cells.n_yielding;
       cells.plastic_work += volume * work;
       plastic_strain += size;
+      return true;
     }
 
     template <int dim>
@@ -238,7 +240,12 @@ namespace Keyblock
     pass.first_plastic = cells.first_plastic();
     pass.yield         = yield<dim>;
     pass.owner         = &cells;
+    pass.plastic_work  = &cells.plastic_work;
+    // the little that a point adds would be lost in the sum of all steps
+    const double so_far = cells.plastic_work;
+    cells.plastic_work  = 0.;
     run_kernel_on<dim>(settings.cells, CellKind::plastic, pass);
+    cells.plastic_work += so_far;
   }
 
 

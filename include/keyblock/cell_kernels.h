@@ -47,14 +47,15 @@ namespace Keyblock
     const unsigned short *strength = nullptr; ///< of each such cell
     unsigned int first_plastic     = 0;
     /** Called for points that may yield: return @p trial to the yield
-     * surface and book what that costs. */
-    void (*yield)(void *owner,
+     * surface and book what that costs; whether it was outside. */
+    bool (*yield)(void *owner,
                   const unsigned int cell,
                   const unsigned int point,
                   const double volume,
                   const double *before,
                   double *trial) = nullptr;
     void *owner                  = nullptr;
+    double *plastic_work         = nullptr; ///< added to [J]
   };
 
   /** The loops of one instruction set. */
