@@ -91,6 +91,7 @@ namespace Keyblock
       {"gravity_column", check_gravity_column<dim>},
       {"kirsch", check_kirsch<dim>},
       {"salencon", check_salencon<dim>},
+      {"spherical_cavity", check_spherical_cavity<dim>},
       {"footing", check_footing<dim>},
       {"value", check_value<dim>},
       {"newmark", check_newmark<dim>},

@@ -657,6 +657,11 @@ namespace Keyblock
               (excavations.size() == 1 && excavations[0]->shape == "circle"),
             "The entry 'Check/Closed form' is " + form +
               ", which needs one excavation of shape circle.");
+    require(form != "spherical_cavity" ||
+              (dim == 3 && excavations.size() == 1 && checks.length > 0.),
+            "The entry 'Check/Closed form' is spherical_cavity, which needs "
+            "'Dimension' 3, one excavation, and the radius of the cavity about "
+            "the origin in 'Check/Length'.");
     require(!is_on_body || form == "rotation" || has_monitor("joint"),
             "The entry 'Check/Closed form' is " + form +
               ", which needs a monitor of kind joint; add one to "

@@ -713,7 +713,7 @@ namespace Keyblock
                       Selection(
                         "none|resting|incline|bar_impact|oblique_impact|"
                         "bond_break|newmark|gravity_column|kirsch|salencon|"
-                        "footing|value|"
+                        "spherical_cavity|footing|value|"
                         "toppling|rotation"));
     prm.add_parameter("Joint", joint, "The joint it is measured on.");
     prm.add_parameter("Quantity",
@@ -737,7 +737,8 @@ namespace Keyblock
       "Length",
       length,
       "bar_impact, bond_break: length of the bar; footing: loaded "
-      "width, half a cell past the last held node [m].",
+      "width, half a cell past the last held node; spherical_cavity: its "
+      "radius, about the origin [m].",
       not_negative);
   }
 

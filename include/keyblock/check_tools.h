@@ -191,6 +191,8 @@ namespace Keyblock
   template <int dim>
   CheckValues check_salencon(const CheckInput<dim> &input);
   template <int dim>
+  CheckValues check_spherical_cavity(const CheckInput<dim> &input);
+  template <int dim>
   CheckValues check_value(const CheckInput<dim> &input);
   template <int dim>
   CheckValues check_footing(const CheckInput<dim> &input);

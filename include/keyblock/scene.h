@@ -484,7 +484,7 @@ namespace Keyblock
     {
       return closed_form == "gravity_column" || closed_form == "kirsch" ||
              closed_form == "salencon" || closed_form == "footing" ||
-             closed_form == "value";
+             closed_form == "spherical_cavity" || closed_form == "value";
     }
 
     void declare(ParameterHandler &prm);
