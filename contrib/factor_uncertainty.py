@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+"""Tells how uncertain the safety factors of a scene are.
+
+usage: contrib/factor_uncertainty.py SCENE.prm [--meshes 2] [--exact FACTOR]
+         [--largest 0.05] [--keyblock build/keyblock] [--keep FOLDER]
+         [-- arguments for keyblock]
+
+Runs the scene as it is, with cells of half the size, with half the time step
+(Time stepping/Safety) and with half the damping of trials (Safety factor/Mass
+damping and Damping ratio), and prints value, bracket and outcome of each block
+and stage. Blocks of two meshes are the same if their centroids are near. Cells
+of half the size: structured meshes get twice the cells, Gmsh sizes half as large
+(Cells across blocks twice as many), cells of a mesh file are halved where they
+are.
+
+Mesh error: what the finest mesh is still off by. Two meshes cannot tell the order
+of convergence; with order 1 it is their difference. With --meshes 3 (a quarter
+of the size besides) the order is estimated and kept between 0.5 and 2 if the
+differences have one sign; if not, the larger difference counts. The value is that
+of the finest mesh, not an extrapolated one (that is printed beside it), and its
+uncertainty the sum of mesh error, half the width of the bracket, and the changes
+with time step and damping, which are measured on the scene's own mesh.
+
+Exits with 1 if a run fails, no factor is found, some runs give a block a value and
+others do not, the uncertainty of a block is larger than --largest of the value, or
+--exact is not within it.
+"""
+import argparse
+import json
+import math
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HALF_DAMPING = ("Safety factor/Mass damping", "Safety factor/Damping ratio")
+
+
+def read_entries(path):
+    """The entries of a used.prm by their path, as in Stages/dig/Kind."""
+    entries, above = {}, []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        words = line.partition("#")[0].split(maxsplit=1)
+        if words[:1] == ["subsection"]:
+            above.append(words[1].strip())
+        elif words == ["end"]:
+            above.pop()
+        elif words[:1] == ["set"] and "=" in words[1]:
+            name, value = words[1].split("=", 1)
+            entries["/".join([*above, name.strip()])] = value.strip()
+    return entries
+
+
+def finer_mesh(entries, halvings):
+    """Entries that make all cells 2^halvings times smaller."""
+    times = 2 ** halvings
+    generator = entries["Mesh/Generator"]
+    if generator == "structured":
+        cells = [int(n) for n in entries["Mesh/Cells"].split(",")]
+        return {"Mesh/Cells": ", ".join(str(times * n) for n in cells)}
+    if generator == "file":
+        levels = entries.get("Mesh/Refinement levels", "").strip()
+        return {"Mesh/Refinement levels": f"({levels or 0}) + {halvings}"}
+    found = {}
+    for name in ("Size", "Size at excavation", "Size at joints", "Least size"):
+        size = float(entries[f"Mesh/{name}"])
+        if size > 0.:
+            found[f"Mesh/{name}"] = f"{size / times:.9g}"
+    across = int(entries["Mesh/Cells across blocks"])
+    if across > 0:
+        found["Mesh/Cells across blocks"] = str(times * across)
+    if not found:
+        sys.exit("The entry 'Mesh/Size' is 0, so there is nothing to halve; give the size "
+                 "of cells.")
+    return found
+
+
+class Runner:
+    """Runs variants of one scene."""
+
+    def __init__(self, options, folder, rest):
+        self.options, self.folder, self.rest = options, folder, rest
+
+    def run(self, name, changes):
+        """Factors (block, its centroid and size, stage entry) of a variant."""
+        output = self.folder / name.replace(" ", "_")
+        command = [str(Path(self.options.keyblock).resolve()), self.options.scene,
+                   "--output", str(output), "--set", "Output/Write VTU=false"] + self.rest
+        for entry, value in changes.items():
+            command += ["--set", f"{entry}={value}"]
+        result = subprocess.run(command, text=True, capture_output=True)
+        if result.returncode != 0:
+            said = (result.stderr.strip() or result.stdout.strip()).splitlines()[-1:]
+            sys.exit(f"{name}: exit {result.returncode}: {' '.join(said)}")
+        summary = json.loads((output / "summary.json").read_text())
+        dim = summary["scene"]["dimension"]
+        found = []
+        for block in summary["blocks"]:
+            place = [float(x) for x in block["centroid"]]
+            size = float(block["volume"]) ** (1. / dim)
+            for factor in block.get("safety_factor", []):
+                found.append((int(block["id"]), place, size, factor))
+        print(f"{name}: {summary['scene']['cells']} cells, "
+              f"{summary['run']['steps']} steps, {len(found)} factors", flush=True)
+        return output, found
+
+
+def partner(one, others):
+    """The same block and stage in another run, or None."""
+    _, place, size, factor = one
+    near = [other for other in others if other[3]["stage"] == factor["stage"]
+            and math.dist(place, other[1]) < 0.25 * size
+            and 0.5 < other[2] / size < 2.]
+    return min(near, key=lambda other: math.dist(place, other[1]))[3] if near else None
+
+
+def describe(factor):
+    if factor is None:
+        return "no such block"
+    if factor["outcome"] != "value":
+        return factor["outcome"]
+    undecided = ""
+    if "undecided_upper" in factor:
+        undecided = (f", undecided from {float(factor['undecided_lower']):.5f} to "
+                     f"{float(factor['undecided_upper']):.5f}")
+    return (f"{float(factor['value']):.5f} in [{float(factor['lower']):.5f}, "
+            f"{float(factor['upper']):.5f}], {factor['outcome']}{undecided}")
+
+
+def value_of(factor):
+    """The factor; None where the block is immovable, falls freely or is clamped."""
+    return float(factor["value"]) if factor and factor["outcome"] == "value" else None
+
+
+def mesh_error(values):
+    """Error of the last value, with what it was estimated by; values are those of
+    meshes each twice as fine as the one before."""
+    last = values[-1] - values[-2]
+    if len(values) == 2:
+        return last, "order 1 assumed"
+    first = values[-2] - values[-3]
+    if first * last <= 0.:
+        larger = max(first, last, key=abs)
+        return larger, "no order: the larger difference"
+    order = min(2., max(0.5, math.log2(first / last)))
+    return last / (2. ** order - 1.), f"order {order:.2f}"
+
+
+def assess(one, runs):
+    """Print one block and stage. Returns value and uncertainty, or None and whether
+    all runs say the same."""
+    number, _, _, factor = one
+    print(f"\nBlock {number} after stage {factor['stage']}")
+    found = {name: partner(one, factors) for name, factors in runs.items()}
+    for name, other in found.items():
+        print(f"  {name:20} {describe(other)}")
+    meshes = [name for name in runs if name == "as it is" or name.startswith("cells")]
+    values = [value_of(found[name]) for name in meshes]
+    if None in [value_of(other) for other in found.values()]:
+        outcomes = {describe(other) for other in found.values()}
+        is_same = len(outcomes) == 1
+        print(f"  {'the same in all runs' if is_same else 'not the same in all runs'}")
+        return None, is_same
+    error, way = mesh_error(values)
+    finest = found[meshes[-1]]
+    bracket = 0.5 * (float(finest["upper"]) - float(finest["lower"]))
+    changes = [abs(value_of(found[name]) - values[0]) for name in ("half time step",
+                                                                   "half damping")]
+    value = values[-1]
+    whole = abs(error) + bracket + sum(changes)
+    print(f"  mesh error           {error:+.5f} ({way}); extrapolated {value + error:.5f}")
+    print(f"  half the bracket     {bracket:.5f}; time step {changes[0]:.5f}; "
+          f"damping {changes[1]:.5f}")
+    print(f"  factor               {value:.5f} +- {whole:.5f} ({100 * whole / value:.2f} %)")
+    return value, whole
+
+
+def main():
+    arguments, rest = sys.argv[1:], []
+    if "--" in arguments:
+        at = arguments.index("--")
+        arguments, rest = arguments[:at], arguments[at + 1:]
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    root = Path(__file__).resolve().parent.parent
+    parser.add_argument("scene")
+    parser.add_argument("--meshes", type=int, default=2, choices=(2, 3))
+    parser.add_argument("--exact", type=float)
+    parser.add_argument("--largest", type=float, default=math.inf)
+    parser.add_argument("--keyblock", default=str(root / "build" / "keyblock"))
+    parser.add_argument("--keep", default="")
+    options = parser.parse_args(arguments)
+    folder = Path(options.keep or tempfile.mkdtemp()).resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    runner = Runner(options, folder, rest)
+    output, base = runner.run("as it is", {})
+    if not base:
+        sys.exit("No safety factor was found; see the entry 'Safety factor/Blocks'.")
+    entries = read_entries(output / "used.prm")
+    variants = {"cells half as large": finer_mesh(entries, 1)}
+    if options.meshes == 3:
+        variants["cells a quarter"] = finer_mesh(entries, 2)
+    variants["half time step"] = {
+        "Time stepping/Safety": f"{0.5 * float(entries['Time stepping/Safety']):.9g}"}
+    variants["half damping"] = {name: f"{0.5 * float(entries[name]):.9g}"
+                                for name in HALF_DAMPING}
+    runs = {"as it is": base}
+    for name, changes in variants.items():
+        runs[name] = runner.run(name, changes)[1]
+    is_good = True
+    for one in base:
+        value, whole = assess(one, runs)
+        if value is None:
+            is_good = is_good and whole and options.exact is None
+            continue
+        if whole > options.largest * value:
+            print(f"  more than {options.largest:g} of the value")
+            is_good = False
+        if options.exact is not None and abs(value - options.exact) > whole:
+            print(f"  the exact factor {options.exact:.5f} is not within it")
+            is_good = False
+    sys.exit(0 if is_good else 1)
+
+
+if __name__ == "__main__":
+    main()
