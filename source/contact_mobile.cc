@@ -274,7 +274,8 @@ namespace Keyblock
         speed = std::max(speed, std::abs(slot_velocity[dim * slot + d]));
     const double reach = 2. * dim * speed * step.step + 1e-6 * search.skin();
 
-    // what is tied is the rock before it was cut, where no surface meets another
+    // what is tied is the rock before it was cut, where no surface meets
+    // another
     if (is_tied)
       contacts.clear();
     else
