@@ -6,6 +6,7 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace Keyblock
@@ -168,6 +169,71 @@ namespace Keyblock
   }
 
   template <int dim>
+  std::vector<typename ContactSearch<dim>::Projection>
+  ContactSearch<dim>::feet_on_pairs(const std::vector<double> &position,
+                                    const unsigned int slot) const
+  {
+    std::vector<Projection> feet;
+    const auto candidate =
+      std::lower_bound(candidates.begin(),
+                       candidates.end(),
+                       slot,
+                       [](const Candidate &a, const unsigned int b) {
+                         return a.slave < b;
+                       });
+    if (candidate == candidates.end() || candidate->slave != slot)
+      return feet;
+    for (const CandidateFace &face : candidate->paired_faces)
+      feet.push_back(project(position, at<dim>(position, slot), face.face));
+    return feet;
+  }
+
+
+
+  template <int dim>
+  double
+  ContactSearch<dim>::overlap_with(const std::vector<double> &position,
+                                   const unsigned int slot,
+                                   const std::vector<unsigned int> &faces) const
+  {
+    const Vector<dim> place              = at<dim>(position, slot);
+    const std::vector<Projection> paired = feet_on_pairs(position, slot);
+    double depth = 0., distance = std::numeric_limits<double>::max();
+    bool is_in_front = false; // of the nearest joint
+    bool is_on_joint = false;
+    for (const unsigned int f : faces)
+      {
+        const Projection now = project(position, place, f);
+        const bool is_joint  = interface.surface[f].joint != none;
+        if (is_joint && norm<dim>(now.offset) < distance)
+          {
+            distance    = norm<dim>(now.offset);
+            is_in_front = now.is_inside && now.gap > 0.;
+          }
+        if (!now.is_inside || now.gap >= 0. ||
+            now.gap < -make_candidate(position, slot, f).largest_overlap ||
+            !opposes(position, slot, now.normal) ||
+            std::any_of(paired.begin(),
+                        paired.end(),
+                        [&](const Projection &other) {
+                          return is_coplanar(other, now);
+                        }))
+          continue;
+        const double before =
+          project(start_position, at<dim>(start_position, slot), f).gap;
+        const double deeper = -now.gap + std::min(0., before);
+        depth               = depth == 0. ? deeper : std::min(depth, deeper);
+        is_on_joint         = is_on_joint || is_joint;
+      }
+    // below a free face, along a joint at its edge, it is still outside
+    if (is_on_joint)
+      return depth;
+    return is_in_front ? 0. : std::min(depth, distance);
+  }
+
+
+
+  template <int dim>
   Overlap<dim>
   ContactSearch<dim>::find_largest_overlap(
     const std::vector<double> &position,
@@ -189,8 +255,7 @@ namespace Keyblock
         dealii::Point<dim> p;
         for (unsigned int d = 0; d < dim; ++d)
           p[d] = place[d];
-        // in a block as deep as behind the nearest of its faces, rounding apart
-        std::map<unsigned int, double> depth_in;
+        std::map<unsigned int, std::vector<unsigned int>> faces_near;
         for (const auto &hit :
              tree | bgi::adaptors::queried(bgi::intersects(p)))
           {
@@ -201,22 +266,17 @@ namespace Keyblock
                 (block == other && interface.surface[f].joint == none) ||
                 (is_rigid_block[block] && is_rigid_block[other]))
               continue;
-            const Projection now = project(position, place, f);
-            if (!now.is_inside || now.gap >= 0. ||
-                now.gap < -make_candidate(position, slot, f).largest_overlap ||
-                !opposes(position, slot, now.normal))
-              continue;
-            const double before =
-              project(start_position, at<dim>(start_position, slot), f).gap;
-            const double depth = -now.gap + std::min(0., before);
-            const auto found   = depth_in.emplace(other, depth).first;
-            found->second      = std::min(found->second, depth);
+            faces_near[other].push_back(f);
           }
-        // of several that are equal but for rounding the first, on any ranks
-        for (const auto &[other, depth] : depth_in)
-          if (depth > rounding * block_face_size[block] &&
-              depth > (1. + equal) * largest.depth)
-            largest = {depth, place};
+        for (const auto &[other, faces] : faces_near)
+          {
+            const double depth = overlap_with(position, slot, faces);
+            // of several that are equal but for rounding the first, on any
+            // ranks
+            if (depth > rounding * block_face_size[block] &&
+                depth > (1. + equal) * largest.depth)
+              largest = {depth, place};
+          }
       }
     return largest;
   }

@@ -2,98 +2,12 @@
 // Narrow phase: gaps, normals and weights of nodes on faces.
 #include <keyblock/contact_geometry.h>
 #include <keyblock/contact_search.h>
+#include <keyblock/face_foot.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace Keyblock
 {
-  namespace
-  {
-    /** Weights of bilinear interpolation at (s, t). */
-    inline std::array<double, 4>
-    bilinear_weights(const double s, const double t)
-    {
-      return {{(1. - s) * (1. - t), s * (1. - t), (1. - s) * t, s * t}};
-    }
-
-    /** sum of weights times corners */
-    template <int dim, std::size_t n>
-    inline Vector<dim>
-    combine(const std::array<Vector<dim>, n> &corner,
-            const std::array<double, n> &weight)
-    {
-      Vector<dim> sum{};
-      for (std::size_t v = 0; v < n; ++v)
-        sum = add<dim>(sum, weight[v], corner[v]);
-      return sum;
-    }
-
-    /** Parameters of the point of a bilinear face nearest to @p p, not clamped:
-     * Gauss-Newton, which is exact after one step on parallelograms. */
-    std::array<double, 2>
-    nearest_parameters(const std::array<Vector<3>, 4> &x, const Vector<3> &p)
-    {
-      double s = 0.5, t = 0.5;
-      for (int iteration = 0; iteration < 20; ++iteration)
-        {
-          const Vector<3> a = combine<3, 4>(x, {{-(1. - t), 1. - t, -t, t}});
-          const Vector<3> b = combine<3, 4>(x, {{-(1. - s), -s, 1. - s, s}});
-          const Vector<3> r =
-            difference<3>(p, combine<3, 4>(x, bilinear_weights(s, t)));
-          const double aa = dot<3>(a, a), ab = dot<3>(a, b), bb = dot<3>(b, b);
-          const double ra = dot<3>(r, a), rb = dot<3>(r, b);
-          const double det = aa * bb - ab * ab;
-          const double ds  = (bb * ra - ab * rb) / det;
-          const double dt  = (aa * rb - ab * ra) / det;
-          s                = std::clamp(s + ds, -10., 10.);
-          t                = std::clamp(t + dt, -10., 10.);
-          if (std::abs(ds) + std::abs(dt) < 1e-13)
-            break;
-        }
-      return {{s, t}};
-    }
-
-    /** Whether a projection of @p p on the face with corners @p x could be
-     * inside, or nearer than @p reach, with a gap of at most @p reach. Errs on
-     * the safe side where the face is warped. */
-    bool
-    could_touch(const std::array<Vector<3>, 4> &x,
-                const Vector<3> &p,
-                const double reach)
-    {
-      const Vector<3> center = combine<3, 4>(x, {{0.25, 0.25, 0.25, 0.25}});
-      const Vector<3> normal =
-        unit<3>(cross(difference<3>(x[3], x[0]), difference<3>(x[2], x[1])));
-      double radius = 0., warp = 0.;
-      for (const Vector<3> &corner : x)
-        {
-          const Vector<3> arm = difference<3>(corner, center);
-          radius              = std::max(radius, dot<3>(arm, arm));
-          warp                = std::max(warp, std::abs(dot<3>(arm, normal)));
-        }
-      radius                 = std::sqrt(radius);
-      const Vector<3> arm    = difference<3>(p, center);
-      const double height    = dot<3>(arm, normal);
-      const double sideways2 = dot<3>(arm, arm) - height * height;
-      const double margin =
-        1.01 * radius + reach +
-        0.5 * std::abs(height) * std::min(1., warp / radius);
-      return height <= reach + 3. * warp + 1e-9 * radius &&
-             sideways2 <= margin * margin;
-    }
-
-    constexpr double inside_tolerance = 1e-9;
-
-    bool
-    is_in_unit_range(const double s)
-    {
-      return s >= -inside_tolerance && s <= 1. + inside_tolerance;
-    }
-  } // namespace
-
-
-
   template <int dim>
   std::array<Vector<dim>, Mesh<dim>::n_face_vertices>
   ContactSearch<dim>::corners_of(const std::vector<double> &position,
@@ -113,70 +27,15 @@ namespace Keyblock
                               const Vector<dim> &point,
                               const unsigned int face) const
   {
-    constexpr unsigned int n = Mesh<dim>::n_face_vertices;
-    const auto x             = corners_of(position, face);
-    const Vector<dim> &p     = point;
-
-    Projection result;
-    result.face = face;
-    // nearest point of the segment from corner a to corner b, as weights
-    const auto on_segment = [&](const unsigned int a, const unsigned int b) {
-      const Vector<dim> along = difference<dim>(x[b], x[a]);
-      const double s = std::clamp(dot<dim>(difference<dim>(p, x[a]), along) /
-                                    dot<dim>(along, along),
-                                  0.,
-                                  1.);
-      std::array<double, n> weight{};
-      weight[a] = 1. - s;
-      weight[b] = s;
-      return weight;
-    };
-    if constexpr (dim == 2)
-      {
-        const Vector<2> along = difference<2>(x[1], x[0]);
-        const double length   = norm<2>(along);
-        const double s =
-          dot<2>(difference<2>(p, x[0]), along) / (length * length);
-        result.is_inside = is_in_unit_range(s);
-        result.weight    = on_segment(0, 1);
-        result.normal    = {{along[1] / length, -along[0] / length}};
-        result.size      = length;
-      }
-    else
-      {
-        const std::array<double, 2> st = nearest_parameters(x, p);
-        result.is_inside = is_in_unit_range(st[0]) && is_in_unit_range(st[1]);
-        const double s   = std::clamp(st[0], 0., 1.);
-        const double t   = std::clamp(st[1], 0., 1.);
-        if (result.is_inside)
-          result.weight = bilinear_weights(s, t);
-        else
-          {
-            double least = std::numeric_limits<double>::max();
-            for (const auto &edge : {std::array<unsigned int, 2>{{0, 1}},
-                                     {{2, 3}},
-                                     {{0, 2}},
-                                     {{1, 3}}})
-              {
-                const auto weight = on_segment(edge[0], edge[1]);
-                const double distance =
-                  norm<3>(difference<3>(p, combine<3, 4>(x, weight)));
-                if (distance < least)
-                  {
-                    least         = distance;
-                    result.weight = weight;
-                  }
-              }
-          }
-        const Vector<3> a    = combine<3, 4>(x, {{-(1. - t), 1. - t, -t, t}});
-        const Vector<3> b    = combine<3, 4>(x, {{-(1. - s), -s, 1. - s, s}});
-        const Vector<3> area = cross(a, b);
-        result.size          = std::sqrt(norm<3>(area));
-        result.normal        = unit<3>(area);
-      }
-    result.offset = difference<dim>(p, combine<dim, n>(x, result.weight));
-    result.gap    = dot<dim>(result.offset, result.normal);
-    return result;
+    const FaceFoot<dim> foot =
+      find_foot<dim>(corners_of(position, face), point);
+    return {face,
+            foot.weight,
+            foot.offset,
+            foot.normal,
+            foot.is_inside,
+            foot.gap,
+            foot.size};
   }
 
 
@@ -415,6 +274,10 @@ namespace Keyblock
   template bool ContactSearch<3>::opposes(const std::vector<double> &,
                                           const unsigned int,
                                           const Vector<3> &) const;
+  template bool ContactSearch<2>::is_coplanar(const Projection &,
+                                              const Projection &);
+  template bool ContactSearch<3>::is_coplanar(const Projection &,
+                                              const Projection &);
   template void
   ContactSearch<2>::evaluate(const std::vector<double> &,
                              const double,

@@ -116,7 +116,9 @@ namespace Keyblock
                   const std::vector<bool> &joints) const;
 
     /** The deepest of all nodes, found without the list of candidates: a check
-     * of contact. Nodes behind faces from the start are left out as there. */
+     * of contact. Nodes behind faces from the start are left out as there, and
+     * those that a pair holds: faces that the mesh has bent may lie in several
+     * layers in a joint's plane. */
     Overlap<dim>
     find_largest_overlap(const std::vector<double> &position,
                          const std::vector<bool> &is_removed_block) const;
@@ -257,6 +259,17 @@ namespace Keyblock
 
     /** Whether nodes of block @p a are slaves on faces of block @p b. */
     bool is_slave_block(const unsigned int a, const unsigned int b) const;
+
+    /** The feet of a slot on the faces for which its pairs stand. */
+    std::vector<Projection> feet_on_pairs(const std::vector<double> &position,
+                                          const unsigned int slot) const;
+
+    /** How deep a slot is in a block with @p faces near it, beyond how deep it
+     * was at the start [m]; not above 0 if it is outside, or if a pair holds it
+     * on the plane of the face. */
+    double overlap_with(const std::vector<double> &position,
+                        const unsigned int slot,
+                        const std::vector<unsigned int> &faces) const;
 
     bool opposes(const std::vector<double> &position,
                  const unsigned int slave,
