@@ -79,7 +79,7 @@ per cell is in the table of growth) ends the size of a model, not its speed.
 
 - Full integration for elastic cells up to nu = 0.4, mean dilatation above and in
   rock that yields (theory, section 5).
-- Cells are swept front by front inside each rank's part (`cell_order.h`).
+- Cells are swept front by front inside each rank's part (`mesh/cell_order.h`).
 - Stresses are prefetched two batches ahead. Elastic cells in 2D leave the
   out-of-plane stress alone.
 - Nodes without joint or support are predicted and moved in one pass, two at a

@@ -25,13 +25,14 @@ Exits with 1 if a run fails, no factor is found, some runs give a block a value 
 others do not, the uncertainty of a block is larger than --largest of the value, or
 --exact is not within it.
 """
-import argparse
 import json
 import math
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from script_tools import make_parser, split_arguments
 
 HALF_DAMPING = ("Safety factor/Mass damping", "Safety factor/Damping ratio")
 
@@ -176,18 +177,12 @@ def assess(one, runs):
 
 
 def main():
-    arguments, rest = sys.argv[1:], []
-    if "--" in arguments:
-        at = arguments.index("--")
-        arguments, rest = arguments[:at], arguments[at + 1:]
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    root = Path(__file__).resolve().parent.parent
+    arguments, rest = split_arguments()
+    parser = make_parser(__doc__)
     parser.add_argument("scene")
     parser.add_argument("--meshes", type=int, default=2, choices=(2, 3))
     parser.add_argument("--exact", type=float)
     parser.add_argument("--largest", type=float, default=math.inf)
-    parser.add_argument("--keyblock", default=str(root / "build" / "keyblock"))
     parser.add_argument("--keep", default="")
     options = parser.parse_args(arguments)
     folder = Path(options.keep or tempfile.mkdtemp()).resolve()

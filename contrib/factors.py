@@ -18,7 +18,6 @@ outside its bracket by more than --tolerance of it, a trial is wrong, or a run
 fails. --statics: nothing is run, limit equilibrium as --validate prints it is
 compared instead.
 """
-import argparse
 import json
 import math
 import subprocess
@@ -27,32 +26,26 @@ import tempfile
 from pathlib import Path
 
 from factor_scenes import KINDS
+from script_tools import make_parser, numbers, split_arguments
 from statics_table import read_statics
 
 
 def main():
-    arguments, rest = sys.argv[1:], []
-    if "--" in arguments:
-        at = arguments.index("--")
-        arguments, rest = arguments[:at], arguments[at + 1:]
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    root = Path(__file__).resolve().parent.parent
+    arguments, rest = split_arguments()
+    parser = make_parser(__doc__)
     parser.add_argument("--kinds", default=",".join(KINDS))
-    parser.add_argument("--seeds", default="1-20")
+    parser.add_argument("--seeds", default="1-20", type=numbers)
     parser.add_argument("--exact", action="store_true")
     parser.add_argument("--tolerance", type=float, default=0.)
     parser.add_argument("--statics", action="store_true")
-    parser.add_argument("--keyblock", default=str(root / "build" / "keyblock"))
     parser.add_argument("--keep", default="")
     options = parser.parse_args(arguments)
-    first, _, last = options.seeds.partition("-")
     folder = Path(options.keep or tempfile.mkdtemp())
     folder.mkdir(parents=True, exist_ok=True)
     program = str(Path(options.keyblock).resolve())
     n_failures = n_trials = n_undecided = n_wrong = 0
     for kind in options.kinds.split(","):
-        for seed in range(int(first), int(last or first) + 1):
+        for seed in options.seeds:
             text, factor = KINDS[kind](seed, options.exact)
             name = f"{kind}_{seed}"
             (folder / f"{name}.prm").write_text(text)

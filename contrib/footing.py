@@ -13,7 +13,6 @@ and the two finest meshes are extrapolated, by order 1 as well. Exits with 1 if 
 run fails, or the extrapolated pressure is off the exact one by more than its
 tolerance [%].
 """
-import argparse
 import json
 import math
 import re
@@ -22,7 +21,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+from script_tools import ROOT, make_parser, split_arguments
 
 
 def entry(text, name):
@@ -59,16 +58,11 @@ def error_of(program, scene, times, folder, rest):
 
 
 def main():
-    arguments, rest = sys.argv[1:], []
-    if "--" in arguments:
-        at = arguments.index("--")
-        arguments, rest = arguments[:at], arguments[at + 1:]
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments, rest = split_arguments()
+    parser = make_parser(__doc__)
     parser.add_argument("--angles", default="10,20,30,35")
     parser.add_argument("--tolerances", default="1,1,2,2")
     parser.add_argument("--meshes", type=int, default=2, choices=(2, 3))
-    parser.add_argument("--keyblock", default=str(ROOT / "build" / "keyblock"))
     parser.add_argument("--keep", default="")
     options = parser.parse_args(arguments)
     folder = Path(options.keep or tempfile.mkdtemp()).resolve()

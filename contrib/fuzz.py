@@ -17,7 +17,6 @@ Gmsh instead of a sentence, or with 0 and a number in summary.json or
 history.csv that is not finite. --memory: address space of a run [GB]; 0: no
 limit. Those at fault are kept in --keep. Exits with 1 if there is one.
 """
-import argparse
 import collections
 import concurrent.futures
 import json
@@ -33,7 +32,7 @@ import sys
 import tempfile
 import unicodedata
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from script_tools import ROOT, make_parser, numbers, without_mpirun
 
 NUMBER = re.compile(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?(?![\w.])")
 
@@ -435,6 +434,10 @@ def run(name, options, keep):
                     said, errors = process.communicate()
         errors = errors.decode("utf-8", errors="replace")
         code = process.returncode
+        if options.ranks > 1:
+            if code > 128 and not is_late:  # a rank's signal
+                code = 128 - code
+            errors = without_mpirun(errors)
         if is_late:
             is_stopped = kind == "run" and code == 128 + signal.SIGTERM
             # the mutant asks for a mesh that takes long, and is told so
@@ -456,23 +459,12 @@ def run(name, options, keep):
         return outcome, fault, errors.strip().splitlines()[:1]
 
 
-def numbers(text):
-    """1,4-6 as a list."""
-    result = []
-    for part in text.split(","):
-        first, _, last = part.partition("-")
-        result += range(int(first), int(last or first) + 1)
-    return result
-
-
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = make_parser(__doc__)
     parser.add_argument("--kinds", default="validate,run,mesh")
     parser.add_argument("--number", type=int, default=100)
     parser.add_argument("--seeds", default="1", type=numbers)
     parser.add_argument("--only", type=int)
-    parser.add_argument("--keyblock", default=str(ROOT / "build" / "keyblock"))
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=60.)

@@ -2,7 +2,8 @@
 """Meshes random joint networks around a tunnel and tabulates how well.
 
 usage: contrib/networks.py [--kinds traces,discs,planes,lines,faces] [--numbers 20,50]
-         [--seeds 1-5] [--least 0.05] [--run] [--residual 1e-9] [--ranks N]
+         [--seeds 1-5] [--least 0.05] [--run | --initial] [--residual 1e-9]
+         [--ranks N]
          [--keyblock build/keyblock] [--keep FOLDER]
          [-- arguments for keyblock]
 
@@ -14,20 +15,23 @@ joints, at 1 degree to each other, twice at the same place or almost, tiny ones;
 around a horseshoe, a box, a circle, two excavations, or none.
 The stable step is compared with the cell size at the excavation over the
 velocity of pressure waves. With --run the tunnel is dug until all is at rest
-or blocks move off. Exits with 1 if a scene was refused or crashed, has a ratio
+or blocks move off; with --initial one step is done, and no contact may slide or
+open in the hydrostatic state before. Exits with 1 if a scene was refused or crashed, has a ratio
 below --least, or a run a larger --residual of the energy ledger or a result
 that is not finite.
 """
-import argparse
 import json
 import math
 import random
+import re
 import resource
 import statistics
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from script_tools import make_parser, numbers, split_arguments
 
 YOUNG, POISSON, DENSITY, GRAVITY = 15e9, 0.25, 2700., 9.81
 VELOCITY = math.sqrt(YOUNG * (1 - POISSON) / ((1 + POISSON) * (1 - 2 * POISSON)) / DENSITY)
@@ -211,13 +215,15 @@ def cpu_of_children():
     return usage.ru_utime + usage.ru_stime
 
 
-def run(program, folder, kind, n, seed, full, arguments, ranks):
+def run(program, folder, kind, n, seed, full, initial, arguments, ranks):
     """(reason of failure or None, ratio of the step, seconds of CPU, summary)"""
     name = f"{kind}_{n}_{seed}"
     (folder / f"{name}.prm").write_text(scene(kind, n, seed))
     before = cpu_of_children()
     command = [program, "--output", str(folder / name), f"{name}.prm"] + arguments
-    if not full:
+    if initial:
+        command += ["--set", "Stages/dig/Maximum steps=1"]
+    elif not full:
         command.insert(1, "--validate")
     if ranks > 1:
         command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] + command
@@ -226,6 +232,9 @@ def run(program, folder, kind, n, seed, full, arguments, ranks):
     if result.returncode != 0:
         last = (result.stderr.strip() or result.stdout.strip()).splitlines()
         return f"exit {result.returncode}: {last[-1] if last else ''}", 0., cpu, None
+    failed = re.search(r".*cannot bear.*", result.stdout)
+    if initial and failed:
+        return failed.group(), 0., cpu, None
     step = next(float(line.split()[3]) for line in result.stdout.splitlines()
                 if "stable time step" in line)
     dim = 2 if kind in ("traces", "lines") else 3
@@ -236,37 +245,30 @@ def run(program, folder, kind, n, seed, full, arguments, ranks):
 
 
 def main():
-    arguments, rest = sys.argv[1:], []
-    if "--" in arguments:
-        at = arguments.index("--")
-        arguments, rest = arguments[:at], arguments[at + 1:]
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    root = Path(__file__).resolve().parent.parent
+    arguments, rest = split_arguments()
+    parser = make_parser(__doc__)
     parser.add_argument("--kinds", default="traces,discs,planes")
-    parser.add_argument("--numbers", default="")
-    parser.add_argument("--seeds", default="1-5")
+    parser.add_argument("--numbers", type=numbers)
+    parser.add_argument("--seeds", default="1-5", type=numbers)
     parser.add_argument("--least", type=float, default=0.)
     parser.add_argument("--run", action="store_true")
+    parser.add_argument("--initial", action="store_true")
     parser.add_argument("--residual", type=float, default=1e-9)
     parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--keyblock", default=str(root / "build" / "keyblock"))
     parser.add_argument("--keep", default="")
     options = parser.parse_args(arguments)
-    first, _, last = options.seeds.partition("-")
-    seeds = range(int(first), int(last or first) + 1)
     folder = Path(options.keep or tempfile.mkdtemp())
     folder.mkdir(parents=True, exist_ok=True)
     program = str(Path(options.keyblock).resolve())
     n_failures = 0
     print("kind     joints  meshed  ratio of steps: median  worst (seed)   CPU [s]: median  most")
     for kind in options.kinds.split(","):
-        numbers = [int(n) for n in options.numbers.split(",")] if options.numbers else NUMBERS[kind]
-        for n in numbers:
+        for n in options.numbers or NUMBERS[kind]:
             ratios, times = [], []
-            for seed in seeds:
+            for seed in options.seeds:
                 reason, ratio, cpu, summary = run(program, folder, kind, n, seed,
-                                                  options.run, rest, options.ranks)
+                                                  options.run, options.initial, rest,
+                                                  options.ranks)
                 if not reason and ratio < options.least:
                     reason = f"ratio {ratio:.3g} is below {options.least}"
                 if reason:
@@ -286,7 +288,7 @@ def main():
                         n_failures += 1
             if ratios:
                 worst = min(ratios)
-                print(f"{kind:8s} {n:6d}  {len(ratios)}/{len(seeds)}  "
+                print(f"{kind:8s} {n:6d}  {len(ratios)}/{len(options.seeds)}  "
                       f"{statistics.median(r for r, _ in ratios):22.3f}  "
                       f"{worst[0]:.3f} ({worst[1]})  {statistics.median(times):20.2f}  "
                       f"{max(times):.2f}", flush=True)

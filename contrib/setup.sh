@@ -7,7 +7,8 @@
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${1:-$root/build}
-packages="libdeal.ii-dev libgmsh-dev libboost-program-options-dev cmake g++ make
+packages="libdeal.ii-dev libgmsh-dev libboost-program-options-dev
+  nlohmann-json3-dev cmake g++ make
   clang-format python3 openmpi-bin"
 
 missing=

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
 
-#include <keyblock/command_line.h>
-#include <keyblock/last_resort.h>
-#include <keyblock/mpi.h>
-#include <keyblock/simulation.h>
+#include <keyblock/base/last_resort.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/run/simulation.h>
+#include <keyblock/scene/command_line.h>
 
 #include <iostream>
 

@@ -7,6 +7,7 @@ usage: inputs.py KEYBLOCK PRM CASE
 CASE is the name of a function below. In a folder of its own it makes the
 input, runs the program and looks at how it ends.
 """
+import json
 import os
 import pathlib
 import resource
@@ -65,6 +66,24 @@ def byte_order_mark():
 def utf_16():
     pathlib.Path("s.prm").write_bytes(INCLINE.read_text("utf-8").encode("utf-16"))
     refused(validate("s.prm"), "save it as UTF-8")
+
+
+def latin_1():
+    text = INCLINE.read_bytes()
+    pathlib.Path("s.prm").write_bytes(text + "# Gr\u00fc\u00dfe\n".encode("latin-1"))
+    valid(validate("s.prm"))
+    n_lines = text.count(b"\n")
+    pathlib.Path("s.prm").write_bytes(text + "set Title = L\u00f6we\n".encode("latin-1"))
+    refused(validate("s.prm"), f"Line {n_lines + 1} of the scene file 's.prm' contains")
+
+
+def number_sign():
+    scene = '#1 "a".prm'
+    pathlib.Path(scene).write_bytes(INCLINE.read_bytes())
+    done = run(["--output", "o", scene] + SHORT)
+    assert done.returncode == 0, done.stderr
+    summary = json.loads(pathlib.Path("o/summary.json").read_text("utf-8"))
+    assert summary["scene"]["name"] == scene
 
 
 def carriage_returns():
@@ -136,6 +155,28 @@ $Elements
 $EndElements
 """
 
+MSH_4 = """$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Nodes
+1 4 1 4
+2 1 0 4
+1
+2
+3
+4
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+$EndNodes
+$Elements
+1 1 1 1
+2 1 3 1
+1 1 2 3 4
+$EndElements
+"""
+
 MSH_SCENE = """subsection Domain
   set Shape = file
   set File = a.msh
@@ -168,6 +209,10 @@ def damaged_msh():
         refused(mesh(MSH.replace(fault, mended)), "The mesh file 'a.msh'")
     refused(mesh(MSH.replace("3 1 1 0", "3 nan 1 0")), "a.msh")
     refused(mesh(MSH.replace("3 1 1 0", "3 1e200 1e200 0")), "at most 1e9 m")
+    valid(mesh(MSH_4))
+    done = mesh(MSH_4.replace("2 3 4\n$End", "2 3 -4\n$End"))
+    refused(done, "The mesh file 'a.msh'")
+    assert b"map" not in done.stderr
 
 
 def small_memory():
@@ -199,6 +244,10 @@ def joint_outside():
     valid(validate(lines, ["Joints/Names=@, far".replace("@", names(lines)),
                            "Joints/far/Point=0, 1e4", "Joints/far/Dip=0"]),
           "1 joint outside the model, and left out: far")
+    planes = PRM / "verification" / "blocks_planes_4.prm"
+    valid(validate(planes, ["Joints/j4/Point=1e308, -0.5, 0.5",
+                            "Joints/j4/Normal=-1, 1e200, 1"]),
+          "1 joint outside the model, and left out: j4")
 
 
 def names(scene):
@@ -223,6 +272,62 @@ def joints_welded():
 def monitor_outside():
     valid(validate(INCLINE, ["Monitors/block/Location=0.5, 0.3"]),
           "The monitor 'block' is at")
+
+
+TWO_CELLS = """set Dimension = 2
+subsection Domain
+  set Shape = box
+  set Size = 1, 4
+  set Truncated boundaries = bottom
+end
+subsection Mesh
+  set Generator = structured
+  set Cells = 1, 2
+  set Gradings = uniform, 3
+end
+subsection Materials
+  set Names = rock
+end
+subsection Joints
+  set Names = cut
+  subsection cut
+    set Point = 0, 1
+    set Dip = 0
+  end
+end
+subsection Supports
+  set Names = base
+  subsection base
+    set Boundaries = bottom
+  end
+end
+subsection Initial state
+  set Gravity = 0; 9.81
+end
+subsection Stages
+  set Names = fly
+  subsection fly
+    set Duration = 0.1
+  end
+end
+subsection Monitors
+  set Names = upper
+  subsection upper
+    set Kind = block
+    set Location = 0.5, 1.4
+  end
+end
+"""
+
+
+def monitor_in_a_large_cell():
+    # nearer to the centre of the other block's cell
+    pathlib.Path("s.prm").write_text(TWO_CELLS, encoding="utf-8")
+    done = run(["--output", "o", "s.prm"])
+    assert done.returncode == 0, done.stderr
+    summary = json.loads(pathlib.Path("o/summary.json").read_text("utf-8"))
+    risen = summary["monitors"]["upper.u_y [m]"]
+    assert abs(risen - 0.5 * 9.81 * 0.1**2) < 0.001, risen
 
 
 def some_tension():

@@ -3,9 +3,9 @@
 // it sums water and tractions as the step does.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/block_statics.h>
-#include <keyblock/mpi.h>
-#include <keyblock/set_up.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/safety/block_statics.h>
+#include <keyblock/step/set_up.h>
 
 #include <cmath>
 #include <fstream>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // All instruction sets give the same forces and stresses.
-#include <keyblock/internal_force.h>
+#include <keyblock/rock/internal_force.h>
 
-#include <keyblock/cell_geometry.h>
-#include <keyblock/cell_kernels.h>
+#include <keyblock/rock/cell_geometry.h>
+#include <keyblock/rock/cell_kernels.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -3,9 +3,9 @@
 // its rows one after the other.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/cell_order.h>
-#include <keyblock/mpi.h>
-#include <keyblock/simulation.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/mesh/cell_order.h>
+#include <keyblock/run/simulation.h>
 
 #include <fstream>
 

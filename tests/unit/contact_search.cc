@@ -3,9 +3,9 @@
 // kinked joint, and areas that add up to what lies on each other.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/contact_search.h>
-#include <keyblock/mpi.h>
-#include <keyblock/slip_record.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/contact/search.h>
+#include <keyblock/safety/slip_record.h>
 
 #include <cmath>
 #include <fstream>

@@ -2,7 +2,7 @@
 // Groups of coupled contact points: what redundant points must not cost.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/contact_solver.h>
+#include <keyblock/contact/solver.h>
 
 using namespace Keyblock;
 

@@ -3,8 +3,8 @@
 // the dispersion of square cells with lumped masses.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/mpi.h>
-#include <keyblock/simulation.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/run/simulation.h>
 
 #include <algorithm>
 #include <cmath>

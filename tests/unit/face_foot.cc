@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Feet of points on faces of any shape.
-#include <keyblock/contact_geometry.h>
-#include <keyblock/face_foot.h>
+#include <keyblock/contact/face_foot.h>
+#include <keyblock/contact/geometry.h>
 
 #include <boost/test/unit_test.hpp>
 

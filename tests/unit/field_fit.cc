@@ -2,8 +2,8 @@
 // Least squares of measured stresses by unit fields.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/errors.h>
-#include <keyblock/geostress.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/geostress/geostress.h>
 
 #include <cmath>
 #include <random>

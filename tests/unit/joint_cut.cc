@@ -3,11 +3,11 @@
 // surfaces stay where they are, sides and volumes are those of the planes.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/block_measures.h>
-#include <keyblock/block_resolution.h>
-#include <keyblock/joint_cut.h>
-#include <keyblock/mpi.h>
-#include <keyblock/simulation.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/blocks/block_measures.h>
+#include <keyblock/blocks/block_resolution.h>
+#include <keyblock/mesh/joint_cut.h>
+#include <keyblock/run/simulation.h>
 
 #include <cmath>
 #include <fstream>

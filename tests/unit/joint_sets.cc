@@ -2,10 +2,10 @@
 // Random numbers to the last bit; the statistics of joints made from them.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/domain_outline.h>
-#include <keyblock/errors.h>
-#include <keyblock/joint_sets.h>
-#include <keyblock/radius_law.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/scene/domain_outline.h>
+#include <keyblock/scene/joint_sets.h>
+#include <keyblock/scene/radius_law.h>
 
 #include <cmath>
 #include <functional>

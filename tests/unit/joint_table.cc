@@ -2,9 +2,9 @@
 // Tables of joints as geologists keep them, and what is wrong with some.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/errors.h>
-#include <keyblock/joint_table.h>
-#include <keyblock/mpi.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/scene/joint_table.h>
 
 #include <fstream>
 

@@ -2,7 +2,7 @@
 // Modes and factors of rigid blocks against closed forms and the literature.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/limit_equilibrium.h>
+#include <keyblock/safety/limit_equilibrium.h>
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Motion of random blocks against an independent search for it.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/limit_equilibrium.h>
+#include <keyblock/safety/limit_equilibrium.h>
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,7 @@
 // cells that falls, vibrates and keeps its energy.
 #include "mesh_frequency.h"
 
-#include <keyblock/mass_scaling.h>
+#include <keyblock/rock/mass_scaling.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -2,9 +2,9 @@
 #ifndef keyblock_tests_mesh_frequency_h
 #define keyblock_tests_mesh_frequency_h
 
-#include <keyblock/internal_force.h>
-#include <keyblock/mpi.h>
-#include <keyblock/simulation.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/rock/internal_force.h>
+#include <keyblock/run/simulation.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Returns to the Mohr-Coulomb surface at a single point.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/mohr_coulomb.h>
+#include <keyblock/rock/mohr_coulomb.h>
 
 #include <random>
 

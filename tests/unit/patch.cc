@@ -3,8 +3,8 @@
 // uniform to round-off, whether the joint is bonded or only pressed.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/mpi.h>
-#include <keyblock/simulation.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/run/simulation.h>
 
 #include <cmath>
 #include <fstream>

@@ -3,8 +3,8 @@
 // wave that crosses them keeps its energy.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/mpi.h>
-#include <keyblock/simulation.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/run/simulation.h>
 
 #include <cmath>
 #include <fstream>

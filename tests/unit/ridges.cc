@@ -4,8 +4,8 @@
 // apart.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/mpi.h>
-#include <keyblock/simulation.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/run/simulation.h>
 
 #include <cmath>
 #include <fstream>

@@ -2,12 +2,12 @@
 // Joints of a scene from names, table and sets, and what overrides them.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/errors.h>
-#include <keyblock/mpi.h>
-#include <keyblock/network_output.h>
-#include <keyblock/number_text.h>
-#include <keyblock/scene.h>
-#include <keyblock/scene_joints.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/scene/joints.h>
+#include <keyblock/scene/network_output.h>
+#include <keyblock/scene/scene.h>
 
 #include <chrono>
 #include <fstream>

@@ -2,10 +2,10 @@
 // Cells that a mesh will have, before it is made.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/errors.h>
-#include <keyblock/mesh.h>
-#include <keyblock/mpi.h>
-#include <keyblock/size_limit.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/mesh/mesh.h>
+#include <keyblock/mesh/size_limit.h>
 
 using namespace Keyblock;
 

@@ -3,7 +3,7 @@
 // or the motion runs away.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/slow_mode.h>
+#include <keyblock/safety/slow_mode.h>
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 // and rest under in-situ stress with the tractions that the stress demands.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/mpi.h>
-#include <keyblock/simulation.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/run/simulation.h>
 
 #include <fstream>
 

@@ -3,7 +3,7 @@
 // stress.
 #include "mesh_frequency.h"
 
-#include <keyblock/errors.h>
+#include <keyblock/base/errors.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -2,7 +2,7 @@
 // Files in memory: several at once, each with its own content.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/state_file.h>
+#include <keyblock/checkpoint/state_file.h>
 
 using namespace Keyblock;
 

@@ -2,10 +2,10 @@
 // The seal of state files: what it tells, and that it sees every byte.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/errors.h>
-#include <keyblock/mpi.h>
-#include <keyblock/state_file.h>
-#include <keyblock/state_seal.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/checkpoint/state_file.h>
+#include <keyblock/checkpoint/state_seal.h>
 
 #include <cstdio>
 #include <fstream>

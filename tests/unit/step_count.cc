@@ -2,8 +2,8 @@
 // Numbers of steps beyond 32 bits, and such as are none.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/errors.h>
-#include <keyblock/step_count.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/scene/step_count.h>
 
 #include <limits>
 

@@ -2,8 +2,8 @@
 // Least and median stable step of cells, shared out to ranks.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/mpi.h>
-#include <keyblock/step_spread.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/step/step_spread.h>
 
 #include <numeric>
 

@@ -2,7 +2,7 @@
 // Jobs shared out to teams: the longest first.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/teams.h>
+#include <keyblock/base/teams.h>
 
 using namespace Keyblock;
 

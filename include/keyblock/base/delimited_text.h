@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_base_delimited_text_h
+#define keyblock_base_delimited_text_h
+
+#include <string>
+#include <vector>
+
+namespace Keyblock
+{
+  /** A table as spreadsheets write it: a header and rows of as many fields. */
+  struct DelimitedText
+  {
+    struct Row
+    {
+      unsigned int line; ///< where it begins in the file, from 1
+      std::vector<std::string> fields;
+    };
+
+    std::string file_name;
+    char separator = ',';
+    Row header;
+    std::vector<Row> rows;
+
+    /** Whether numbers may have a decimal comma. */
+    bool
+    has_decimal_comma() const
+    {
+      return separator != ',';
+    }
+  };
+
+  /**
+   * Read a table from @p file_name. The header tells what separates fields: a
+   * tab, else ';', else ','. Fields may be quoted ("a ""quoted"" field"); a
+   * byte order mark, CR LF, empty lines and lines that begin with '#' do not
+   * count, nor do empty fields at the end of a row. Throws InputError, with
+   * the line, for files that cannot be read, quotes without an end, and rows
+   * that have not as many fields as the header; @p entry is the entry of the
+   * scene that names the file.
+   */
+  DelimitedText read_delimited_text(const std::string &file_name,
+                                    const std::string &entry);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_base_random_numbers_h
+#define keyblock_base_random_numbers_h
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <cstdint>
+#include <random>
+
+namespace Keyblock
+{
+  /** Floating point of 113 bits in software: the same on every machine, where
+   * the logarithms and sines of C libraries differ in their last bits. */
+  using Real = boost::multiprecision::cpp_bin_float_quad;
+
+  /** The nearest double of @p value. */
+  inline double
+  rounded(const Real &value)
+  {
+    return value.convert_to<double>();
+  }
+
+  /**
+   * Random numbers that are the same to the last bit for the same seed on any
+   * machine and with any compiler: raw bits of the 64-bit Mersenne twister,
+   * whose sequence the C++ standard fixes, and transforms of our own, because
+   * it does not fix its distributions.
+   */
+  class RandomNumbers
+  {
+  public:
+    explicit RandomNumbers(const std::uint64_t seed)
+      : bits(seed)
+    {}
+
+    /** Uniform in [0, 1): the upper 53 bits over 2^53. */
+    double
+    uniform()
+    {
+      return static_cast<double>(bits() >> 11) * 0x1p-53;
+    }
+
+    /** Uniform in (0, 1]. */
+    Real
+    positive_uniform()
+    {
+      return Real(1) - Real(uniform());
+    }
+
+    /** Exponential with mean 1, by inversion: -log(1 - u). */
+    double
+    exponential()
+    {
+      return rounded(-log(positive_uniform()));
+    }
+
+    /** Standard normal, by Box and Muller: sqrt(-2 log(1 - u)) cos(2 pi v). */
+    Real
+    normal()
+    {
+      const Real radius = sqrt(-2 * log(positive_uniform()));
+      return radius * cos(two_pi() * Real(uniform()));
+    }
+
+    /** Poisson: how many exponential steps fit into @p mean. */
+    unsigned int
+    poisson(const double mean)
+    {
+      unsigned int count = 0;
+      for (double sum = exponential(); sum <= mean; sum += exponential())
+        ++count;
+      return count;
+    }
+
+    static Real
+    two_pi()
+    {
+      return 2 * boost::math::constants::pi<Real>();
+    }
+
+  private:
+    std::mt19937_64 bits;
+  };
+} // namespace Keyblock
+
+#endif

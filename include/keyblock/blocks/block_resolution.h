@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_blocks_block_resolution_h
+#define keyblock_blocks_block_resolution_h
+
+#include <keyblock/blocks/blocks.h>
+
+#include <utility>
+
+namespace Keyblock
+{
+  /** Fill Block::width of finite blocks: the least of the distances between two
+   * planes that hold the block between them and are parallel to one of its
+   * joints or free faces. For convex blocks in 2D that is the least width of
+   * all, in 3D near to it. */
+  template <int dim>
+  void measure_widths(Blocks<dim> &blocks,
+                      const Mesh<dim> &mesh,
+                      const Scene<dim> &scene);
+
+  /** Whether a finite block has fewer cells across than Mesh/Cells across
+   * blocks asks for. */
+  template <int dim>
+  bool
+  is_too_coarse(const Block<dim> &block, const Scene<dim> &scene)
+  {
+    return !block.is_infinite &&
+           block.cells_across() < scene.meshing.cells_across;
+  }
+
+  /**
+   * Mesh the scene and find its blocks. With Mesh/Cells across blocks, mesh it
+   * again with smaller cells where finite blocks near excavations have fewer
+   * cells across, and where rock between joints was too thin to become a block.
+   * For all ranks together; throws as make_mesh().
+   */
+  template <int dim>
+  std::pair<Mesh<dim>, Blocks<dim>>
+  make_mesh_for_blocks(const Scene<dim> &scene);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_blocks_ground_h
+#define keyblock_blocks_ground_h
+
+#include <keyblock/blocks/interface.h>
+
+namespace Keyblock
+{
+  /**
+   * What is there at a stage: what has been dug, filled and taken away, and
+   * which faces are free. From the scene and the mesh alone.
+   */
+  template <int dim>
+  struct Ground
+  {
+    const Scene<dim> &scene;
+    const SplitMesh<dim> &split;
+    unsigned int stage_number = 1; ///< Scene::stage_number
+
+    /** Blocks that were taken away, by index; null or empty: none. */
+    const std::vector<bool> *is_removed = nullptr;
+
+    bool is_filled(const unsigned int cell) const;
+    bool is_dug(const unsigned int cell) const;
+
+    /** Index into Scene::materials, that of the fill where it is filled. */
+    unsigned int material_of(const unsigned int cell) const;
+  };
+
+  /** Whether stage @p number digs, fills, loads or changes anything. */
+  template <int dim>
+  bool is_changing(const Scene<dim> &scene, const unsigned int number);
+
+  /** A face of a cell. */
+  struct CellFace
+  {
+    unsigned int cell, face;
+  };
+
+  /** Faces of the rock beside which there is nothing: neither a cell nor the
+   * other side of a joint. */
+  template <int dim>
+  std::vector<CellFace> list_free_faces(const Ground<dim> &ground);
+
+  /** Those of @p free that a traction of this stage loads, as its boundaries
+   * or its region say. */
+  template <int dim>
+  std::vector<CellFace> list_loaded_faces(const Ground<dim> &ground,
+                                          const std::vector<CellFace> &free,
+                                          const Traction<dim> &traction);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What contact knows of its pairs, remembers, and reports.
+#ifndef keyblock_contact_state_h
+#define keyblock_contact_state_h
+
+#include <keyblock/contact/search.h>
+
+namespace Keyblock
+{
+  /** State of a pair of the interface, the same index as Interface::pairs. */
+  template <int dim>
+  struct PairState
+  {
+    Vector<dim> impulse{}; ///< on the plus side, last step [N s]
+    ContactStatus status = ContactStatus::sticking;
+    bool is_intact       = false;
+    bool is_converted    = false; ///< point-to-surface from now on
+    bool is_welded       = false; ///< by rock that is dug later
+    bool is_removed      = false; ///< with one of its blocks
+    bool has_opened      = false; ///< so that cohesion is gone
+
+    // shear and tension that pressure on faces bent by the mesh asks for [N]
+    double bend_shear   = 0.;
+    double bend_tension = 0.;
+
+    // what a weld bore beyond the joint's strength when it was let go [N]
+    double weld_shear   = 0.;
+    double weld_tension = 0.;
+  };
+
+  /** Which strengths are divided by a trial's reduction factor. */
+  struct StrengthReduction
+  {
+    std::vector<unsigned int> blocks; ///< only their joints; empty: all
+    std::vector<bool> joints;         ///< by joint; empty: all of them
+    double share = 1.; ///< of the strength that is left, 1 / F [-]
+
+    /** Share of strength between two blocks (`none`: no block) on a joint. */
+    double
+    share_between(const unsigned int a,
+                  const unsigned int b,
+                  const unsigned int joint) const
+    {
+      bool is_meant = blocks.empty();
+      for (const unsigned int block : blocks)
+        is_meant = is_meant || a == block || b == block;
+      is_meant =
+        is_meant && (joints.empty() || (joint != none && joints[joint]));
+      return is_meant ? share : 1.;
+    }
+  };
+
+  /** All that contact remembers from one step to the next. */
+  template <int dim>
+  struct ContactMemory
+  {
+    std::vector<PairState<dim>> state;
+    std::vector<Vector<dim>> normal; ///< of each pair, present
+    std::vector<bool> is_removed_block, is_mobile_group, is_mobile_slot;
+    std::vector<unsigned int> mobile_slots;
+    std::vector<unsigned int> mobile_corners;  ///< of the list of corners
+    std::vector<SurfaceContact<dim>> contacts; ///< of the last step
+    unsigned int n_steps = 0;
+    double last_kick     = 0.; ///< [s]
+
+    // when surface contacts were searched, and when they are to be again
+    std::vector<double> searched_position;
+    bool is_search_due     = true;
+    unsigned int next_look = 0; ///< step at which motion is measured
+  };
+
+  /** Sums over the contact points of one joint. */
+  template <int dim>
+  struct JointSums
+  {
+    Vector<dim> force{};  ///< on the plus (slave) side [N]
+    double normal = 0.;   ///< sum of pressures times areas [N]
+    double shear  = 0.;   ///< norm of the tangential part of force [N]
+    Vector<dim> center{}; ///< centre of the normal force [m]
+    unsigned int n_open = 0, n_sliding = 0, n_sticking = 0, n_intact = 0;
+  };
+
+  /** Energy that contact took in one step, by kind [J]. */
+  struct ContactWork
+  {
+    double friction    = 0.;
+    double closure     = 0.;
+    double penetration = 0.;
+  };
+
+  /** What the contact solver needs to know of the present step. */
+  struct ContactStep
+  {
+    double kick          = 0.; ///< h [s]
+    double step          = 0.; ///< dt [s]
+    double local_damping = 0.;
+    bool is_large        = false;
+    bool keeps_ledger    = true;
+    double weld_share    = 0.; ///< of the stage's former welds that is left [-]
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_mesh_gmsh_model_h
+#define keyblock_mesh_gmsh_model_h
+
+#include <deal.II/base/point.h>
+
+#include <gmsh.h>
+#include <keyblock/scene/scene.h>
+
+#include <vector>
+
+namespace Keyblock
+{
+  /** What is left of a scene in Gmsh's current model after everything was cut
+   * by everything, as lists of its entities (dimension, tag). */
+  template <int dim>
+  struct GmshModel
+  {
+    gmsh::vectorpair domain;
+
+    /** Pieces of each joint, by index of the joint; empty if the model was
+     * built without joints. */
+    std::vector<gmsh::vectorpair> joints;
+
+    Point<3> low, high; ///< the least box around the domain [m]
+  };
+
+  /**
+   * Build the domain of @p scene, its excavations and, if @p with_joints, its
+   * joints in Gmsh's current model with OpenCASCADE, cut them by each other and
+   * drop what reaches beyond the domain. Throws what Gmsh throws (strings or
+   * std::exception).
+   */
+  template <int dim>
+  GmshModel<dim> build_gmsh_model(const Scene<dim> &scene,
+                                  const bool with_joints);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_mesh_joint_cut_steps_h
+#define keyblock_mesh_joint_cut_steps_h
+
+#include <keyblock/mesh/report.h>
+#include <keyblock/mesh/simplex_mesh.h>
+#include <keyblock/scene/joint_extent.h>
+
+#include <vector>
+
+namespace Keyblock
+{
+  // The steps of cut_joints(). All lengths over the target size.
+
+  /** How far a joint may end before another surface and still close against
+   * it. */
+  constexpr double closing = 0.35;
+
+  /** Cut one joint, index @p surface into SimplexMesh::surfaces, into @p mesh:
+   * move vertices nearer than @p snap onto it, bisect the edges that it
+   * crosses, mark the facets between its two sides. */
+  template <int dim>
+  void insert_joint(SimplexMesh<dim> &mesh,
+                    const unsigned int surface,
+                    const JointExtent<dim> &extent,
+                    const double snap);
+
+  /**
+   * Drop what cuts beyond the joints' rims. A joint falls into patches between
+   * other surfaces: a patch mostly outside (a flap behind the surface that the
+   * joint ends on) goes as a whole, unless none is larger inside; of the others
+   * each facet stays whose centre is inside, and beside another surface also
+   * those that close a small gap. @p extents: by index of the joint.
+   */
+  template <int dim>
+  void trim_joints(SimplexMesh<dim> &mesh,
+                   const std::vector<JointExtent<dim>> &extents);
+
+  /** Let pieces below a part of a cell join the neighbour with which they share
+   * most area of joints, until there are none; they are counted in @p report.
+   */
+  template <int dim>
+  void dissolve_crumbs(SimplexMesh<dim> &mesh, MeshReport<dim> &report);
+} // namespace Keyblock
+
+#endif

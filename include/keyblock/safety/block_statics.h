@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_safety_block_statics_h
+#define keyblock_safety_block_statics_h
+
+#include <keyblock/safety/block_rotation.h>
+
+#include <iosfwd>
+
+namespace Keyblock
+{
+  /** What limit equilibrium says of a block at a stage. */
+  template <int dim>
+  struct BlockStatics
+  {
+    BlockSurroundings<dim> around;
+    LimitEquilibrium<dim> limit;
+
+    /** What is special, and what was left out. */
+    std::vector<std::string> remarks;
+
+    std::string
+    mode() const
+    {
+      return limit.describe(around.faces);
+    }
+
+    /** The remarks, separated by semicolons. */
+    std::string remark() const;
+
+    /** Weight, what else acts, and what the faces carry, in words [kN]. */
+    std::string forces() const;
+  };
+
+  /**
+   * Mode and factor of a block (by index) by limit equilibrium at @p time [s]:
+   * rigid, between neighbours that stay where they are, without the in-situ
+   * stress, under its weight, tractions, water and the seismic coefficient.
+   * Needs no run, only the scene and its mesh. What bears on the block and is
+   * left out is said in the remarks.
+   */
+  template <int dim>
+  BlockStatics<dim> judge_block(const Ground<dim> &ground,
+                                const FreeFaces<dim> &free,
+                                const Blocks<dim> &blocks,
+                                const unsigned int block,
+                                const double time);
+
+  /** Whether the rock is under stress before anything is dug, which limit
+   * equilibrium leaves out. */
+  template <int dim>
+  bool has_initial_stress(const Scene<dim> &scene);
+
+  /**
+   * The table for people: of each block with a free face its factor, mode and
+   * forces with the strength and the loads of time zero, after each stage that
+   * changes them.
+   */
+  template <int dim>
+  void print_block_statics(std::ostream &out,
+                           const Scene<dim> &scene,
+                           const SplitMesh<dim> &split,
+                           const Blocks<dim> &blocks);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_safety_limit_equilibrium_h
+#define keyblock_safety_limit_equilibrium_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <string>
+#include <vector>
+
+namespace Keyblock
+{
+  /** A plane on which a rigid block rests, or may slide. */
+  template <int dim>
+  struct BlockFace
+  {
+    dealii::Tensor<1, dim> inward; ///< unit normal, into the block
+    double area             = 0.;  ///< [m^(dim-1)]
+    double tangent_friction = 0.;  ///< tan(phi) [-]
+    double cohesion         = 0.;  ///< [Pa]
+    double water_force      = 0.;  ///< pressure times area, pushes inwards [N]
+    std::string name;              ///< of the joint
+
+    // only for judge_rotation()
+    double tensile_strength = 0.;               ///< [Pa]
+    std::vector<dealii::Point<dim>> vertices{}; ///< of the mesh on it
+  };
+
+  /** What a rigid block without a state of stress would do. */
+  template <int dim>
+  struct LimitEquilibrium
+  {
+    enum class Mode
+    {
+      stable,  ///< no direction in which it is driven is free
+      falling, ///< leaves all faces, downwards
+      lifting, ///< leaves all faces, upwards
+      one_plane,
+      two_planes,
+      rotating ///< turns about an edge of the one plane it is pressed on
+    };
+    Mode mode = Mode::stable;
+
+    /** Those it is pressed on (those of one or two planes, or none), then those
+     * with cohesion that it moves along without pressing on them. */
+    std::vector<unsigned int> faces;
+    unsigned int n_pressed = 0; ///< how many of them it is pressed on
+    dealii::Tensor<1, dim> direction;
+
+    /** Effective normal forces on those faces, compression positive [N]. */
+    std::vector<double> normal_forces;
+    double driving_force = 0.; ///< along the direction [N]
+
+    /** Resistance over driving force; cohesion alone resists falling and
+     * lifting; 0 if rotating, infinite if stable [-]. */
+    double factor = 0.;
+
+    /** The mode in words: falling, sliding on J1, sliding on J1/J2. */
+    std::string describe(const std::vector<BlockFace<dim>> &all) const;
+
+    /** Names of the faces it is pressed on, J1/J2. */
+    std::string names(const std::vector<BlockFace<dim>> &all) const;
+  };
+
+  /**
+   * Mode and factor of a rigid block on @p faces under the force @p load
+   * (weight, and whatever else acts, water excluded) [N]. Of all
+   * directions that leave no face closed in, the block takes that along which
+   * the resultant of load and water drives it: off all faces, else along one
+   * plane that it is pressed on, else along two (Warburton 1981; Goodman and
+   * Shi 1985). Faces with one normal, as the pieces of a stepped base, share
+   * the normal force by their areas. Faces that it moves along without pressing
+   * on them resist by their cohesion, faces that open by nothing. Moments are
+   * ignored; see judge_rotation().
+   */
+  template <int dim>
+  LimitEquilibrium<dim>
+  solve_limit_equilibrium(const std::vector<BlockFace<dim>> &faces,
+                          const dealii::Tensor<1, dim> &load);
+} // namespace Keyblock
+
+#endif

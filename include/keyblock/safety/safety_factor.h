@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_safety_safety_factor_h
+#define keyblock_safety_safety_factor_h
+
+#include <keyblock/safety/strength_trial.h>
+
+namespace Keyblock
+{
+  /** The safety factor of a block at the end of a stage. */
+  struct SafetyFactor
+  {
+    enum class Outcome
+    {
+      bracketed,
+      falls_freely, ///< fails at SafetySettings::lowest
+      immovable,    ///< holds at SafetySettings::highest
+      clamped,      ///< the same, though it can move (limit equilibrium)
+      undecided     ///< neither holds nor fails wherever it was tried
+    };
+    unsigned int block = 0; ///< index
+    std::string stage;
+    Outcome outcome = Outcome::bracketed;
+    double lower    = 0.; ///< greatest factor at which it holds
+    double upper    = 0.; ///< least factor at which it fails
+
+    /** Factors in the bracket at which it neither came to rest nor failed; 0:
+     * none. */
+    double undecided_lower = 0., undecided_upper = 0.;
+
+    std::string failure_mode;
+
+    /** Ids of the blocks that move together when this one fails, ascending;
+     * empty: it moves alone. With the strength of all their joints divided by
+     * the same number, it holds at group_lower and fails at group_upper. */
+    std::vector<unsigned int> group;
+    double group_lower = 0., group_upper = 0.;
+
+    std::vector<Trial> trials;
+
+    // the two cheap answers
+    std::string limit_mode, limit_remark;
+    double limit_factor = 0.;
+    double stress_ratio = 0.; ///< on the faces it slides on; 0: none
+
+    double
+    value() const
+    {
+      return outcome == Outcome::bracketed   ? 0.5 * (lower + upper)
+             : outcome == Outcome::immovable ? lower
+                                             : 0.;
+    }
+  };
+
+  /** The outcome in words; a value, falls freely, immovable, above 100, held by
+   * clamping, or undecided. */
+  std::string describe_outcome(const SafetyFactor &factor);
+
+  /**
+   * Looks for the factor between holding and failing of one block by trials:
+   * bisection, or a sweep. All start from the end of a stage; with warm starts
+   * a trial goes on from the highest factor that held.
+   */
+  template <int dim>
+  class StrengthReductionSearch
+  {
+  public:
+    StrengthReductionSearch(const Scene<dim> &scene,
+                            const SplitMesh<dim> &split,
+                            const Blocks<dim> &blocks,
+                            const Numbering<dim> &numbering,
+                            const RunParts<dim> &run);
+
+    /** What is known before the first trial. Zero: nothing. */
+    struct Known
+    {
+      double stable   = 0.; ///< a factor at which the block holds
+      double unstable = 0.; ///< one at which it fails
+      double hint     = 0.; ///< a guess
+      double limit    = 0.; ///< another, tried where that was wrong
+      double onset    = 0.; ///< at which present forces exceed the strength
+      double start    = 1.; ///< factor of the equilibrium to start from
+    };
+
+    /**
+     * Factor of @p block in the present state, which must be an equilibrium, of
+     * stage @p number. The state is the same afterwards (collective).
+     */
+    SafetyFactor find(const unsigned int block,
+                      const unsigned int number,
+                      const Known &known);
+
+    /** Limit equilibrium and stress ratio of @p block in the present state. */
+    void add_cheap_answers(const unsigned int block,
+                           SafetyFactor &result) const;
+
+  private:
+    class Search;
+
+    /** Factor of the blocks that moved together when @p result, that of one of
+     * them, was found. */
+    void find_group(const unsigned int number,
+                    const Known &known,
+                    SafetyFactor &result);
+
+    /** Ids of @p block and its companions, as SafetyFactor::group. */
+    std::vector<unsigned int> ids_of_group(const unsigned int block) const;
+
+    /** Leave all but the surroundings of @p block and its companions as they
+     * are; whether there is anything to leave. */
+    bool freeze_beyond_reach(const unsigned int block);
+
+    /** Try a factor on either side of @p guess, unless it is known by now
+     * whether the block holds there.
+     * @param onset as in Known */
+    void try_guess(Search &search,
+                   double guess,
+                   const double onset,
+                   const double spread) const;
+
+    /** Try factors further and further from one that was tried, until one
+     * holds and one fails. */
+    SafetyFactor::Outcome find_bracket(Search &search, double spread) const;
+
+    SafetyFactor::Outcome bisect(Search &search, const Known &known) const;
+    SafetyFactor::Outcome sweep(Search &search) const;
+
+    const Scene<dim> &scene;
+    const SplitMesh<dim> &split;
+    const Blocks<dim> &blocks;
+    RunParts<dim> run;
+    StrengthTrials<dim> trials;
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_safety_strength_trial_h
+#define keyblock_safety_strength_trial_h
+
+#include <keyblock/step/snapshot.h>
+
+namespace Keyblock
+{
+  /** One run with reduced strength, and what it showed. */
+  struct Trial
+  {
+    double factor          = 0.;
+    double start           = 0.; ///< factor of the equilibrium it started from
+    bool is_of_group       = false; ///< of all blocks that move together
+    bool is_stable         = false;
+    bool is_undecided      = false; ///< neither at rest nor failing
+    unsigned int phase     = 1;     ///< that decided
+    double slip            = 0.;    ///< mean, since the stage [m]
+    double velocity        = 0.;    ///< of the slip, last window [m/s]
+    double acceleration    = 0.;    ///< fitted to the last windows [m/s2]
+    double unbalanced      = 0.; ///< resultant on the block over its weight [-]
+    unsigned int n_broken  = 0;  ///< bonds of the block's joints, in the trial
+    unsigned int n_steps   = 0;  ///< of both phases
+    double seconds         = 0.; ///< wall time
+    double phase_1_seconds = 0.;
+  };
+
+  /**
+   * Divides tan(phi), cohesion and tensile strength of the joints of one block
+   * by a factor, and decides whether the block holds (doc/theory.md, section
+   * 12). A trial starts from an equilibrium and has two phases:
+   *
+   * 1. Under mass and stiffness damping, with scaled density and all motion
+   *    stopped at every peak of its energy, the block either comes to rest
+   *    (resultant of loads, stresses and contact on it below 1e-5 of its
+   *    weight, slip per period below 1e-6 of its size), which is stable, or
+   *    not. Creep by one slow mode is damped by that mode's frequency.
+   * 2. From rest, with viscous damping of the highest modes alone, its slip
+   *    speeds up, which is unstable, or dies out.
+   *
+   * The measures contain no damping force, so that damping cannot hold it. A
+   * block that does neither after several rounds of both, as one that chatters,
+   * is undecided.
+   */
+  template <int dim>
+  class StrengthTrials
+  {
+  public:
+    StrengthTrials(const Scene<dim> &scene,
+                   const SplitMesh<dim> &split,
+                   const Blocks<dim> &blocks,
+                   const Numbering<dim> &numbering,
+                   const RunParts<dim> &run);
+
+    /**
+     * Change the factor of @p block from @p start, at which the present state
+     * of stage @p number is an equilibrium, to @p factor (collective).
+     * @param first mean slip of the block at the end of the stage [m]
+     */
+    Trial try_factor(const unsigned int block,
+                     const unsigned int number,
+                     const double start,
+                     const double factor,
+                     const Vector<dim> &first);
+
+    /** Divide the strength of the joints of the block, and of its companions,
+     * by @p factor. */
+    void reduce(const unsigned int block, const double factor);
+
+    /** Blocks (indices) whose joints are reduced with those of the block that
+     * is tried; empty: none. */
+    std::vector<unsigned int> companions;
+
+    /** Nothing has failed yet. */
+    void
+    forget_failure()
+    {
+      last_failure.clear();
+      last_along.clear();
+    }
+
+    /** Blocks (indices) that moved along in the last trial that failed: other
+     * finite ones, by at least half of its way in its direction. */
+    const std::vector<unsigned int> &
+    blocks_along() const
+    {
+      return last_along;
+    }
+
+    /** How the block moved in the last trial that failed; empty: none. */
+    const std::string &
+    failure() const
+    {
+      return last_failure;
+    }
+
+  private:
+    struct Motion
+    {
+      Vector<dim> slip;
+      Vector<dim> velocity{}; ///< of the block's masses, mean [m/s]
+      double unbalanced = 0.; ///< everything but damping over the loads [-]
+      double load       = 0.; ///< these [N]
+    };
+
+    /** Mean slip of the block, and the forces on it. */
+    Motion measure(const unsigned int block) const;
+
+    enum class Verdict
+    {
+      open,
+      holds,
+      fails
+    };
+
+    /** Both phases, in turn until one decides. */
+    Verdict decide(const unsigned int block,
+                   const unsigned int number,
+                   const Vector<dim> &first,
+                   Trial &trial);
+
+    /** Settings of the first phase. */
+    Stage quiet_stage(const unsigned int block) const;
+
+    void change_strength(const unsigned int block, Trial &trial);
+
+    /** Phase 1; whether the block has come to rest.
+     * @param full_damping of the masses, where no slow mode shows [1/s] */
+    bool settle(const unsigned int block,
+                const double full_damping,
+                const Vector<dim> &first,
+                Trial &trial);
+
+    /** Phase 2, over @p periods of the block's lowest mode at most. */
+    Verdict watch(const unsigned int block,
+                  const double periods,
+                  const Vector<dim> &first,
+                  Trial &trial);
+
+    /** Whether the resultant is too small for the bracket to tell. */
+    bool is_as_good_as_at_rest(const Trial &trial) const;
+
+    /** Steps of phase 1. All motion stops when the kinetic energy of the block
+     * is below @p drop of its peak. */
+    void step_damped_until(const unsigned int last,
+                           const unsigned int block,
+                           const double drop,
+                           Trial &trial);
+
+    /** Cells along the block's size. */
+    double n_across(const unsigned int block) const;
+
+    /** Steps in a period of the block's lowest mode, with scaled density: a
+     * wave crosses one cell a step, and the block four times. */
+    unsigned int period_of(const unsigned int block) const;
+
+    /** By how much @p load [N] compresses the block [m]. */
+    double compression(const unsigned int block, const double load) const;
+
+    /** Largest speed of compression waves in the block [m/s]. */
+    double wave_speed(const unsigned int block) const;
+
+    double kinetic_energy(const unsigned int block) const;
+    double mass_in_use(const unsigned int block) const;
+
+    /** Bonds of the block's joints that are intact. */
+    unsigned int n_intact(const unsigned int block) const;
+
+    std::string name_failure(const unsigned int block) const;
+
+    /** See blocks_along(). */
+    std::vector<unsigned int> list_blocks_along(const unsigned int block) const;
+
+    const Scene<dim> &scene;
+    const SplitMesh<dim> &split;
+    const Blocks<dim> &blocks;
+    RunParts<dim> run;
+    std::vector<std::vector<unsigned int>> nodes_of_block; ///< owned ones
+    std::string last_failure;
+    std::vector<unsigned int> last_along;
+    std::vector<double> displacement_before; ///< of the second phase [m]
+    std::vector<double> joint_force;         ///< in its windows, added up [N]
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_scene_joint_columns_h
+#define keyblock_scene_joint_columns_h
+
+#include <keyblock/base/delimited_text.h>
+
+#include <map>
+
+namespace Keyblock
+{
+  /** What a column of a table of joints may hold. */
+  enum class JointColumn
+  {
+    name,
+    set,
+    dip,
+    dip_direction,
+    strike,
+    trend,
+    plunge,
+    normal_x,
+    normal_y,
+    normal_z,
+    x,
+    y,
+    z,
+    x1,
+    y1,
+    x2,
+    y2,
+    radius,
+    diameter,
+    extent,
+    vertices,
+    friction_angle,
+    kinetic_friction_angle,
+    cohesion,
+    tensile_strength,
+    residual_cohesion,
+    water_pressure,
+    comment
+  };
+
+  /** Where a quantity stands in each row, and its unit. */
+  struct ColumnPlace
+  {
+    unsigned int index; ///< of the field
+    double unit = 1.;   ///< in m, deg or Pa
+  };
+
+  /** The name of a column as messages and written tables use it. */
+  const std::string &name_of(const JointColumn column);
+
+  /**
+   * Find out what the columns of @p table are: upper and lower case, spaces,
+   * '_' and '-' are the same, units follow the name or stand in brackets.
+   * Throws InputError for columns that are not known, stand twice or have a
+   * unit that does not fit.
+   */
+  std::map<JointColumn, ColumnPlace>
+  find_joint_columns(const DelimitedText &table);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/expression.h>
+
+#include <deal.II/base/function_parser.h>
+
+#include <keyblock/base/errors.h>
+
+#include <algorithm>
+#include <iostream>
+#include <regex>
+#include <sstream>
+
+namespace Keyblock
+{
+  template <int dim>
+  Expression<dim>::Expression(const std::string &text,
+                              const unsigned int n_components,
+                              const std::string &entry)
+    : function(std::make_unique<dealii::FunctionParser<dim>>(n_components))
+    , n_components(n_components)
+  {
+    const unsigned int found = 1 + std::count(text.begin(), text.end(), ';');
+    AssertThrow(found == n_components,
+                InputError("The formula '" + text + "' of the entry '" + entry +
+                           "' has " + std::to_string(found) +
+                           " component(s) where " +
+                           std::to_string(n_components) +
+                           " are needed; separate components by ';'."));
+    AssertThrow(!std::regex_search(text, std::regex("\\brand(_seed)?\\s*\\(")),
+                InputError("The formula '" + text + "' of the entry '" + entry +
+                           "' contains rand(), which gives another number each "
+                           "time it is asked and on each rank; write a formula "
+                           "of " +
+                           std::string(dim == 2 ? "x, y" : "x, y, z") +
+                           " and t instead."));
+    const std::string variables =
+      (dim == 2) ? std::string("x,y,t") : std::string("x,y,z,t");
+    // muParser's own complaint would stand beside our sentence
+    std::ostringstream complaint;
+    std::streambuf *const screen = std::cerr.rdbuf(complaint.rdbuf());
+    bool is_understood           = true;
+    try
+      {
+        function->initialize(variables,
+                             text,
+                             {{"pi", dealii::numbers::PI}},
+                             true);
+        // each is parsed only when it is asked for
+        for (unsigned int c = 0; c < n_components; ++c)
+          value(dealii::Point<dim>(), 0., c);
+      }
+    catch (const dealii::ExceptionBase &)
+      {
+        is_understood = false;
+      }
+    std::cerr.rdbuf(screen);
+    AssertThrow(is_understood,
+                InputError("The formula '" + text + "' of the entry '" + entry +
+                           "' cannot be understood; use the variables " +
+                           variables +
+                           ", numbers, + - * / ^ and functions such as sin, "
+                           "sqrt, if."));
+  }
+
+
+
+  template <int dim>
+  Expression<dim>::~Expression() = default;
+
+
+
+  template <int dim>
+  double
+  Expression<dim>::value(const dealii::Point<dim> &p,
+                         const double time,
+                         const unsigned int component) const
+  {
+    function->set_time(time);
+    return function->value(p, component);
+  }
+
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  Expression<dim>::vector(const dealii::Point<dim> &p, const double time) const
+  {
+    dealii::Tensor<1, dim> result;
+    for (unsigned int c = 0; c < n_components; ++c)
+      result[c] = value(p, time, c);
+    return result;
+  }
+
+  template class Expression<2>;
+  template class Expression<3>;
+} // namespace Keyblock

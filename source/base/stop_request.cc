@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/stop_request.h>
+
+#include <keyblock/base/mpi.h>
+
+#include <csignal>
+
+namespace Keyblock
+{
+  namespace
+  {
+    volatile std::sig_atomic_t received = 0;
+
+    void
+    note(const int signal)
+    {
+      received = signal;
+    }
+  } // namespace
+
+
+
+  void
+  watch_signals()
+  {
+    struct sigaction action = {};
+    action.sa_handler       = note;
+    action.sa_flags         = SA_RESTART | SA_RESETHAND;
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1})
+      sigaction(signal, &action, nullptr);
+    std::signal(SIGXFSZ, SIG_IGN);
+  }
+
+
+
+  int
+  signal_received()
+  {
+    return received;
+  }
+
+
+
+  void
+  stop_if_asked()
+  {
+    const int signal = max_over_ranks(signal_received());
+    if (signal > 0)
+      throw StopRequest{signal};
+  }
+} // namespace Keyblock

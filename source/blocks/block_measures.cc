@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/blocks/block_measures.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Sine between planes below which they count as parallel. */
+    constexpr double least_sine = 1e-4;
+
+    /** How far a vertex may be from one more plane, and how far it may be
+     * moved, over the size of a cell there [-]. */
+    constexpr double coincident = 1e-7, farthest = 3.;
+
+    /** One face on the surface of a block. */
+    struct OuterFace
+    {
+      unsigned int cell, face;
+      unsigned int surface; ///< index into Mesh::surfaces
+    };
+
+    template <int dim>
+    using SurfacesOfFace =
+      std::map<typename Mesh<dim>::FaceVertices, std::vector<unsigned int>>;
+
+    template <int dim>
+    SurfacesOfFace<dim>
+    list_surfaces(const Mesh<dim> &mesh)
+    {
+      SurfacesOfFace<dim> result;
+      for (const auto &face : mesh.marked_faces)
+        {
+          auto key = face.vertices;
+          std::sort(key.begin(), key.end());
+          result[key].push_back(face.surface);
+        }
+      return result;
+    }
+
+    /** Where the planes nearest to @p p in the list meet; nothing if they do
+     * not all meet there. @p size: of a cell [m]. */
+    template <int dim>
+    std::optional<Point<dim>>
+    intersection(const Point<dim> &p,
+                 const std::vector<unsigned int> &list,
+                 const Mesh<dim> &mesh,
+                 const double size)
+    {
+      Point<dim> x = p;
+      std::vector<Tensor<1, dim>> used;
+      for (const unsigned int s : list)
+        {
+          const Surface<dim> &surface = mesh.surfaces[s];
+          if (surface.radius > 0.)
+            return {};
+          Tensor<1, dim> way = surface.normal;
+          for (unsigned int twice = 0; twice < 2; ++twice)
+            for (const auto &n : used)
+              way -= (way * n) * n;
+          if (used.size() == dim || way.norm() < least_sine)
+            continue;
+          x -= surface.distance(x) / way.norm_square() * way;
+          used.push_back(way / way.norm());
+        }
+      for (const unsigned int s : list)
+        if (std::abs(mesh.surfaces[s].distance(x)) > coincident * size)
+          return {};
+      if (x.distance(p) > farthest * size)
+        return {};
+      return x;
+    }
+
+    /** Area vector of a face, out of its cell, with its corners at @p x. */
+    template <int dim>
+    Tensor<1, dim>
+    outward_area(const std::array<Point<dim>, Mesh<dim>::n_face_vertices> &x,
+                 const unsigned int face)
+    {
+      Tensor<1, dim> area; // by deal.II's order; in 2D to the left
+      if constexpr (dim == 2)
+        area = -cross_product_2d(x[1] - x[0]);
+      else
+        area = 0.5 * cross_product_3d(x[3] - x[0], x[2] - x[1]);
+      return is_inward<dim>(face) ? -area : area;
+    }
+
+    template <int dim>
+    void
+    measure(Block<dim> &block,
+            const std::vector<OuterFace> &faces,
+            const Mesh<dim> &mesh)
+    {
+      std::map<unsigned int, std::vector<unsigned int>> surfaces_at;
+      for (const OuterFace &face : faces)
+        for (const unsigned int v : mesh.face_vertices(face.cell, face.face))
+          {
+            auto &list = surfaces_at[v];
+            if (std::find(list.begin(), list.end(), face.surface) == list.end())
+              list.push_back(face.surface);
+          }
+      const double size = std::pow(block.volume / block.n_cells, 1. / dim);
+      std::map<unsigned int, Point<dim>> place;
+      for (const auto &[v, list] : surfaces_at)
+        {
+          const auto x = intersection(mesh.vertices[v], list, mesh, size);
+          if (!x)
+            return;
+          place[v] = *x;
+        }
+      typename Block<dim>::Measures exact;
+      for (const OuterFace &face : faces)
+        {
+          const auto vertices = mesh.face_vertices(face.cell, face.face);
+          std::array<Point<dim>, Mesh<dim>::n_face_vertices> x, bent;
+          for (unsigned int i = 0; i < vertices.size(); ++i)
+            {
+              x[i]    = place.at(vertices[i]);
+              bent[i] = mesh.vertices[vertices[i]];
+            }
+          const Tensor<1, dim> area = outward_area<dim>(x, face.face);
+          exact.volume += area * (x[0] - block.centroid) / dim;
+          const Surface<dim> &surface = mesh.surfaces[face.surface];
+          if (surface.is_joint())
+            {
+              exact.joint_area[surface.joint] += area * surface.normal;
+              exact.bent_area[surface.joint] +=
+                outward_area<dim>(bent, face.face).norm();
+            }
+        }
+      for (auto &[joint, area] : exact.joint_area)
+        area = std::abs(area);
+      exact.is_known = exact.volume > 0.;
+      if (exact.is_known)
+        block.exact = exact;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  measure_exactly(Blocks<dim> &blocks, const Mesh<dim> &mesh)
+  {
+    if (mesh.surfaces.empty())
+      return;
+    const SurfacesOfFace<dim> surfaces = list_surfaces(mesh);
+    std::vector<std::vector<OuterFace>> faces(blocks.blocks.size());
+    std::vector<bool> is_plane(blocks.blocks.size(), true);
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        const unsigned int b = blocks.block_of_cell[c];
+        if (b == none || blocks.blocks[b].is_infinite)
+          continue;
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          {
+            const unsigned int other = mesh.neighbor[c][f];
+            if (other != none && blocks.block_of_cell[other] == b)
+              continue;
+            auto key = mesh.face_vertices(c, f);
+            std::sort(key.begin(), key.end());
+            const auto found = surfaces.find(key);
+            if (found == surfaces.end())
+              {
+                is_plane[b] = false;
+                continue;
+              }
+            // of several that share the face the one that rules
+            unsigned int surface = found->second.front();
+            for (const unsigned int s : found->second)
+              if (mesh.surfaces[s].joint == mesh.joint[c][f] &&
+                  mesh.joint[c][f] != none)
+                surface = s;
+            faces[b].push_back({c, f, surface});
+          }
+      }
+    for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+      if (is_plane[b] && !faces[b].empty())
+        measure(blocks.blocks[b], faces[b], mesh);
+  }
+
+  template void measure_exactly(Blocks<2> &, const Mesh<2> &);
+  template void measure_exactly(Blocks<3> &, const Mesh<3> &);
+} // namespace Keyblock

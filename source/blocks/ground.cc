@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/expression.h>
+#include <keyblock/blocks/ground.h>
+
+namespace Keyblock
+{
+  template <int dim>
+  bool
+  Ground<dim>::is_filled(const unsigned int cell) const
+  {
+    if (split.mesh.excavation_stage[cell] == 0)
+      return false;
+    const Excavation<dim> &excavation =
+      *scene.excavations[split.mesh.excavation[cell]];
+    return !excavation.backfill_stage.empty() &&
+           scene.stage_number(excavation.backfill_stage) <= stage_number;
+  }
+
+
+
+  template <int dim>
+  bool
+  Ground<dim>::is_dug(const unsigned int cell) const
+  {
+    const unsigned int block = split.block_of_cell[cell];
+    if (block != none && is_removed != nullptr && !is_removed->empty() &&
+        (*is_removed)[block])
+      return true;
+    const unsigned int dug = split.mesh.excavation_stage[cell];
+    return dug > 0 && dug <= stage_number && !is_filled(cell);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Ground<dim>::material_of(const unsigned int cell) const
+  {
+    unsigned int material = split.mesh.material[cell], since = 0;
+    if (is_filled(cell))
+      {
+        const Excavation<dim> &excavation =
+          *scene.excavations[split.mesh.excavation[cell]];
+        material = scene.material_index(excavation.backfill_material);
+        since    = scene.stage_number(excavation.backfill_stage);
+      }
+    if (!split.mesh.later_materials.empty())
+      for (const unsigned int later : split.mesh.later_materials[cell])
+        {
+          const unsigned int from =
+            scene.stage_number(scene.materials[later]->stage);
+          if (from <= stage_number && from >= since)
+            {
+              material = later;
+              since    = from;
+            }
+        }
+    return material;
+  }
+
+
+
+  template <int dim>
+  bool
+  is_changing(const Scene<dim> &scene, const unsigned int number)
+  {
+    for (const auto &excavation : scene.excavations)
+      if (scene.stage_number(excavation->stage) == number ||
+          (!excavation->backfill_stage.empty() &&
+           scene.stage_number(excavation->backfill_stage) == number))
+        return true;
+    for (const auto &traction : scene.tractions)
+      if (scene.stage_number(traction->stage) == number)
+        return true;
+    for (const auto &material : scene.materials)
+      if (!material->stage.empty() &&
+          scene.stage_number(material->stage) == number)
+        return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  std::vector<CellFace>
+  list_free_faces(const Ground<dim> &ground)
+  {
+    const Mesh<dim> &mesh = ground.split.mesh;
+    std::vector<std::array<bool, Mesh<dim>::n_cell_faces>> is_covered(
+      mesh.n_cells());
+    for (auto &faces : is_covered)
+      faces.fill(false);
+    for (const JointFace &face : ground.split.interface.joint_faces)
+      if (!ground.is_dug(face.minus_cell) && !ground.is_dug(face.plus_cell))
+        is_covered[face.minus_cell][face.minus_face] =
+          is_covered[face.plus_cell][face.plus_face] = true;
+    std::vector<CellFace> free;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      if (!ground.is_dug(c))
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          {
+            const unsigned int other = mesh.neighbor[c][f];
+            if (!is_covered[c][f] && (other == none || ground.is_dug(other)))
+              free.push_back({c, f});
+          }
+    return free;
+  }
+
+
+
+  template <int dim>
+  std::vector<CellFace>
+  list_loaded_faces(const Ground<dim> &ground,
+                    const std::vector<CellFace> &free,
+                    const Traction<dim> &traction)
+  {
+    if (ground.scene.stage_number(traction.stage) > ground.stage_number)
+      return {};
+    const Mesh<dim> &mesh = ground.split.mesh;
+    const Expression<dim> inside(traction.region.empty() ? "-1"
+                                                         : traction.region,
+                                 1,
+                                 "Tractions/*/Region");
+    std::vector<CellFace> loaded;
+    for (const CellFace &f : free)
+      {
+        bool is_loaded =
+          inside.value(mesh.face_center(f.cell, f.face), 0., 0) > 0.;
+        for (const std::string &name : traction.boundaries)
+          is_loaded = is_loaded || mesh.is_on(f.cell, f.face, name);
+        if (is_loaded)
+          loaded.push_back(f);
+      }
+    return loaded;
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template struct Ground<dim>;                                                 \
+  template bool is_changing(const Scene<dim> &, const unsigned int);           \
+  template std::vector<CellFace> list_free_faces(const Ground<dim> &);         \
+  template std::vector<CellFace> list_loaded_faces(                            \
+    const Ground<dim> &,                                                       \
+    const std::vector<CellFace> &,                                             \
+    const Traction<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Keyblock

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What came out of a run so far, as it stands in a checkpoint.
+#include <deal.II/base/mpi.h>
+
+#include <keyblock/checkpoint/checkpoint.h>
+#include <keyblock/checkpoint/state_rows.h>
+
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace Keyblock
+{
+  template <typename Action>
+  void
+  for_each_number(Trial &trial, const Action &action)
+  {
+    action(trial.factor);
+    action(trial.start);
+    action(trial.is_of_group);
+    action(trial.is_stable);
+    action(trial.is_undecided);
+    action(trial.n_broken);
+    action(trial.phase);
+    action(trial.slip);
+    action(trial.velocity);
+    action(trial.acceleration);
+    action(trial.unbalanced);
+    action(trial.n_steps);
+    action(trial.seconds);
+    action(trial.phase_1_seconds);
+  }
+
+  template <typename Action>
+  void
+  for_each_number(SafetyFactor &factor, const Action &action)
+  {
+    action(factor.block);
+    action(factor.outcome);
+    action(factor.lower);
+    action(factor.upper);
+    action(factor.undecided_lower);
+    action(factor.undecided_upper);
+    action(factor.group_lower);
+    action(factor.group_upper);
+    action(factor.limit_factor);
+    action(factor.stress_ratio);
+  }
+
+  template <typename Action>
+  void
+  for_each_number(StageReport &report, const Action &action)
+  {
+    action(report.steps);
+    action(report.time_step);
+    action(report.unbalanced_ratio);
+    action(report.max_displacement);
+    action(report.largest_nodal_ratio);
+    action(report.is_converged);
+    action(report.cells);
+    action(report.plastic_cells);
+    action(report.yielding_points);
+    action(report.points.open);
+    action(report.points.sliding);
+    action(report.points.sticking);
+    action(report.points.intact);
+    action(report.through_rock);
+    action(report.largest_overlap);
+    for (double &coordinate : report.overlap_place)
+      action(coordinate);
+    std::array<double, n_energy_terms> energies = report.energies.as_array();
+    for (double &energy : energies)
+      action(energy);
+    report.energies = Energies::from_array(energies);
+  }
+
+
+
+  void
+  exchange(StateFile &file,
+           const std::string &group,
+           std::vector<StageReport> &reports)
+  {
+    exchange_rows(file, group + "numbers", reports);
+    exchange_texts(file, group + "name", reports, &StageReport::name);
+    exchange_texts(file, group + "remark", reports, &StageReport::remark);
+  }
+
+
+
+  void
+  exchange(StateFile &file,
+           const std::string &group,
+           std::vector<SafetyFactor> &factors)
+  {
+    exchange_rows(file, group + "numbers", factors);
+    exchange_texts(file, group + "stage", factors, &SafetyFactor::stage);
+    exchange_texts(file,
+                   group + "failure_mode",
+                   factors,
+                   &SafetyFactor::failure_mode);
+    exchange_texts(file,
+                   group + "limit_mode",
+                   factors,
+                   &SafetyFactor::limit_mode);
+    exchange_texts(file,
+                   group + "limit_remark",
+                   factors,
+                   &SafetyFactor::limit_remark);
+    std::vector<unsigned int> n_trials, group_sizes, group_ids;
+    std::vector<Trial> trials;
+    for (const SafetyFactor &factor : factors)
+      {
+        n_trials.push_back(factor.trials.size());
+        group_sizes.push_back(factor.group.size());
+        group_ids.insert(group_ids.end(),
+                         factor.group.begin(),
+                         factor.group.end());
+        trials.insert(trials.end(), factor.trials.begin(), factor.trials.end());
+      }
+    file.exchange(group + "n_trials", n_trials);
+    file.exchange(group + "group_sizes", group_sizes);
+    file.exchange(group + "group_ids", group_ids);
+    exchange_rows(file, group + "trials", trials);
+    auto next    = trials.begin();
+    auto next_id = group_ids.begin();
+    for (unsigned int f = 0; f < factors.size(); ++f)
+      {
+        factors[f].trials.assign(next, next + n_trials[f]);
+        next += n_trials[f];
+        factors[f].group.assign(next_id, next_id + group_sizes[f]);
+        next_id += group_sizes[f];
+      }
+  }
+
+
+
+  std::vector<SafetyFactor>
+  gather_from_teams(const std::vector<SafetyFactor> &mine)
+  {
+    // numbers of factors, of their trials and groups, and texts
+    using Rows = std::vector<std::vector<double>>;
+    std::pair<Rows, std::vector<std::string>> packed;
+    for (const SafetyFactor &factor : mine)
+      {
+        packed.first.push_back(numbers_of(factor));
+        packed.first.emplace_back();
+        for (const Trial &trial : factor.trials)
+          for (const double number : numbers_of(trial))
+            packed.first.back().push_back(number);
+        packed.first.emplace_back(factor.group.begin(), factor.group.end());
+        for (const std::string &text : {factor.stage,
+                                        factor.failure_mode,
+                                        factor.limit_mode,
+                                        factor.limit_remark})
+          packed.second.push_back(text);
+      }
+    const std::size_t n = numbers_of(Trial()).size();
+    std::vector<SafetyFactor> found;
+    for (const auto &[rows, texts] :
+         dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, packed))
+      for (std::size_t f = 0; 3 * f < rows.size(); ++f)
+        {
+          auto factor = from_numbers<SafetyFactor>(rows[3 * f].data());
+          for (std::size_t t = 0; t + n <= rows[3 * f + 1].size(); t += n)
+            factor.trials.push_back(
+              from_numbers<Trial>(rows[3 * f + 1].data() + t));
+          factor.stage        = texts[4 * f];
+          factor.failure_mode = texts[4 * f + 1];
+          factor.limit_mode   = texts[4 * f + 2];
+          factor.limit_remark = texts[4 * f + 3];
+          factor.group.assign(rows[3 * f + 2].begin(), rows[3 * f + 2].end());
+          const auto is_same = [&](const SafetyFactor &other) {
+            return other.block == factor.block;
+          };
+          if (std::none_of(found.begin(), found.end(), is_same))
+            found.push_back(factor);
+        }
+    std::sort(found.begin(),
+              found.end(),
+              [](const SafetyFactor &a, const SafetyFactor &b) {
+                return a.block < b.block;
+              });
+    return found;
+  }
+
+
+
+  void
+  exchange(StateFile &file, const std::string &group, History &history)
+  {
+    const std::size_t n = history.columns.size();
+    std::vector<double> rows;
+    for (const std::vector<double> &row : history.rows)
+      rows.insert(rows.end(), row.begin(), row.end());
+    file.exchange(group + "rows", rows);
+    file.exchange(group + "stage_begin", history.stage_begin);
+    if (!file.is_read() || !is_root())
+      return;
+    AssertThrow(rows.size() % n == 0,
+                InputError("The history in the checkpoint has other columns "
+                           "than this scene; name another by --restart."));
+    history.rows.clear();
+    for (std::size_t i = 0; i + n <= rows.size(); i += n)
+      history.rows.emplace_back(rows.begin() + i, rows.begin() + i + n);
+  }
+} // namespace Keyblock

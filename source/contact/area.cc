@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Which part of a joint each point of surface contact stands for, and where
+// its cohesion is gone.
+#include <keyblock/contact/contact.h>
+
+#include <algorithm>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Gap over the size of a face beyond which a joint has come apart [-]. */
+    constexpr double least_opening = 1e-3;
+
+    /** Impulse over the joint's mean from which on a point bears cohesion: one
+     * that hovers would take it and let go in turns [-]. */
+    constexpr double least_share = 0.1;
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::note_openings()
+  {
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const Pair<dim> &pair = interface.pairs[p];
+        if (!has_cohesion[pair.joint] || state[p].has_opened ||
+            state[p].is_removed || state[p].status == ContactStatus::sticking)
+          continue;
+        const unsigned int minus = numbering.local_node(pair.minus);
+        const unsigned int plus  = numbering.local_node(pair.plus);
+        // mobile nodes are known on all ranks
+        const bool is_mobile = is_mobile_group[group_of_pair[p]];
+        if (!is_mobile && (minus == none || plus == none))
+          continue;
+        const double *at_minus =
+          is_mobile
+            ? &slot_displacement[dim * search.slot_of_vertex[pair.minus]]
+            : &fields.displacement[dim * minus];
+        const double *at_plus =
+          is_mobile ? &slot_displacement[dim * search.slot_of_vertex[pair.plus]]
+                    : &fields.displacement[dim * plus];
+        double gap = 0.;
+        for (int d = 0; d < dim; ++d)
+          gap += normal[p][d] * (at_plus[d] - at_minus[d]);
+        if (gap > least_opening * pair.face_size)
+          {
+            state[p].has_opened = true;
+            shared_among        = {};
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  Contact<dim>::has_opened(const unsigned int slot,
+                           const unsigned int joint) const
+  {
+    const unsigned int g = group_of_slot[slot];
+    if (g == none)
+      return false;
+    const unsigned int v = search.vertex_of_slot[slot];
+    for (unsigned int p = interface.group_pairs_begin[g];
+         p < interface.group_pairs_begin[g + 1];
+         ++p)
+      if (state[p].has_opened && interface.pairs[p].joint == joint &&
+          (interface.pairs[p].minus == v || interface.pairs[p].plus == v))
+        return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  bool
+  Contact<dim>::has_pair(const unsigned int slot,
+                         const unsigned int joint,
+                         const unsigned int block) const
+  {
+    const unsigned int g = group_of_slot[slot];
+    if (g == none)
+      return false;
+    const unsigned int v = search.vertex_of_slot[slot];
+    for (unsigned int p = interface.group_pairs_begin[g];
+         p < interface.group_pairs_begin[g + 1];
+         ++p)
+      {
+        const Pair<dim> &pair = interface.pairs[p];
+        if (pair.joint != joint || state[p].is_converted ||
+            state[p].is_removed || state[p].status == ContactStatus::open ||
+            (pair.minus != v && pair.plus != v))
+          continue;
+        const unsigned int partner = pair.minus == v ? pair.plus : pair.minus;
+        if (search.is_on_block(search.slot_of_vertex[partner], block))
+          return true;
+      }
+    return false;
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::share_areas()
+  {
+    // areas and impulses between two blocks on a joint
+    const auto between =
+      [](const unsigned int joint, const unsigned int a, const unsigned int b) {
+        return Footing{{joint, std::min(a, b), std::max(a, b)}};
+      };
+    std::vector<Footing> near, pressed;
+    std::map<Footing, std::array<double, 2>> impulses; // number and sum
+    std::vector<std::pair<Footing, double>> impulse_at;
+    for (const SurfaceContact<dim> &contact : contacts)
+      if (contact.joint != none && has_cohesion[contact.joint] &&
+          !contact.is_ridge)
+        {
+          near.push_back(
+            {{contact.slave, contact.joint, contact.master_block}});
+          const double r =
+            std::max(0., dot<dim>(contact.point.impulse, contact.point.normal));
+          auto &sums = impulses[between(contact.joint,
+                                        search.block_of_slot[contact.slave],
+                                        contact.master_block)];
+          sums[0] += 1.;
+          sums[1] += r;
+          impulse_at.emplace_back(near.back(), r);
+        }
+    for (const auto &[footing, r] : impulse_at)
+      {
+        const auto &sums = impulses[between(
+          footing[1], search.block_of_slot[footing[0]], footing[2])];
+        if (r > least_share * sums[1] / sums[0])
+          pressed.push_back(footing);
+      }
+    std::sort(near.begin(), near.end());
+    std::sort(pressed.begin(), pressed.end());
+    if (near == shared_among[0] && pressed == shared_among[1])
+      return;
+    shared_among = {{near, pressed}};
+    covered_area.clear();
+    std::vector<AreaShare> shares;
+    std::map<Footing, std::array<double, 2>> areas; // with points, and without
+    const auto key_of = [&](const FaceOverlap<dim> &overlap) {
+      const SurfaceFace<dim> &slave  = interface.surface[overlap.slave_face];
+      const SurfaceFace<dim> &master = interface.surface[overlap.master_face];
+      return between(slave.joint, slave.block, master.block);
+    };
+    const auto share = [&](const FaceOverlap<dim> &overlap,
+                           const double area,
+                           const std::vector<Footing> &bearing) {
+      return share_overlap(area,
+                           overlap.slave_face,
+                           interface.surface[overlap.master_face].block,
+                           overlap.slave_weight,
+                           bearing,
+                           shares) ||
+             share_overlap(area,
+                           overlap.master_face,
+                           interface.surface[overlap.slave_face].block,
+                           overlap.master_weight,
+                           bearing,
+                           shares);
+    };
+    // to nodes that press
+    std::vector<std::pair<unsigned int, double>> lone;
+    for (unsigned int i = 0; i < overlaps.size(); ++i)
+      {
+        const FaceOverlap<dim> &overlap = overlaps[i];
+        const double area = overlap.area * (1. - share_of_pairs(overlap));
+        const std::size_t n_before = shares.size();
+        const bool is_shared       = share(overlap, area, pressed);
+        areas[key_of(overlap)][is_shared ? 0 : 1] += area;
+        if (!is_shared)
+          lone.emplace_back(i, area);
+        for (std::size_t k = n_before; k < shares.size(); ++k)
+          shares[k].between = key_of(overlap);
+      }
+    // faces that have lifted a little, but not opened, lean on the others: what
+    // lies on points that do not press is not lost. Where nothing presses, to
+    // such as are near
+    for (AreaShare &part : shares)
+      {
+        const auto &sums = areas[part.between];
+        covered_area[part.footing] += part.area * (1. + sums[1] / sums[0]);
+      }
+    shares.clear();
+    for (const auto &[i, area] : lone)
+      if (areas[key_of(overlaps[i])][0] <= 0.)
+        share(overlaps[i], area, near);
+    for (const AreaShare &part : shares)
+      covered_area[part.footing] += part.area;
+  }
+
+
+
+  template <int dim>
+  double
+  Contact<dim>::share_of_pairs(const FaceOverlap<dim> &overlap) const
+  {
+    // what pairs stand for is theirs, and what has opened is nobody's
+    const auto &slots        = search.face_slots[overlap.slave_face];
+    const unsigned int joint = interface.surface[overlap.slave_face].joint;
+    const unsigned int block = interface.surface[overlap.master_face].block;
+    double sum               = 0.;
+    for (unsigned int k = 0; k < slots.size(); ++k)
+      if (has_opened(slots[k], joint) || has_pair(slots[k], joint, block))
+        sum += overlap.slave_weight[k];
+    return std::min(sum, 1.);
+  }
+
+
+
+  template <int dim>
+  bool
+  Contact<dim>::share_overlap(
+    const double area,
+    const unsigned int face,
+    const unsigned int block,
+    const std::array<double, Mesh<dim>::n_face_vertices> &weight,
+    const std::vector<Footing> &bearing,
+    std::vector<AreaShare> &shares) const
+  {
+    const auto &slots        = search.face_slots[face];
+    const unsigned int joint = interface.surface[face].joint;
+    double sum               = 0.;
+    std::array<bool, Mesh<dim>::n_face_vertices> takes;
+    for (unsigned int k = 0; k < slots.size(); ++k)
+      {
+        takes[k] = std::binary_search(bearing.begin(),
+                                      bearing.end(),
+                                      Footing{{slots[k], joint, block}}) &&
+                   !has_opened(slots[k], joint) &&
+                   !has_pair(slots[k], joint, block);
+        sum += takes[k] ? weight[k] : 0.;
+      }
+    if (sum <= 0.)
+      return false;
+    for (unsigned int k = 0; k < slots.size(); ++k)
+      if (takes[k])
+        shares.push_back(
+          {{{slots[k], joint, block}}, {}, area * weight[k] / sum});
+    return true;
+  }
+
+  template void Contact<2>::note_openings();
+  template void Contact<3>::note_openings();
+  template bool Contact<2>::has_pair(const unsigned int,
+                                     const unsigned int,
+                                     const unsigned int) const;
+  template bool Contact<3>::has_pair(const unsigned int,
+                                     const unsigned int,
+                                     const unsigned int) const;
+  template void Contact<2>::share_areas();
+  template void Contact<3>::share_areas();
+} // namespace Keyblock

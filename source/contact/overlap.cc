@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Where the two sides of joints lie on each other, for strengths per area.
+#include <keyblock/contact/geometry.h>
+#include <keyblock/contact/search.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Faces further apart than this, over their size, do not touch [-]. */
+    constexpr double farthest_gap = 0.1;
+
+    /** Cosine of normals of faces that touch, at most. */
+    constexpr double least_opposition = -0.9;
+
+    /** Overlaps smaller than this, over the face, are rounding [-]. */
+    constexpr double least_overlap = 1e-9;
+
+    /** Depths smaller than this over the size of the block's faces are
+     * rounding, and those that differ by less than this share are equal [-]. */
+    constexpr double rounding = 1e-12, equal = 1e-6;
+
+    /** Length or area, and centre. */
+    template <int dim>
+    struct Common
+    {
+      double area = 0.;
+      Vector<dim> center{};
+    };
+
+    /** What two segments, or two convex quadrilaterals (corners as in a cell's
+     * face), have in common along a plane with @p normal. */
+    Common<2>
+    intersect(const std::array<Vector<2>, 2> &a,
+              const std::array<Vector<2>, 2> &b,
+              const Vector<2> &)
+    {
+      const Vector<2> along = unit<2>(difference<2>(a[1], a[0]));
+      const auto place      = [&](const Vector<2> &x) {
+        return dot<2>(difference<2>(x, a[0]), along);
+      };
+      const double low = std::max(0., std::min(place(b[0]), place(b[1])));
+      const double high =
+        std::min(place(a[1]), std::max(place(b[0]), place(b[1])));
+      Common<2> result;
+      result.area   = std::max(0., high - low);
+      result.center = add<2>(a[0], 0.5 * (low + high), along);
+      return result;
+    }
+
+    /** The part of a convex polygon on the inner side of a plane through
+     * @p on with normal @p outward. */
+    std::vector<Vector<3>>
+    clip(const std::vector<Vector<3>> &polygon,
+         const Vector<3> &on,
+         const Vector<3> &outward)
+    {
+      std::vector<Vector<3>> result;
+      const auto height = [&](const Vector<3> &x) {
+        return dot<3>(difference<3>(x, on), outward);
+      };
+      for (std::size_t i = 0; i < polygon.size(); ++i)
+        {
+          const Vector<3> &x = polygon[i];
+          const Vector<3> &y = polygon[(i + 1) % polygon.size()];
+          const double hx = height(x), hy = height(y);
+          if (hx <= 0.)
+            result.push_back(x);
+          if ((hx < 0. && hy > 0.) || (hx > 0. && hy < 0.))
+            result.push_back(add<3>(x, hx / (hx - hy), difference<3>(y, x)));
+        }
+      return result;
+    }
+
+    Common<3>
+    intersect(const std::array<Vector<3>, 4> &a,
+              const std::array<Vector<3>, 4> &b,
+              const Vector<3> &normal)
+    {
+      std::vector<Vector<3>> common          = {a[0], a[1], a[3], a[2]};
+      const std::array<Vector<3>, 4> clipper = {{b[0], b[1], b[3], b[2]}};
+      for (unsigned int i = 0; i < 4; ++i)
+        common =
+          clip(common,
+               clipper[i],
+               cross(difference<3>(clipper[(i + 1) % 4], clipper[i]), normal));
+      Common<3> result;
+      for (std::size_t i = 1; i + 1 < common.size(); ++i)
+        {
+          const double area =
+            0.5 *
+            std::abs(dot<3>(cross(difference<3>(common[i], common[0]),
+                                  difference<3>(common[i + 1], common[0])),
+                            normal));
+          result.area += area;
+          for (const Vector<3> &corner : {common[0], common[i], common[i + 1]})
+            result.center = add<3>(result.center, area / 3., corner);
+        }
+      if (result.area > 0.)
+        result.center = add<3>(Vector<3>{}, 1. / result.area, result.center);
+      return result;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<FaceOverlap<dim>>
+  ContactSearch<dim>::list_overlaps(const std::vector<double> &position,
+                                    const std::vector<bool> &joints) const
+  {
+    const auto joint_of = [&](const unsigned int f) {
+      return interface.surface[f].joint;
+    };
+    const auto size_of = [&](const unsigned int f) {
+      const auto x = corners_of(position, f);
+      return norm<dim>(difference<dim>(x[x.size() - 1], x[0]));
+    };
+    std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
+    for (unsigned int f = 0; f < face_slots.size(); ++f)
+      if (joint_of(f) != none && joints[joint_of(f)])
+        boxes.emplace_back(box_of(position, f, farthest_gap * size_of(f)), f);
+    const auto tree = dealii::pack_rtree(boxes);
+
+    std::vector<FaceOverlap<dim>> overlaps;
+    const auto add_overlap = [&](const unsigned int f, const unsigned int g) {
+      const Vector<dim> normal = face_normal(position, g);
+      const auto a = corners_of(position, f), b = corners_of(position, g);
+      if (dot<dim>(face_normal(position, f), normal) > least_opposition)
+        return;
+      const Common<dim> common = intersect(a, b, normal);
+      if (common.area <= least_overlap * std::pow(size_of(f), dim - 1))
+        return;
+      const Projection on_master = project(position, common.center, g);
+      if (std::abs(on_master.gap) > farthest_gap * on_master.size)
+        return;
+      overlaps.push_back({f,
+                          g,
+                          common.area,
+                          project(position, common.center, f).weight,
+                          on_master.weight});
+    };
+    namespace bgi = boost::geometry::index;
+    for (const auto &[box, f] : boxes)
+      {
+        std::vector<unsigned int> masters;
+        for (const auto &hit :
+             tree | bgi::adaptors::queried(bgi::intersects(box)))
+          {
+            const unsigned int g = hit.second;
+            const unsigned int a = interface.surface[f].block,
+                               b = interface.surface[g].block;
+            if (joint_of(g) == joint_of(f) &&
+                !(is_rigid_block[a] && is_rigid_block[b]) &&
+                (a == b ? f < g : is_slave_block(a, b)))
+              masters.push_back(g);
+          }
+        std::sort(masters.begin(), masters.end());
+        for (const unsigned int g : masters)
+          add_overlap(f, g);
+      }
+    return overlaps;
+  }
+
+  template <int dim>
+  std::vector<typename ContactSearch<dim>::Projection>
+  ContactSearch<dim>::feet_on_pairs(const std::vector<double> &position,
+                                    const unsigned int slot) const
+  {
+    std::vector<Projection> feet;
+    const auto candidate =
+      std::lower_bound(candidates.begin(),
+                       candidates.end(),
+                       slot,
+                       [](const Candidate &a, const unsigned int b) {
+                         return a.slave < b;
+                       });
+    if (candidate == candidates.end() || candidate->slave != slot)
+      return feet;
+    for (const CandidateFace &face : candidate->paired_faces)
+      feet.push_back(project(position, at<dim>(position, slot), face.face));
+    return feet;
+  }
+
+
+
+  template <int dim>
+  double
+  ContactSearch<dim>::overlap_with(const std::vector<double> &position,
+                                   const unsigned int slot,
+                                   const std::vector<unsigned int> &faces) const
+  {
+    const Vector<dim> place              = at<dim>(position, slot);
+    const std::vector<Projection> paired = feet_on_pairs(position, slot);
+    double depth = 0., distance = std::numeric_limits<double>::max();
+    bool is_in_front = false; // of the nearest joint
+    bool is_on_joint = false;
+    for (const unsigned int f : faces)
+      {
+        const Projection now = project(position, place, f);
+        const bool is_joint  = interface.surface[f].joint != none;
+        if (is_joint && norm<dim>(now.offset) < distance)
+          {
+            distance    = norm<dim>(now.offset);
+            is_in_front = now.is_inside && now.gap > 0.;
+          }
+        if (!now.is_inside || now.gap >= 0. ||
+            now.gap < -make_candidate(position, slot, f).largest_overlap ||
+            !opposes(position, slot, now.normal) ||
+            std::any_of(paired.begin(),
+                        paired.end(),
+                        [&](const Projection &other) {
+                          return is_coplanar(other, now);
+                        }))
+          continue;
+        const double before =
+          project(start_position, at<dim>(start_position, slot), f).gap;
+        const double deeper = -now.gap + std::min(0., before);
+        depth               = depth == 0. ? deeper : std::min(depth, deeper);
+        is_on_joint         = is_on_joint || is_joint;
+      }
+    // below a free face, along a joint at its edge, it is still outside
+    if (is_on_joint)
+      return depth;
+    return is_in_front ? 0. : std::min(depth, distance);
+  }
+
+
+
+  template <int dim>
+  Overlap<dim>
+  ContactSearch<dim>::find_largest_overlap(
+    const std::vector<double> &position,
+    const std::vector<bool> &is_removed_block) const
+  {
+    std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
+    for (unsigned int f = 0; f < face_slots.size(); ++f)
+      if (!is_removed_block[interface.surface[f].block])
+        boxes.emplace_back(box_of(position, f, skin_width), f);
+    const auto tree = dealii::pack_rtree(boxes);
+    Overlap<dim> largest;
+    namespace bgi = boost::geometry::index;
+    for (unsigned int slot = 0; slot < n_slots(); ++slot)
+      {
+        const unsigned int block = block_of_slot[slot];
+        if (is_removed_block[block])
+          continue;
+        const Vector<dim> place = at<dim>(position, slot);
+        dealii::Point<dim> p;
+        for (unsigned int d = 0; d < dim; ++d)
+          p[d] = place[d];
+        std::map<unsigned int, std::vector<unsigned int>> faces_near;
+        for (const auto &hit :
+             tree | bgi::adaptors::queried(bgi::intersects(p)))
+          {
+            const unsigned int f     = hit.second;
+            const unsigned int other = interface.surface[f].block;
+            const auto &slots        = face_slots[f];
+            if (std::find(slots.begin(), slots.end(), slot) != slots.end() ||
+                (block == other && interface.surface[f].joint == none) ||
+                (is_rigid_block[block] && is_rigid_block[other]))
+              continue;
+            faces_near[other].push_back(f);
+          }
+        for (const auto &[other, faces] : faces_near)
+          {
+            const double depth = overlap_with(position, slot, faces);
+            // of several that are equal but for rounding the first, on any
+            // ranks
+            if (depth > rounding * block_face_size[block] &&
+                depth > (1. + equal) * largest.depth)
+              largest = {depth, place};
+          }
+      }
+    return largest;
+  }
+
+  template Overlap<2>
+  ContactSearch<2>::find_largest_overlap(const std::vector<double> &,
+                                         const std::vector<bool> &) const;
+  template Overlap<3>
+  ContactSearch<3>::find_largest_overlap(const std::vector<double> &,
+                                         const std::vector<bool> &) const;
+  template std::vector<FaceOverlap<2>>
+  ContactSearch<2>::list_overlaps(const std::vector<double> &,
+                                  const std::vector<bool> &) const;
+  template std::vector<FaceOverlap<3>>
+  ContactSearch<3>::list_overlaps(const std::vector<double> &,
+                                  const std::vector<bool> &) const;
+} // namespace Keyblock

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Ridges that cross in 3D: edge to edge contact.
+#include <keyblock/contact/geometry.h>
+#include <keyblock/contact/search.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Points of two segments nearest to each other on their lines. */
+    struct Crossing
+    {
+      double s, t;      ///< parameters on the first and second [-]
+      double sine;      ///< of the angle between them
+      Vector<3> normal; ///< unit, perpendicular to both, either way
+      Vector<3> offset; ///< from the first point to the second
+    };
+
+    Crossing
+    cross_segments(const Vector<3> &a0,
+                   const Vector<3> &a1,
+                   const Vector<3> &b0,
+                   const Vector<3> &b1)
+    {
+      const Vector<3> a = difference<3>(a1, a0), b = difference<3>(b1, b0);
+      const Vector<3> w = difference<3>(b0, a0);
+      const double aa = dot<3>(a, a), ab = dot<3>(a, b), bb = dot<3>(b, b);
+      const double wa = dot<3>(w, a), wb = dot<3>(w, b);
+      const double det = aa * bb - ab * ab;
+      Crossing result{};
+      result.sine = std::sqrt(std::max(0., det / (aa * bb)));
+      if (det <= 0.)
+        return result;
+      result.s      = (wa * bb - wb * ab) / det;
+      result.t      = (wa * ab - wb * aa) / det;
+      result.normal = unit<3>(cross(a, b));
+      result.offset = add<3>(add<3>(w, result.t, b), -result.s, a);
+      return result;
+    }
+
+    /** Ridges nearer to parallel than this (sine) meet by their nodes. */
+    constexpr double least_sine = 0.02;
+
+    bool
+    is_inside(const double s)
+    {
+      return s > 1e-6 && s < 1. - 1e-6;
+    }
+  } // namespace
+
+
+
+  template <>
+  void
+  ContactSearch<3>::find_ridges()
+  {
+    std::vector<double> position(3 * n_slots());
+    for (unsigned int slot = 0; slot < n_slots(); ++slot)
+      for (unsigned int d = 0; d < 3; ++d)
+        position[3 * slot + d] = place_of_slot[slot][d];
+    std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> faces_at;
+    for (unsigned int f = 0; f < face_slots.size(); ++f)
+      for (const auto &[i, j] :
+           {std::array<unsigned int, 2>{{0, 1}}, {{2, 3}}, {{0, 2}}, {{1, 3}}})
+        faces_at[{{std::min(face_slots[f][i], face_slots[f][j]),
+                   std::max(face_slots[f][i], face_slots[f][j])}}]
+          .push_back(f);
+    const auto center = [&](const unsigned int f) {
+      Vector<3> sum{};
+      for (const unsigned int slot : face_slots[f])
+        sum = add<3>(sum, 0.25, at<3>(position, slot));
+      return sum;
+    };
+    for (const auto &[slots, faces] : faces_at)
+      if (faces.size() == 2)
+        {
+          const Vector<3> n = face_normal(position, faces[0]);
+          if (dot<3>(n, face_normal(position, faces[1])) < cosine_of_sharp &&
+              dot<3>(n, difference<3>(center(faces[1]), center(faces[0]))) < 0.)
+            ridges.push_back({slots, {{faces[0], faces[1]}}});
+        }
+  }
+
+
+
+  template <>
+  bool
+  ContactSearch<3>::is_in_normal_cone(const std::vector<double> &position,
+                                      const Ridge &ridge,
+                                      const Vector<3> &direction) const
+  {
+    const Vector<3> n = face_normal(position, ridge.faces[0]);
+    const Vector<3> m = face_normal(position, ridge.faces[1]);
+    const double nm = dot<3>(n, m), nd = dot<3>(n, direction),
+                 md = dot<3>(m, direction);
+    // direction = alpha n + beta m; the determinant is positive at a ridge
+    return nd - nm * md > -1e-6 && md - nm * nd > -1e-6 && nd + md > 0.;
+  }
+
+
+
+  template <>
+  void
+  ContactSearch<3>::search_ridges(
+    const std::vector<double> &position,
+    const std::function<bool(unsigned int, unsigned int)> &is_paired)
+  {
+    using Box         = dealii::BoundingBox<3>;
+    const auto box_of = [&](const Ridge &ridge, const double margin) {
+      std::pair<dealii::Point<3>, dealii::Point<3>> corners;
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          const double x    = position[3 * ridge.slots[0] + d];
+          const double y    = position[3 * ridge.slots[1] + d];
+          corners.first[d]  = std::min(x, y) - margin;
+          corners.second[d] = std::max(x, y) + margin;
+        }
+      return Box(corners);
+    };
+    std::vector<std::pair<Box, unsigned int>> boxes;
+    for (unsigned int r = 0; r < ridges.size(); ++r)
+      boxes.emplace_back(box_of(ridges[r], skin_width), r);
+    const auto tree = dealii::pack_rtree(boxes);
+
+    ridge_pairs.clear();
+    const auto block_of = [&](const unsigned int r) {
+      return block_of_slot[ridges[r].slots[0]];
+    };
+    const auto touches_pair = [&](const Ridge &a, const Ridge &b) {
+      for (const unsigned int slot : a.slots)
+        for (const unsigned int f : b.faces)
+          if (is_paired(slot, f))
+            return true;
+      return false;
+    };
+    namespace bgi = boost::geometry::index;
+    for (unsigned int r = 0; r < ridges.size(); ++r)
+      for (const auto &hit : tree | bgi::adaptors::queried(
+                                      bgi::intersects(box_of(ridges[r], 0.))))
+        {
+          const unsigned int other = hit.second;
+          const unsigned int a = block_of(other), b = block_of(r);
+          // each pair once, the slave's ridge first
+          if (a == b || (is_rigid_block[a] && is_rigid_block[b]) ||
+              !is_slave_block(b, a))
+            continue;
+          const Crossing crossing =
+            cross_segments(at<3>(position, ridges[other].slots[0]),
+                           at<3>(position, ridges[other].slots[1]),
+                           at<3>(position, ridges[r].slots[0]),
+                           at<3>(position, ridges[r].slots[1]));
+          const auto is_near = [](const double s) { return s > -1. && s < 2.; };
+          if (crossing.sine < least_sine || !is_near(crossing.s) ||
+              !is_near(crossing.t) || touches_pair(ridges[r], ridges[other]) ||
+              touches_pair(ridges[other], ridges[r]))
+            continue;
+          ridge_pairs.push_back(
+            {other, r, largest_overlap_of(ridges[other], ridges[r])});
+        }
+    std::sort(ridge_pairs.begin(),
+              ridge_pairs.end(),
+              [](const RidgePair &x, const RidgePair &y) {
+                return std::array<unsigned int, 2>{{x.slave, x.master}} <
+                       std::array<unsigned int, 2>{{y.slave, y.master}};
+              });
+  }
+
+
+
+  template <>
+  double
+  ContactSearch<3>::largest_overlap_of(const Ridge &master,
+                                       const Ridge &slave) const
+  {
+    const auto start = [&](const unsigned int slot) {
+      return at<3>(start_position, slot);
+    };
+    const Vector<3> a0 = start(master.slots[0]), a1 = start(master.slots[1]);
+    const double size = norm<3>(difference<3>(a1, a0));
+    const Crossing crossing =
+      cross_segments(a0, a1, start(slave.slots[0]), start(slave.slots[1]));
+    const double outward =
+      dot<3>(crossing.normal,
+             add<3>(face_normal(start_position, master.faces[0]),
+                    1.,
+                    face_normal(start_position, master.faces[1])));
+    const double behind =
+      -std::copysign(1., outward) * dot<3>(crossing.normal, crossing.offset);
+    return behind > least_behind * size
+             ? std::min(way_out * behind, overlap_from_behind * size)
+             : deepest_overlap * size;
+  }
+
+
+
+  template <>
+  void
+  ContactSearch<3>::add_ridge_contacts(
+    const std::vector<double> &position,
+    const double reach,
+    std::vector<SurfaceContact<3>> &contacts) const
+  {
+    for (const RidgePair &pair : ridge_pairs)
+      {
+        const Ridge &master = ridges[pair.master], &slave = ridges[pair.slave];
+        const Vector<3> a0 = at<3>(position, master.slots[0]),
+                        a1 = at<3>(position, master.slots[1]);
+        const Crossing crossing =
+          cross_segments(a0,
+                         a1,
+                         at<3>(position, slave.slots[0]),
+                         at<3>(position, slave.slots[1]));
+        if (crossing.sine < least_sine || !is_inside(crossing.s) ||
+            !is_inside(crossing.t))
+          continue;
+        Vector<3> normal = crossing.normal;
+        if (dot<3>(normal,
+                   add<3>(face_normal(position, master.faces[0]),
+                          1.,
+                          face_normal(position, master.faces[1]))) < 0.)
+          normal = difference<3>(Vector<3>{}, normal);
+        const double gap = dot<3>(normal, crossing.offset);
+        if (gap > reach || gap < -pair.largest_overlap ||
+            !is_in_normal_cone(position, master, normal) ||
+            !is_in_normal_cone(position,
+                               slave,
+                               difference<3>(Vector<3>{}, normal)))
+          continue;
+        SurfaceContact<3> contact;
+        contact.slave        = slave.slots[0];
+        contact.face         = master.faces[0];
+        contact.is_ridge     = true;
+        contact.joint        = interface.surface[master.faces[0]].joint;
+        contact.master_block = interface.surface[master.faces[0]].block;
+        if (contact.joint == none)
+          contact.joint = interface.surface[master.faces[1]].joint;
+        contact.point.n_nodes = 4;
+        contact.point.node    = {
+             {slave.slots[0], slave.slots[1], master.slots[0], master.slots[1]}};
+        contact.point.weight = {
+          {1. - crossing.t, crossing.t, crossing.s - 1., -crossing.s}};
+        contact.point.normal = normal;
+        contact.point.gap    = gap;
+        contacts.push_back(contact);
+      }
+  }
+} // namespace Keyblock

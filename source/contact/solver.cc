@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/contact/solver.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Keyblock
+{
+  template <int dim>
+  double
+  point_inverse_mass(const ContactPoint<dim> &point,
+                     const ContactNodes<dim> &nodes)
+  {
+    double w = 0.;
+    for (int k = 0; k < point.n_nodes; ++k)
+      w +=
+        point.weight[k] * point.weight[k] * nodes.inverse_mass[point.node[k]];
+    return w;
+  }
+
+
+
+  template <int dim>
+  Vector<dim>
+  relative_velocity(const ContactPoint<dim> &point, const double *velocity)
+  {
+    Vector<dim> c{};
+    for (int k = 0; k < point.n_nodes; ++k)
+      for (int d = 0; d < dim; ++d)
+        c[d] += point.weight[k] * velocity[dim * point.node[k] + d];
+    return c;
+  }
+
+
+
+  template <int dim>
+  void
+  apply_impulse(const ContactPoint<dim> &point,
+                const Vector<dim> &impulse,
+                const ContactNodes<dim> &nodes)
+  {
+    for (int k = 0; k < point.n_nodes; ++k)
+      {
+        const double factor =
+          point.weight[k] * nodes.inverse_mass[point.node[k]];
+        double *v       = nodes.velocity + dim * point.node[k];
+        const double *p = nodes.projection_of(point.node[k]);
+        if (p == nullptr)
+          for (int d = 0; d < dim; ++d)
+            v[d] += factor * impulse[d];
+        else
+          for (int d = 0; d < dim; ++d)
+            for (int e = 0; e < dim; ++e)
+              v[d] += factor * p[dim * d + e] * impulse[e];
+      }
+  }
+
+
+
+  namespace
+  {
+    template <int dim>
+    using Matrix = std::array<std::array<double, dim>, dim>;
+
+    /** Whether some node of the point is held in some directions only. */
+    template <int dim>
+    bool
+    is_partly_held(const ContactPoint<dim> &point,
+                   const ContactNodes<dim> &nodes)
+    {
+      for (int k = 0; k < point.n_nodes; ++k)
+        if (nodes.projection_of(point.node[k]) != nullptr)
+          return true;
+      return false;
+    }
+
+    /** Inverse mass matrix W = sum a_k^2 P_k / m_k of a point. */
+    template <int dim>
+    Matrix<dim>
+    inverse_mass_matrix(const ContactPoint<dim> &point,
+                        const ContactNodes<dim> &nodes)
+    {
+      Matrix<dim> w{};
+      for (int k = 0; k < point.n_nodes; ++k)
+        {
+          const double factor = point.weight[k] * point.weight[k] *
+                                nodes.inverse_mass[point.node[k]];
+          const double *p = nodes.projection_of(point.node[k]);
+          for (int d = 0; d < dim; ++d)
+            for (int e = 0; e < dim; ++e)
+              w[d][e] += factor * (p ? p[dim * d + e] : (d == e ? 1. : 0.));
+        }
+      return w;
+    }
+
+    template <int dim>
+    Vector<dim>
+    multiply(const Matrix<dim> &w, const Vector<dim> &x)
+    {
+      Vector<dim> y{};
+      for (int d = 0; d < dim; ++d)
+        y[d] = dot<dim>(w[d], x);
+      return y;
+    }
+
+    /**
+     * Response of a point with different inverse masses by direction: the fixed
+     * point of r = admissible(r - rho (W r + u)), rho = 1 / trace W, which
+     * contracts for symmetric W. Held directions keep their impulse.
+     */
+    template <int dim>
+    PointResponse<dim>
+    respond_with_matrix(const ContactPoint<dim> &point,
+                        const Matrix<dim> &w,
+                        const Vector<dim> &free_velocity)
+    {
+      double trace = 0.;
+      for (int d = 0; d < dim; ++d)
+        trace += w[d][d];
+      PointResponse<dim> response{point.impulse, point.status};
+      for (int iteration = 0; iteration < 5000; ++iteration)
+        {
+          const Vector<dim> velocity =
+            add<dim>(free_velocity, 1., multiply<dim>(w, response.impulse));
+          const PointResponse<dim> next = admissible_impulse<dim>(
+            add<dim>(response.impulse, -1. / trace, velocity),
+            point.normal,
+            point.strength);
+          const double change =
+            norm<dim>(add<dim>(next.impulse, -1., response.impulse));
+          response = next;
+          if (change <= 1e-13 * norm<dim>(next.impulse))
+            break;
+        }
+      return response;
+    }
+
+    /** One visit of a point: its new response to the present velocities, of
+     * which its present impulse is a part. */
+    template <int dim>
+    PointResponse<dim>
+    respond(const ContactPoint<dim> &point,
+            const ContactNodes<dim> &nodes,
+            const double step)
+    {
+      // the velocity the point must not have: its own plus what closes the gap
+      Vector<dim> u     = relative_velocity<dim>(point, nodes.velocity);
+      const double bias = std::max(point.gap, 0.) / step;
+      u                 = add<dim>(u, bias, point.normal);
+      if (is_partly_held<dim>(point, nodes))
+        {
+          const Matrix<dim> w = inverse_mass_matrix<dim>(point, nodes);
+          const Vector<dim> free_velocity =
+            add<dim>(u, -1., multiply<dim>(w, point.impulse));
+          return respond_with_matrix<dim>(point, w, free_velocity);
+        }
+      const double w = point_inverse_mass<dim>(point, nodes);
+      return admissible_impulse<dim>(add<dim>(point.impulse, -1. / w, u),
+                                     point.normal,
+                                     point.strength);
+    }
+
+    // creep: momentum changes by at most this, over the largest impulse, and by
+    // at most this share of what the impulses change, as they cancel; or as
+    // much as some sweeps before
+    constexpr double creep_tolerance      = 1e-6;
+    constexpr double creep_share          = 1e-3;
+    constexpr double creep_shrinkage      = 0.99;
+    constexpr unsigned int creep_interval = 32;
+
+    // larger changes that do not shrink go round in circles, as points stick
+    // and slide in turns: steps of this share end it
+    constexpr double relaxation_of_cycles = 0.5;
+
+    // a point is visited again when a node of it has changed by this share of
+    // what ends the sweeps
+    constexpr double stale_share = 0.1;
+
+    /** The nodes of a group, each once, and in which sweep they changed. */
+    template <int dim>
+    class GroupNodes
+    {
+    public:
+      GroupNodes(const std::vector<ContactPoint<dim>> &points,
+                 const ContactNodes<dim> &nodes)
+        : nodes(nodes)
+        , number(points.size())
+      {
+        for (const ContactPoint<dim> &point : points)
+          list.insert(list.end(),
+                      point.node.begin(),
+                      point.node.begin() + point.n_nodes);
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        for (unsigned int p = 0; p < points.size(); ++p)
+          for (int k = 0; k < points[p].n_nodes; ++k)
+            number[p][k] =
+              std::lower_bound(list.begin(), list.end(), points[p].node[k]) -
+              list.begin();
+        changed_in.assign(list.size(), 0);
+        touched_in.assign(list.size(), 0);
+        before.resize(list.size());
+      }
+
+      /** Whether a node of point @p p may have changed since it was visited. */
+      bool
+      is_due(const ContactPoint<dim> &point, const unsigned int p) const
+      {
+        for (int k = 0; k < point.n_nodes; ++k)
+          if (changed_in[number[p][k]] + 1 >= sweep ||
+              touched_in[number[p][k]] == sweep)
+            return true;
+        return false;
+      }
+
+      /** Point @p p is about to change its nodes. */
+      void
+      touch(const ContactPoint<dim> &point, const unsigned int p)
+      {
+        for (int k = 0; k < point.n_nodes; ++k)
+          {
+            const unsigned int i = number[p][k];
+            if (touched_in[i] == sweep)
+              continue;
+            touched_in[i] = sweep;
+            touched.push_back(i);
+            std::copy_n(nodes.velocity + dim * list[i], dim, before[i].begin());
+          }
+      }
+
+      /** Largest change of momentum in the sweep [N s]; nodes that changed by
+       * more than @p stale are to be looked at in the next. */
+      double
+      end_sweep(const double stale)
+      {
+        double largest = 0.;
+        for (const unsigned int i : touched)
+          {
+            const double factor = nodes.inverse_mass[list[i]];
+            double change       = 0.;
+            for (int d = 0; d < dim && factor > 0.; ++d)
+              change = std::max(change,
+                                std::abs(nodes.velocity[dim * list[i] + d] -
+                                         before[i][d]) /
+                                  factor);
+            if (change > stale)
+              changed_in[i] = sweep;
+            largest = std::max(largest, change);
+          }
+        touched.clear();
+        ++sweep;
+        return largest;
+      }
+
+    private:
+      const ContactNodes<dim> &nodes;
+      std::vector<unsigned int> list; ///< the nodes
+
+      /** Indices in list, of each point's nodes. */
+      std::vector<std::array<unsigned int, ContactPoint<dim>::max_nodes>>
+        number;
+      unsigned int sweep = 1;
+      std::vector<unsigned int> changed_in, touched_in; ///< sweep
+      std::vector<Vector<dim>> before; ///< velocity at its start [m/s]
+      std::vector<unsigned int> touched;
+    };
+
+    /**
+     * Sweep over the points until no node's momentum changes any more. That of
+     * the nodes, not the impulses: where two points do the same, as two nodes
+     * that lie on each other's faces, impulse creeps from one to the other for
+     * long and nothing moves. If their normals differ a little the nodes creep
+     * along, and where points contradict each other by rounding they drift:
+     * small changes that are the difference of large ones, or do not shrink,
+     * end the sweeps as well.
+     */
+    template <int dim>
+    SolverReport
+    iterate(std::vector<ContactPoint<dim>> &points,
+            const ContactNodes<dim> &nodes,
+            const SolverSettings &settings)
+    {
+      double largest = 0., impulse_change = 0., relaxation = 1.;
+      const auto visit = [&](ContactPoint<dim> &point) {
+        PointResponse<dim> response = respond<dim>(point, nodes, settings.step);
+        Vector<dim> difference = add<dim>(response.impulse, -1., point.impulse);
+        if (relaxation != 1.)
+          {
+            for (double &component : difference)
+              component *= relaxation;
+            response.impulse = add<dim>(point.impulse, 1., difference);
+          }
+        apply_impulse<dim>(point, difference, nodes);
+        point.impulse  = response.impulse;
+        point.status   = response.status;
+        impulse_change = std::max(impulse_change, norm<dim>(difference));
+        largest        = std::max(largest, norm<dim>(response.impulse));
+      };
+      SolverReport report;
+      if (points.size() == 1)
+        {
+          visit(points[0]);
+          report.n_iterations = 1;
+          return report;
+        }
+      GroupNodes<dim> group(points, nodes);
+      double earlier_change = std::numeric_limits<double>::max();
+      while (report.n_iterations < settings.maximum_iterations)
+        {
+          ++report.n_iterations;
+          impulse_change = 0.;
+          for (unsigned int p = 0; p < points.size(); ++p)
+            if (group.is_due(points[p], p))
+              {
+                group.touch(points[p], p);
+                visit(points[p]);
+              }
+          const double change =
+            group.end_sweep(stale_share * settings.tolerance * largest);
+          const bool is_small = change <= creep_tolerance * largest;
+          if (change <= settings.tolerance * largest ||
+              (is_small && change <= creep_share * impulse_change))
+            return report;
+          if (report.n_iterations % creep_interval == 0)
+            {
+              const bool has_shrunk =
+                change <= creep_shrinkage * earlier_change;
+              if (is_small && !has_shrunk)
+                return report;
+              if (!has_shrunk)
+                relaxation = relaxation_of_cycles;
+              earlier_change = change;
+            }
+        }
+      report.is_capped = true;
+      return report;
+    }
+
+    /** The intact point whose strength falls shortest of what would stop it,
+     * or -1 if all of them stick. */
+    template <int dim>
+    int
+    worst_intact_point(const std::vector<ContactPoint<dim>> &points,
+                       const ContactNodes<dim> &nodes)
+    {
+      int worst      = -1;
+      double largest = 0.;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        if (points[p].is_intact && points[p].status != ContactStatus::sticking)
+          {
+            const Vector<dim> u =
+              relative_velocity<dim>(points[p], nodes.velocity);
+            const double w          = point_inverse_mass<dim>(points[p], nodes);
+            const Vector<dim> stick = add<dim>(points[p].impulse, -1. / w, u);
+            const double excess =
+              violation<dim>(stick, points[p].normal, points[p].strength);
+            if (worst < 0 || excess > largest)
+              {
+                worst   = p;
+                largest = excess;
+              }
+          }
+      return worst;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  SolverReport
+  solve_group(std::vector<ContactPoint<dim>> &points,
+              const std::vector<PointStrength> &broken,
+              const ContactNodes<dim> &nodes,
+              const SolverSettings &settings)
+  {
+    for (ContactPoint<dim> &point : points)
+      apply_impulse<dim>(point, point.impulse, nodes);
+    SolverReport report = iterate<dim>(points, nodes, settings);
+    for (int worst = worst_intact_point<dim>(points, nodes); worst >= 0;
+         worst     = worst_intact_point<dim>(points, nodes))
+      {
+            points[worst].is_intact  = false;
+            points[worst].strength   = broken[worst];
+            const SolverReport again = iterate<dim>(points, nodes, settings);
+            report.n_iterations += again.n_iterations;
+            report.is_capped = report.is_capped || again.is_capped;
+      }
+    return report;
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template double point_inverse_mass(const ContactPoint<dim> &,                \
+                                     const ContactNodes<dim> &);               \
+  template Vector<dim> relative_velocity<dim>(const ContactPoint<dim> &,       \
+                                              const double *);                 \
+  template void apply_impulse<dim>(const ContactPoint<dim> &,                  \
+                                   const Vector<dim> &,                        \
+                                   const ContactNodes<dim> &);                 \
+  template SolverReport solve_group(std::vector<ContactPoint<dim>> &,          \
+                                    const std::vector<PointStrength> &,        \
+                                    const ContactNodes<dim> &,                 \
+                                    const SolverSettings &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Keyblock

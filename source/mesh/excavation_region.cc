@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/mesh/excavation_region.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Keyblock
+{
+  namespace
+  {
+    double
+    depth_inside_polygon(const std::vector<Point<2>> &corners,
+                         const Point<2> &p)
+    {
+      bool is_inside  = false;
+      double distance = std::numeric_limits<double>::max();
+      for (unsigned int i = 0; i < corners.size(); ++i)
+        {
+          const Point<2> &a       = corners[i];
+          const Point<2> &b       = corners[(i + 1) % corners.size()];
+          const Tensor<1, 2> edge = b - a;
+          const double s = std::clamp((p - a) * edge / (edge * edge), 0., 1.);
+          distance       = std::min(distance, p.distance(a + s * edge));
+          if ((a[1] > p[1]) != (b[1] > p[1]) &&
+              p[0] < a[0] + (p[1] - a[1]) / edge[1] * edge[0])
+            is_inside = !is_inside;
+        }
+      return is_inside ? distance : -distance;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  double
+  depth_inside(const Excavation<dim> &excavation, const Point<dim> &p)
+  {
+    if (excavation.shape == "circle")
+      return excavation.radius -
+             excavation.center.distance(Point<2>(p[0], p[1]));
+    if (excavation.shape == "polygon")
+      return depth_inside_polygon(excavation.vertices, Point<2>(p[0], p[1]));
+    if (excavation.shape == "extruded polygon")
+      return std::min(
+        {depth_inside_polygon(excavation.vertices, Point<2>(p[0], p[dim - 1])),
+         p[1] - excavation.from,
+         excavation.to - p[1]});
+    double depth = std::numeric_limits<double>::max();
+    for (unsigned int d = 0; d < dim; ++d)
+      depth = std::min({depth,
+                        p[d] - excavation.corner[d],
+                        excavation.corner[d] + excavation.size[d] - p[d]});
+    return depth;
+  }
+
+  template <int dim>
+  double
+  narrowest_side(const Excavation<dim> &excavation)
+  {
+    if (excavation.shape == "formula")
+      return 1e300;
+    if (excavation.shape == "circle")
+      return 2. * excavation.radius;
+    if (excavation.shape == "box")
+      return *std::min_element(excavation.size.begin(), excavation.size.end());
+    Point<2> low = excavation.vertices[0], high = low;
+    for (const Point<2> &p : excavation.vertices)
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          low[d]  = std::min(low[d], p[d]);
+          high[d] = std::max(high[d], p[d]);
+        }
+    const double side = std::min(high[0] - low[0], high[1] - low[1]);
+    return excavation.shape == "extruded polygon"
+             ? std::min(side, excavation.to - excavation.from)
+             : side;
+  }
+
+  template double depth_inside(const Excavation<2> &, const Point<2> &);
+  template double depth_inside(const Excavation<3> &, const Point<3> &);
+  template double narrowest_side(const Excavation<2> &);
+  template double narrowest_side(const Excavation<3> &);
+} // namespace Keyblock

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/mesh/gmsh_model.h>
+#include <keyblock/scene/joint_extent.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+namespace Keyblock
+{
+  namespace
+  {
+    namespace occ = gmsh::model::occ;
+    using gmsh::vectorpair;
+
+    template <int dim>
+    Point<3>
+    in_space(const Point<dim> &p)
+    {
+      Point<3> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = p[d];
+      return result;
+    }
+
+    int
+    add_point(const Point<3> &p)
+    {
+      return occ::addPoint(p[0], p[1], p[2]);
+    }
+
+    int
+    add_polygon(const std::vector<Point<3>> &corners)
+    {
+      std::vector<int> points, lines;
+      for (const Point<3> &corner : corners)
+        points.push_back(add_point(corner));
+      for (unsigned int i = 0; i < points.size(); ++i)
+        lines.push_back(
+          occ::addLine(points[i], points[(i + 1) % points.size()]));
+      return occ::addPlaneSurface({occ::addCurveLoop(lines)});
+    }
+
+    int
+    add_prism(const std::vector<Point<3>> &base, const Tensor<1, 3> &height)
+    {
+      vectorpair created;
+      occ::extrude(
+        {{2, add_polygon(base)}}, height[0], height[1], height[2], created);
+      for (const auto &[dimension, tag] : created)
+        if (dimension == 3)
+          return tag;
+      throw std::runtime_error("an extruded polygon has no volume");
+    }
+
+    /** A disc bounded by true arcs, by two perpendicular radius vectors. */
+    int
+    add_disc(const Point<3> &center,
+             const Tensor<1, 3> &first,
+             const Tensor<1, 3> &second)
+    {
+      const int middle              = add_point(center);
+      const std::vector<int> points = {add_point(center + first),
+                                       add_point(center + second),
+                                       add_point(center - first),
+                                       add_point(center - second)};
+      std::vector<int> arcs;
+      for (unsigned int i = 0; i < points.size(); ++i)
+        arcs.push_back(
+          occ::addCircleArc(points[i], middle, points[(i + 1) % 4]));
+      const int disc = occ::addPlaneSurface({occ::addCurveLoop(arcs)});
+      occ::remove({{0, middle}});
+      return disc;
+    }
+
+    template <int dim>
+    int
+    add_parallelepiped(const Point<dim> &corner,
+                       const std::vector<Tensor<1, dim>> &edges)
+    {
+      const std::vector<Point<3>> base = {in_space<dim>(corner),
+                                          in_space<dim>(corner + edges[0]),
+                                          in_space<dim>(corner + edges[0] +
+                                                        edges[1]),
+                                          in_space<dim>(corner + edges[1])};
+      return dim == 2
+               ? add_polygon(base)
+               : add_prism(base, in_space<dim>(Point<dim>(edges.back())));
+    }
+
+    template <int dim>
+    int
+    add_box(const Point<dim> &corner, const std::vector<double> &size)
+    {
+      std::vector<Tensor<1, dim>> edges(dim);
+      for (unsigned int d = 0; d < dim; ++d)
+        edges[d][d] = size[d];
+      return add_parallelepiped<dim>(corner, edges);
+    }
+
+    template <int dim>
+    int
+    add_domain(const Domain<dim> &domain)
+    {
+      if (domain.shape == "box")
+        return add_box<dim>(domain.corner, domain.size);
+      if (domain.shape == "parallelepiped")
+        return add_parallelepiped<dim>(domain.corner,
+                                       {domain.edges.begin(),
+                                        domain.edges.end()});
+      std::vector<Point<3>> corners;
+      for (const Point<dim> &corner : domain.polygon)
+        corners.push_back(in_space<dim>(corner));
+      return add_polygon(corners);
+    }
+
+    template <int dim>
+    int
+    add_excavation(const Excavation<dim> &excavation)
+    {
+      if (excavation.shape == "box")
+        return add_box<dim>(excavation.corner, excavation.size);
+      if (excavation.shape == "circle")
+        return add_disc(in_space<2>(excavation.center),
+                        Point<3>(excavation.radius, 0., 0.),
+                        Point<3>(0., excavation.radius, 0.));
+      std::vector<Point<3>> corners;
+      for (const Point<2> &vertex : excavation.vertices)
+        corners.push_back(dim == 2
+                            ? in_space<2>(vertex)
+                            : Point<3>(vertex[0], excavation.from, vertex[1]));
+      return dim == 2
+               ? add_polygon(corners)
+               : add_prism(corners,
+                           Point<3>(0., excavation.to - excavation.from, 0.));
+    }
+
+    /** A joint; an infinite one reaches beyond the ball of radius @p reach
+     * about @p center. */
+    int
+    add_joint(const Joint<2> &joint, const Point<2> &center, const double reach)
+    {
+      const Tensor<1, 2> normal  = joint.normal();
+      const Tensor<1, 2> along   = Point<2>(normal[1], -normal[0]);
+      std::vector<Point<2>> ends = joint.vertices;
+      if (joint.extent == "disc")
+        ends = {joint.point - joint.radius * along,
+                joint.point + joint.radius * along};
+      if (joint.extent == "infinite")
+        {
+          const Point<2> middle = center - joint.distance(center) * normal;
+          ends = {middle - reach * along, middle + reach * along};
+        }
+      return occ::addLine(add_point(in_space<2>(ends[0])),
+                          add_point(in_space<2>(ends[1])));
+    }
+
+    int
+    add_joint(const Joint<3> &joint, const Point<3> &center, const double reach)
+    {
+      const Tensor<1, 3> normal = joint.normal();
+      const unsigned int axis =
+        std::abs(normal[0]) < 0.6 ? 0 : (std::abs(normal[1]) < 0.6 ? 1 : 2);
+      Tensor<1, 3> unit;
+      unit[axis]                = 1.;
+      Tensor<1, 3> first        = cross_product_3d(normal, unit);
+      first                     = first / first.norm();
+      const Tensor<1, 3> second = cross_product_3d(normal, first);
+      if (joint.extent == "disc")
+        return add_disc(joint.point,
+                        joint.radius * first,
+                        joint.radius * second);
+      std::vector<Point<3>> corners;
+      if (joint.extent == "infinite")
+        {
+          const Point<3> middle = center - joint.distance(center) * normal;
+          corners               = {middle - reach * first - reach * second,
+                                   middle + reach * first - reach * second,
+                                   middle + reach * first + reach * second,
+                                   middle - reach * first + reach * second};
+        }
+      else
+        for (const Point<3> &vertex : joint.vertices)
+          corners.push_back(vertex - joint.distance(vertex) * normal);
+      return add_polygon(corners);
+    }
+
+    /** Everything inside or on the boundary of @p entities. */
+    std::set<std::pair<int, int>>
+    closure(const vectorpair &entities)
+    {
+      std::set<std::pair<int, int>> found(entities.begin(), entities.end());
+      vectorpair waiting = entities;
+      while (!waiting.empty())
+        {
+          const std::pair<int, int> entity = waiting.back();
+          waiting.pop_back();
+          vectorpair parts, embedded;
+          if (entity.first > 0)
+            gmsh::model::getBoundary({entity}, parts, false, false, false);
+          if (entity.first > 1)
+            gmsh::model::mesh::getEmbedded(entity.first,
+                                           entity.second,
+                                           embedded);
+          parts.insert(parts.end(), embedded.begin(), embedded.end());
+          for (const auto &part : parts)
+            if (found.insert(part).second)
+              waiting.push_back(part);
+        }
+      return found;
+    }
+
+    /** Remove all that is not part of the domain, from the model and from
+     * @p model: joints and excavations may reach beyond. */
+    template <int dim>
+    void
+    clip(GmshModel<dim> &model)
+    {
+      const auto inside     = closure(model.domain);
+      const auto is_outside = [&inside](const std::pair<int, int> &entity) {
+        return inside.count(entity) == 0;
+      };
+      vectorpair entities;
+      gmsh::model::getEntities(entities);
+      std::reverse(entities.begin(), entities.end());
+      vectorpair outside;
+      std::copy_if(entities.begin(),
+                   entities.end(),
+                   std::back_inserter(outside),
+                   is_outside);
+      gmsh::model::removeEntities(outside);
+      for (vectorpair &list : model.joints)
+        list.erase(std::remove_if(list.begin(), list.end(), is_outside),
+                   list.end());
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  GmshModel<dim>
+  build_gmsh_model(const Scene<dim> &scene, const bool with_joints)
+  {
+    GmshModel<dim> model;
+    model.domain   = {{dim, add_domain<dim>(scene.domain)}};
+    Point<3> &low  = model.low;
+    Point<3> &high = model.high;
+    occ::getBoundingBox(dim,
+                        model.domain[0].second,
+                        low[0],
+                        low[1],
+                        low[2],
+                        high[0],
+                        high[1],
+                        high[2]);
+    Point<dim> center;
+    for (unsigned int d = 0; d < dim; ++d)
+      center[d] = (low[d] + high[d]) / 2.;
+
+    vectorpair tools;
+    for (const auto &excavation : scene.excavations)
+      tools.emplace_back(dim, add_excavation<dim>(*excavation));
+    std::vector<unsigned int> joint_of_tool;
+    const double reach = low.distance(high);
+    if (with_joints)
+      for (unsigned int j = 0; j < scene.joints.size(); ++j)
+        // (OpenCASCADE breaks down over some that are far away)
+        if (JointExtent<dim>(*scene.joints[j]).distance_to_joint(center) <
+            reach)
+          {
+            tools.emplace_back(dim - 1,
+                               add_joint(*scene.joints[j], center, reach));
+            joint_of_tool.push_back(j);
+          }
+
+    vectorpair all_pieces;
+    std::vector<vectorpair> pieces_of;
+    if (!tools.empty())
+      {
+        occ::fragment(model.domain, tools, all_pieces, pieces_of);
+        model.domain = pieces_of[0];
+      }
+    // the excavations' pieces are known by their places
+    if (with_joints)
+      model.joints.resize(scene.joints.size());
+    for (unsigned int i = 0; i < joint_of_tool.size(); ++i)
+      model.joints[joint_of_tool[i]] =
+        pieces_of[1 + scene.excavations.size() + i];
+    occ::synchronize();
+    clip(model);
+    return model;
+  }
+
+  template GmshModel<2> build_gmsh_model(const Scene<2> &, const bool);
+  template GmshModel<3> build_gmsh_model(const Scene<3> &, const bool);
+} // namespace Keyblock

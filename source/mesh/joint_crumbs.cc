@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/mesh/joint_cut_steps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Pieces of less than this part of a cell go to a neighbour. */
+    constexpr double crumb = 0.2;
+
+    /** Volume of a regular cell of unit edge [-]. */
+    template <int dim>
+    constexpr double unit_volume = (dim == 2) ? 0.433 : 0.1179;
+
+
+
+    /** Pieces of the mesh between marked facets. */
+    template <int dim>
+    struct Pieces
+    {
+      std::vector<unsigned int> of_cell;
+      std::vector<double> volume, wanted_volume;
+      std::vector<Point<dim>> center;
+
+      explicit Pieces(const SimplexMesh<dim> &mesh)
+        : of_cell(mesh.cells.size(), no_index)
+      {
+        for (unsigned int seed = 0; seed < mesh.cells.size(); ++seed)
+          if (mesh.cells[seed].is_alive && of_cell[seed] == no_index)
+            fill(mesh, seed);
+      }
+
+    private:
+      void
+      fill(const SimplexMesh<dim> &mesh, const unsigned int seed)
+      {
+        const unsigned int piece = volume.size();
+        double total = 0., size = 0.;
+        unsigned int n_cells = 0;
+        Tensor<1, dim> moment;
+        std::vector<unsigned int> open = {seed};
+        of_cell[seed]                  = piece;
+        while (!open.empty())
+          {
+            const unsigned int c = open.back();
+            open.pop_back();
+            const auto &cell  = mesh.cells[c].vertices;
+            const double part = mesh.volume(cell);
+            total += part;
+            size += mesh.size_at(cell);
+            ++n_cells;
+            for (const unsigned int v : cell)
+              moment += part / (dim + 1) * mesh.vertices[v];
+            for (unsigned int i = 0; i <= dim; ++i)
+              if (mesh.marks.count(mesh.facet(c, i)) == 0)
+                {
+                  const unsigned int other = mesh.neighbor(c, i);
+                  if (other != no_index && of_cell[other] == no_index)
+                    {
+                      of_cell[other] = piece;
+                      open.push_back(other);
+                    }
+                }
+          }
+        volume.push_back(total);
+        wanted_volume.push_back(unit_volume<dim> *
+                                std::pow(size / n_cells, dim));
+        center.push_back(Point<dim>(moment / total));
+      }
+    };
+
+
+
+    /** One pass; whether there were any. */
+    template <int dim>
+    bool
+    dissolve_crumbs_once(SimplexMesh<dim> &mesh, MeshReport<dim> &report)
+    {
+      const Pieces<dim> pieces(mesh);
+      using Pair  = std::pair<unsigned int, unsigned int>;
+      using Facet = typename SimplexMesh<dim>::Facet;
+      std::map<Pair, double> common;
+      std::vector<std::pair<Facet, Pair>> facets;
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        if (mesh.cells[c].is_alive)
+          for (unsigned int i = 0; i <= dim; ++i)
+            {
+              const Facet facet = mesh.facet(c, i);
+              const auto found  = mesh.marks.find(facet);
+              if (found == mesh.marks.end() ||
+                  std::any_of(found->second.begin(),
+                              found->second.end(),
+                              [&mesh](const auto &mark) {
+                                return !mesh.surfaces[mark.surface].is_joint();
+                              }))
+                continue;
+              const unsigned int other = mesh.neighbor(c, i);
+              const Pair pair =
+                std::minmax(pieces.of_cell[c], pieces.of_cell[other]);
+              if (other < c || pair.first == pair.second)
+                continue;
+              common[pair] += mesh.measure(facet);
+              facets.push_back({facet, pair});
+            }
+      std::set<Pair> dissolved;
+      for (unsigned int p = 0; p < pieces.volume.size(); ++p)
+        {
+          if (pieces.volume[p] > crumb * pieces.wanted_volume[p])
+            continue;
+          double largest = 0.;
+          Pair best;
+          for (const auto &[pair, area] : common)
+            {
+              const unsigned int other =
+                pair.first == p ? pair.second : pair.first;
+              if ((pair.first == p || pair.second == p) && area > largest &&
+                  pieces.volume[other] > pieces.volume[p])
+                {
+                  largest = area;
+                  best    = pair;
+                }
+            }
+          if (largest == 0.)
+            continue;
+          dissolved.insert(best);
+          ++report.n_lost_blocks;
+          report.lost_rock.push_back(
+            {pieces.center[p], std::pow(pieces.volume[p], 1. / dim)});
+          if (pieces.volume[p] > report.largest_lost_volume)
+            {
+              report.largest_lost_volume = pieces.volume[p];
+              report.largest_lost_place  = pieces.center[p];
+            }
+        }
+      for (const auto &[facet, pair] : facets)
+        if (dissolved.count(pair) > 0)
+          mesh.marks.erase(facet);
+      if (!dissolved.empty())
+        mesh.bind_vertices();
+      return !dissolved.empty();
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  dissolve_crumbs(SimplexMesh<dim> &mesh, MeshReport<dim> &report)
+  {
+    while (dissolve_crumbs_once(mesh, report))
+      ;
+  }
+
+  template void dissolve_crumbs(SimplexMesh<2> &, MeshReport<2> &);
+  template void dissolve_crumbs(SimplexMesh<3> &, MeshReport<3> &);
+} // namespace Keyblock

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/mesh/improvement.h>
+#include <keyblock/mesh/joint_cut.h>
+#include <keyblock/mesh/joint_cut_steps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    // Qualities as SimplexMesh::quality.
+
+    /** How far a collapse may lead a joint astray, over the target size. */
+    constexpr double allowed_bend = 0.1;
+
+    /** Cells below these are mended: before and at the end, and the new ones
+     * of one joint. */
+    constexpr double wanted_quality = 0.35, wanted_between = 0.25;
+
+    /** At the end joints are bent so far, over the target size, where cells are
+     * below this. */
+    constexpr double largest_bend = 0.25, least_quality = 0.12;
+
+    /** Joints are put back into their planes where cells stay as good. */
+    constexpr double least_quality_of_flattening = 0.2;
+
+
+
+    template <int dim>
+    void
+    measure_shifts(const SimplexMesh<dim> &mesh,
+                   const double coarsening,
+                   MeshReport<dim> &report)
+    {
+      std::vector<double> shifts, shifts_in_cells;
+      for (const auto &facet : mesh.marked_facets())
+        {
+          for (const auto &mark : mesh.marks.at(facet))
+            if (mesh.surfaces[mark.surface].is_joint())
+              {
+                for (const unsigned int v : facet)
+                  {
+                    shifts.push_back(std::abs(
+                      mesh.surfaces[mark.surface].distance(mesh.vertices[v])));
+                    shifts_in_cells.push_back(shifts.back() * coarsening /
+                                              mesh.target_size[v]);
+                  }
+              }
+        }
+      if (shifts.empty())
+        return;
+      std::sort(shifts.begin(), shifts.end());
+      std::sort(shifts_in_cells.begin(), shifts_in_cells.end());
+      const std::size_t at_99       = shifts.size() * 99 / 100;
+      report.largest_shift          = shifts.back();
+      report.largest_shift_in_cells = shifts_in_cells.back();
+      report.percentile_99          = shifts[at_99];
+      report.percentile_99_in_cells = shifts_in_cells[at_99];
+    }
+
+
+
+    /** Tells which joints reach into the model: of those without facets
+     * whether they are too small or outside, and of the others that lie wholly
+     * in its box how much of their area they have. */
+    template <int dim>
+    void
+    look_for_joints(const SimplexMesh<dim> &mesh,
+                    const std::vector<JointExtent<dim>> &extents,
+                    MeshReport<dim> &report)
+    {
+      std::vector<double> area(extents.size(), 0.), edge(extents.size(), 0.);
+      for (const auto &facet : mesh.marked_facets())
+        for (const auto &mark : mesh.marks.at(facet))
+          if (mesh.surfaces[mark.surface].is_joint())
+            {
+              const unsigned int j = mesh.surfaces[mark.surface].joint;
+              area[j] += mesh.measure(facet);
+              edge[j] += mesh.measure(facet) * mesh.size_at(facet);
+            }
+      Point<dim> low = mesh.vertices[0], high = low;
+      for (const Point<dim> &p : mesh.vertices)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            low[d]  = std::min(low[d], p[d]);
+            high[d] = std::max(high[d], p[d]);
+          }
+      const auto is_in_box = [&](const Point<dim> &p) {
+        bool is_inside = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          is_inside = is_inside && p[d] > low[d] && p[d] < high[d];
+        return is_inside;
+      };
+      double found = 0., wanted = 0., found_large = 0., wanted_large = 0.;
+      for (unsigned int j = 0; j < extents.size(); ++j)
+        {
+          std::vector<Point<dim>> places;
+          if (!extents[j].is_infinite())
+            places = extents[j].outermost_points();
+          const unsigned int n_inside =
+            std::count_if(places.begin(), places.end(), is_in_box);
+          if (area[j] == 0.)
+            (n_inside > 0 ? report.lost : report.outside).push_back(j);
+          if (!places.empty() && n_inside == places.size())
+            {
+              found += area[j];
+              wanted += extents[j].area();
+              if (extents[j].half_width() * area[j] >= 2. * edge[j])
+                {
+                  found_large += area[j];
+                  wanted_large += extents[j].area();
+                }
+            }
+        }
+      if (wanted > 0.)
+        report.area_ratio = found / wanted;
+      if (wanted_large > 0.)
+        report.area_ratio_of_large = found_large / wanted_large;
+    }
+
+
+
+    /** Find joints that end just before another one, see MeshReport::Gap. */
+    template <int dim>
+    void
+    find_gaps(const SimplexMesh<dim> &mesh, MeshReport<dim> &report)
+    {
+      constexpr double widest = 0.5; // over the target size
+      using Ridge             = std::array<unsigned int, dim - 1>;
+      std::map<std::pair<Ridge, unsigned int>, unsigned int> n_facets;
+      const auto marked = mesh.marked_facets();
+      for (const auto &facet : marked)
+        for (const auto &mark : mesh.marks.at(facet))
+          if (mesh.surfaces[mark.surface].is_joint())
+            for_each_ridge<dim>(facet, [&](const Ridge &ridge) {
+              ++n_facets[{ridge, mark.surface}];
+            });
+      for (const auto &[key, n] : n_facets)
+        for (const unsigned int v : key.first)
+          if (n == 1 && mesh.bound_to[v].size() == 1)
+            for (const unsigned int c : mesh.cells_at[v])
+              for (const unsigned int w : mesh.cells[c].vertices)
+                if (mesh.vertices[v].distance(mesh.vertices[w]) <
+                      widest * mesh.target_size[v] &&
+                    !mesh.is_bound(w, key.second))
+                  for (const unsigned int other : mesh.bound_to[w])
+                    if (mesh.surfaces[other].is_joint())
+                      report.gaps.insert({mesh.surfaces[key.second].joint,
+                                          mesh.surfaces[other].joint});
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  MeshReport<dim>
+  cut_joints(SimplexMesh<dim> &mesh,
+             const Scene<dim> &scene,
+             const double snap,
+             const double coarsening)
+  {
+    MeshReport<dim> report;
+    report.way = "cut";
+    MeshImprovement<dim> improvement(mesh, allowed_bend);
+    improvement.improve(wanted_quality, 3);
+    std::vector<JointExtent<dim>> extents;
+    extents.reserve(scene.joints.size());
+    for (unsigned int j = 0; j < scene.joints.size(); ++j)
+      {
+        extents.emplace_back(*scene.joints[j]);
+        const unsigned int first_cell = mesh.cells.size();
+        mesh.surfaces.push_back({extents[j].origin, extents[j].normal, 0., j});
+        insert_joint(mesh, mesh.surfaces.size() - 1, extents[j], snap);
+        improvement.improve(wanted_between, 1, first_cell);
+      }
+    trim_joints(mesh, extents);
+    dissolve_crumbs(mesh, report);
+    improvement.improve(wanted_quality, 8);
+    improvement.flatten(least_quality_of_flattening);
+    improvement.improve(wanted_quality, 2);
+    improvement.flatten(least_quality_of_flattening);
+
+    improvement.improve_by_bending(least_quality, 8, largest_bend);
+
+    measure_shifts(mesh, coarsening, report);
+    look_for_joints(mesh, extents, report);
+    find_gaps(mesh, report);
+    return report;
+  }
+
+  template MeshReport<2>
+  cut_joints(SimplexMesh<2> &, const Scene<2> &, const double, const double);
+  template MeshReport<3>
+  cut_joints(SimplexMesh<3> &, const Scene<3> &, const double, const double);
+} // namespace Keyblock

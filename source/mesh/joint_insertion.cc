@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/mesh/joint_cut_steps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** A cell is cut if the joint reaches so far into it, over the target size;
+     * where it touches another surface also if the joint ends `closing` before
+     * it. */
+    constexpr double least_reach = 0.1;
+
+    /** A vertex is not moved onto a joint if a cell falls below this. */
+    constexpr double least_quality_of_snap = 0.2;
+
+
+
+    /** Cuts one joint into the mesh. */
+    template <int dim>
+    class Insertion
+    {
+    public:
+      Insertion(SimplexMesh<dim> &mesh,
+                const unsigned int surface,
+                const JointExtent<dim> &extent,
+                const double snap)
+        : mesh(mesh)
+        , surface(surface)
+        , extent(extent)
+        , snap(snap)
+      {
+        distance.reserve(mesh.vertices.size());
+        for (const Point<dim> &p : mesh.vertices)
+          {
+            distance.push_back(extent.distance(p));
+            side.push_back(distance.back() > 0. ? 1 : -1);
+          }
+      }
+
+      void
+      run()
+      {
+        move_vertices();
+        split_edges();
+        mark_facets();
+      }
+
+    private:
+      using Cell  = typename SimplexMesh<dim>::Cell;
+      using Facet = typename SimplexMesh<dim>::Facet;
+
+      bool
+      has_two_sides(const Cell &cell) const
+      {
+        bool has_plus = false, has_minus = false;
+        for (const unsigned int v : cell.vertices)
+          {
+            has_plus |= side[v] > 0;
+            has_minus |= side[v] < 0;
+          }
+        return has_plus && has_minus;
+      }
+
+      /** Where on the edge from @p a to @p b the joint crosses, from 0 to 1. */
+      double
+      crossing(const unsigned int a, const unsigned int b) const
+      {
+        const double below = std::abs(distance[a]),
+                     above = std::abs(distance[b]);
+        return below + above > 0. ? below / (below + above) : 0.5;
+      }
+
+      /** Whether the joint's extent reaches into a cell with two sides. */
+      bool
+      reaches_into(const Cell &cell) const
+      {
+        if (extent.is_infinite())
+          return true;
+        bool touches_other = false;
+        for (const unsigned int v : cell.vertices)
+          touches_other |= !mesh.bound_to[v].empty();
+        const double margin = (touches_other ? -closing : least_reach) *
+                              mesh.size_at(cell.vertices);
+        Point<dim> sum;
+        unsigned int n  = 0;
+        const auto look = [&](const Point<dim> &p) {
+          sum += p;
+          ++n;
+          return extent.depth_inside(p) > margin;
+        };
+        for (unsigned int i = 0; i <= dim; ++i)
+          {
+            const unsigned int a = cell.vertices[i];
+            if (side[a] == 0 && look(mesh.vertices[a]))
+              return true;
+            for (unsigned int j = 0; j < i; ++j)
+              {
+                const unsigned int b = cell.vertices[j];
+                if (side[a] * side[b] < 0 &&
+                    look(mesh.vertices[a] +
+                         crossing(a, b) *
+                           (mesh.vertices[b] - mesh.vertices[a])))
+                  return true;
+              }
+          }
+        return extent.depth_inside(sum / n) > 0.;
+      }
+
+      /** Put vertices that are near onto the joint, the nearest first. */
+      void
+      move_vertices()
+      {
+        std::set<std::pair<double, unsigned int>> near;
+        for (const Cell &cell : mesh.cells)
+          {
+            if (!cell.is_alive)
+              continue;
+            const bool is_cut = has_two_sides(cell) && reaches_into(cell);
+            for (const unsigned int v : cell.vertices)
+              {
+                const double relative =
+                  std::abs(distance[v]) / mesh.target_size[v];
+                if (relative < snap &&
+                    (is_cut || extent.depth_inside(mesh.vertices[v]) > 0.))
+                  near.insert({relative, v});
+              }
+          }
+        for (const auto &[relative, v] : near)
+          if (!would_flatten_a_cell(v))
+            {
+              side[v] = 0;
+              move_onto_joint(v);
+            }
+      }
+
+      /** Whether all other vertices of some cell there lie on the joint: then
+       * it would no longer be the facets between cells of two sides. */
+      bool
+      would_flatten_a_cell(const unsigned int v) const
+      {
+        for (const unsigned int cell : mesh.cells_at[v])
+          {
+            unsigned int n_on_joint = 0;
+            for (const unsigned int w : mesh.cells[cell].vertices)
+              n_on_joint += w != v && side[w] == 0;
+            if (n_on_joint == dim)
+              return true;
+          }
+        return false;
+      }
+
+      void
+      move_onto_joint(const unsigned int v)
+      {
+        if (mesh.is_fixed[v] ||
+            std::abs(distance[v]) < 1e-12 * mesh.target_size[v])
+          return;
+        const Tensor<1, dim> way =
+          SimplexMesh<dim>::free_part(extent.normal, mesh.locked_directions(v));
+        if (way.norm_square() < 0.1)
+          return;
+        const Point<dim> old = mesh.vertices[v];
+        const double before  = mesh.least_quality_at(v);
+        mesh.vertices[v] -= distance[v] / way.norm_square() * way;
+        mesh.return_to_circles(v);
+        if (mesh.least_quality_at(v) < std::min(least_quality_of_snap, before))
+          mesh.vertices[v] = old;
+        else
+          distance[v] = extent.distance(mesh.vertices[v]);
+      }
+
+      /** Bisect the edges between the two sides, the longest first. */
+      void
+      split_edges()
+      {
+        std::set<std::pair<unsigned int, unsigned int>> crossed;
+        for (const Cell &cell : mesh.cells)
+          if (cell.is_alive && has_two_sides(cell) && reaches_into(cell))
+            for (unsigned int i = 0; i <= dim; ++i)
+              for (unsigned int j = 0; j < i; ++j)
+                if (side[cell.vertices[i]] * side[cell.vertices[j]] < 0)
+                  crossed.insert(
+                    std::minmax(cell.vertices[i], cell.vertices[j]));
+        std::vector<std::pair<double, std::pair<unsigned int, unsigned int>>>
+          order;
+        for (const auto &[a, b] : crossed)
+          order.push_back(
+            {-mesh.vertices[a].distance(mesh.vertices[b]), {a, b}});
+        std::sort(order.begin(), order.end());
+        for (const auto &[minus_length, edge] : order)
+          {
+            const auto [a, b] = edge;
+            const double size =
+              0.5 * (mesh.target_size[a] + mesh.target_size[b]);
+            // neither part becomes much shorter than vertices are moved
+            const double least = snap * std::min(1., -size / minus_length);
+            const double part  = std::clamp(crossing(a, b), least, 1. - least);
+            const unsigned int middle =
+              mesh.split_edge(a,
+                              b,
+                              mesh.vertices[a] +
+                                part * (mesh.vertices[b] - mesh.vertices[a]));
+            mesh.return_to_circles(middle);
+            side.push_back(0);
+            distance.push_back(extent.distance(mesh.vertices[middle]));
+          }
+      }
+
+      /** The joint is what lies between cells of different sides. */
+      void
+      mark_facets()
+      {
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          {
+            if (!mesh.cells[c].is_alive)
+              continue;
+            unsigned int n_on_joint = 0, apex = 0;
+            for (unsigned int i = 0; i <= dim; ++i)
+              if (side[mesh.cells[c].vertices[i]] == 0)
+                ++n_on_joint;
+              else
+                apex = i;
+            if (n_on_joint != dim || side[mesh.cells[c].vertices[apex]] < 0)
+              continue;
+            const unsigned int other = mesh.neighbor(c, apex);
+            if (other == no_index)
+              continue;
+            bool is_between = false;
+            for (const unsigned int v : mesh.cells[other].vertices)
+              is_between |= side[v] < 0;
+            if (is_between)
+              mesh.add_mark(mesh.facet(c, apex),
+                            {surface, mesh.is_on_positive_side(c, apex)});
+          }
+      }
+
+      SimplexMesh<dim> &mesh;
+      const unsigned int surface;
+      const JointExtent<dim> &extent;
+      const double snap;
+      std::vector<double> distance;
+      std::vector<signed char> side; ///< of each vertex: -1, +1; 0: on it
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  insert_joint(SimplexMesh<dim> &mesh,
+               const unsigned int surface,
+               const JointExtent<dim> &extent,
+               const double snap)
+  {
+    Insertion<dim>(mesh, surface, extent, snap).run();
+  }
+
+  template void insert_joint(SimplexMesh<2> &,
+                             const unsigned int,
+                             const JointExtent<2> &,
+                             const double);
+  template void insert_joint(SimplexMesh<3> &,
+                             const unsigned int,
+                             const JointExtent<3> &,
+                             const double);
+} // namespace Keyblock

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/mesh/report.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <ostream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    template <int dim>
+    void
+    print_names(std::ostream &out,
+                const std::vector<unsigned int> &joints,
+                const Scene<dim> &scene,
+                const std::string &fate)
+    {
+      if (joints.empty())
+        return;
+      constexpr unsigned int most_names = 8;
+      out << "Warning: " << joints.size() << " joint"
+          << (joints.size() == 1 ? " " : "s ") << fate << ": ";
+      for (unsigned int i = 0; i < joints.size() && i < most_names; ++i)
+        out << (i ? ", " : "") << scene.joints[joints[i]]->name;
+      out << (joints.size() > most_names ? ", ..." : "") << ".\n";
+    }
+
+    template <int dim>
+    void
+    print_way(std::ostream &out, const MeshReport<dim> &report)
+    {
+      if (report.n_passes > 1)
+        out << "        meshed " << report.n_passes
+            << " times for 'Mesh/Cells across blocks'\n";
+      if (report.way == "exact")
+        out << "        joints are where the scene has them\n";
+      else
+        {
+          out << "        joints are cut into the mesh (" << report.reason
+              << ") and moved by up to " << report.largest_shift << " m, "
+              << report.largest_shift_in_cells
+              << " cells; 99 % of their points by less than "
+              << report.percentile_99 << " m, " << report.percentile_99_in_cells
+              << " cells\n";
+          if (report.area_ratio != 1.)
+            out << "        finite joints have " << report.area_ratio
+                << " of their area in the mean\n";
+        }
+    }
+
+    /** Warn of joints that lie wholly on others. */
+    template <int dim>
+    void
+    print_duplicates(std::ostream &out,
+                     const MeshReport<dim> &report,
+                     const Scene<dim> &scene)
+    {
+      constexpr unsigned int most_pairs = 5;
+      unsigned int n                    = 0;
+      for (const auto &merged : report.merged)
+        if (merged.is_all_of_other && n++ < most_pairs)
+          out << "Warning: The joint '" << scene.joints[merged.other]->name
+              << "' lies wholly on the joint '"
+              << scene.joints[merged.joint]->name
+              << "', whose strength rules there; remove one of them, or move "
+                 "it.\n";
+      if (n > most_pairs)
+        out << "Warning: So do " << n - most_pairs << " more joints.\n";
+    }
+
+    template <int dim>
+    void
+    print_merged(std::ostream &out,
+                 const MeshReport<dim> &report,
+                 const Scene<dim> &scene)
+    {
+      constexpr unsigned int most_pairs = 5;
+      auto merged                       = report.merged;
+      std::stable_sort(merged.begin(),
+                       merged.end(),
+                       [](const auto &a, const auto &b) {
+                         return a.area > b.area;
+                       });
+      for (unsigned int i = 0; i < merged.size() && i < most_pairs; ++i)
+        out << "        joints " << scene.joints[merged[i].joint]->name
+            << " and " << scene.joints[merged[i].other]->name << " share "
+            << merged[i].area << (dim == 2 ? " m" : " m2") << ", which "
+            << scene.joints[merged[i].joint]->name << " rules\n";
+      if (merged.size() > most_pairs)
+        out << "        and so do " << merged.size() - most_pairs
+            << " more pairs of joints: summary.json lists them\n";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  print_mesh_report(std::ostream &out,
+                    const MeshReport<dim> &report,
+                    const Scene<dim> &scene)
+  {
+    if (scene.joints.empty())
+      return;
+    out << std::setprecision(3);
+    if (!report.way.empty())
+      print_way(out, report);
+    print_duplicates(out, report, scene);
+    print_merged(out, report, scene);
+    if (report.n_lost_blocks > 0)
+      {
+        out << "Warning: " << report.n_lost_blocks
+            << " blocks smaller than a fifth of a triangle or tetrahedron went "
+               "to their neighbours, the largest of "
+            << report.largest_lost_volume << (dim == 2 ? " m2" : " m3")
+            << " at (";
+        for (unsigned int d = 0; d < dim; ++d)
+          out << (d ? ", " : "") << report.largest_lost_place[d];
+        out << ") m; lower 'Mesh/Size' there to keep them.\n";
+      }
+    if (!report.gaps.empty())
+      {
+        const auto &gap = *report.gaps.begin();
+        out << "        " << report.gaps.size()
+            << (report.gaps.size() == 1 ? " joint ends" : " joints end")
+            << " less than half an edge before another one and "
+            << (report.gaps.size() == 1 ? "does" : "do")
+            << " not close against it (" << scene.joints[gap.joint]->name
+            << " before " << scene.joints[gap.other]->name
+            << (report.gaps.size() == 1 ? ")\n" : ", ...)\n");
+      }
+    print_names(out,
+                report.lost,
+                scene,
+                "too small for the cells where they lie, and left out");
+    print_names(out, report.outside, scene, "outside the model, and left out");
+  }
+
+  template void
+  print_mesh_report(std::ostream &, const MeshReport<2> &, const Scene<2> &);
+  template void
+  print_mesh_report(std::ostream &, const MeshReport<3> &, const Scene<3> &);
+} // namespace Keyblock

@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/mesh/simplex_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Altitude of a regular triangle or tetrahedron over its edge [-]. */
+    template <int dim>
+    constexpr double regular_altitude = (dim == 2) ? 0.866 : 0.8165;
+
+    /** Weight of the scaled Jacobian against the altitude. */
+    constexpr double jacobian_weight = 1.5;
+
+    /** Below this altitude shapes are not looked at [-]. */
+    constexpr double flat = 0.02;
+
+    /** Directions that are nearer to the plane of the locked ones lock nothing
+     * more: for the model, which is exact, and for joints [-]. */
+    constexpr double least_model_sine = 1e-6, least_joint_sine = 0.05;
+
+    inline Tensor<1, 3>
+    unit(const Tensor<1, 3> &v)
+    {
+      return v * (1. / std::sqrt(v * v));
+    }
+
+    inline double
+    triple(const Tensor<1, 3> &a, const Tensor<1, 3> &b, const Tensor<1, 3> &c)
+    {
+      return (a[1] * b[2] - a[2] * b[1]) * c[0] +
+             (a[2] * b[0] - a[0] * b[2]) * c[1] +
+             (a[0] * b[1] - a[1] * b[0]) * c[2];
+    }
+
+    /**
+     * Least scaled Jacobian of the four hexahedra that a tetrahedron is cut
+     * into, over their corners: at the vertices, the middles of edges, the
+     * centres of faces and that of the cell. The edges of the hexahedra lie on
+     * the edges of the tetrahedron, on the medians of its faces and on its own
+     * medians, so that few vectors do for all of them.
+     */
+    double
+    least_piece_jacobian(const std::array<const Point<3> *, 4> &x)
+    {
+      // the other three vertices in an order that keeps the orientation
+      static constexpr unsigned int others[4][3] = {{1, 2, 3},
+                                                    {0, 3, 2},
+                                                    {0, 1, 3},
+                                                    {0, 2, 1}};
+      Tensor<1, 3> edge[4][4];   // from, to
+      Tensor<1, 3> median[4][4]; // of the face opposite to the first, to the
+                                 // second
+      Tensor<1, 3> inward[4];    // from the face opposite to it
+      for (unsigned int i = 0; i < 4; ++i)
+        {
+          const Tensor<1, 3> a    = *x[others[i][0]] - *x[i],
+                             b    = *x[others[i][1]] - *x[i],
+                             c    = *x[others[i][2]] - *x[i];
+          edge[i][others[i][0]]   = unit(a);
+          edge[i][others[i][1]]   = unit(b);
+          edge[i][others[i][2]]   = unit(c);
+          median[i][others[i][0]] = unit(2. * a - b - c);
+          median[i][others[i][1]] = unit(2. * b - a - c);
+          median[i][others[i][2]] = unit(2. * c - a - b);
+          inward[i]               = unit(-(a + b + c));
+        }
+      double least = 1.;
+      for (unsigned int i = 0; i < 4; ++i)
+        {
+          for (unsigned int k = 0; k < 3; ++k)
+            {
+              const unsigned int a = others[i][k], b = others[i][(k + 1) % 3],
+                                 c = others[i][(k + 2) % 3];
+              if (i < a)
+                least =
+                  std::min(least,
+                           triple(edge[i][a], median[c][b], median[b][c]));
+              least =
+                std::min(least, triple(median[c][a], median[c][b], inward[c]));
+            }
+          const auto [a, b, c] = others[i];
+          least                = std::min({least,
+                                           triple(edge[i][a], edge[i][b], edge[i][c]),
+                                           triple(inward[a], inward[b], inward[c])});
+        }
+      return least;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  unsigned int
+  SimplexMesh<dim>::add_vertex(const Point<dim> &p, const double size)
+  {
+    vertices.push_back(p);
+    target_size.push_back(size);
+    is_fixed.push_back(false);
+    bound_to.emplace_back();
+    cells_at.emplace_back();
+    return vertices.size() - 1;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  SimplexMesh<dim>::add_cell(const CellVertices &cell)
+  {
+    cells.push_back({cell, true});
+    for (const unsigned int v : cell)
+      cells_at[v].push_back(cells.size() - 1);
+    return cells.size() - 1;
+  }
+
+
+
+  template <int dim>
+  void
+  SimplexMesh<dim>::remove_cell(const unsigned int cell)
+  {
+    cells[cell].is_alive = false;
+    for (const unsigned int v : cells[cell].vertices)
+      cells_at[v].erase(
+        std::find(cells_at[v].begin(), cells_at[v].end(), cell));
+  }
+
+
+
+  template <int dim>
+  bool
+  SimplexMesh<dim>::is_bound(const unsigned int vertex,
+                             const unsigned int surface) const
+  {
+    const auto &list = bound_to[vertex];
+    return std::find(list.begin(), list.end(), surface) != list.end();
+  }
+
+
+
+  template <int dim>
+  void
+  SimplexMesh<dim>::add_mark(const Facet &facet, const Mark &mark)
+  {
+    auto &list = marks[facet];
+    if (std::none_of(list.begin(), list.end(), [&mark](const Mark &other) {
+          return other.surface == mark.surface;
+        }))
+      list.push_back(mark);
+    for (const unsigned int v : facet)
+      if (!is_bound(v, mark.surface))
+        bound_to[v].push_back(mark.surface);
+  }
+
+
+
+  template <int dim>
+  void
+  SimplexMesh<dim>::bind_vertices()
+  {
+    for (auto &list : bound_to)
+      list.clear();
+    for (const Facet &facet : marked_facets())
+      for (const Mark &mark : marks.at(facet))
+        for (const unsigned int v : facet)
+          if (!is_bound(v, mark.surface))
+            bound_to[v].push_back(mark.surface);
+  }
+
+
+
+  template <int dim>
+  typename SimplexMesh<dim>::Facet
+  SimplexMesh<dim>::sorted(Facet facet, bool &is_odd)
+  {
+    is_odd             = false;
+    const auto compare = [&](const unsigned int i, const unsigned int j) {
+      if (facet[i] > facet[j])
+        {
+          std::swap(facet[i], facet[j]);
+          is_odd = !is_odd;
+        }
+    };
+    compare(0, 1);
+    if constexpr (dim == 3)
+      {
+        compare(1, 2);
+        compare(0, 1);
+      }
+    return facet;
+  }
+
+
+
+  template <int dim>
+  typename SimplexMesh<dim>::Facet
+  SimplexMesh<dim>::facet(const unsigned int cell, const unsigned int i) const
+  {
+    Facet result;
+    for (unsigned int j = 0, n = 0; j <= dim; ++j)
+      if (j != i)
+        result[n++] = cells[cell].vertices[j];
+    return sorted(result);
+  }
+
+
+
+  template <int dim>
+  bool
+  SimplexMesh<dim>::is_on_positive_side(const unsigned int cell,
+                                        const unsigned int i) const
+  {
+    Facet result;
+    for (unsigned int j = 0, n = 0; j <= dim; ++j)
+      if (j != i)
+        result[n++] = cells[cell].vertices[j];
+    bool is_odd;
+    sorted(result, is_odd);
+    // moving vertex i behind the others takes dim - i exchanges
+    return ((dim - i) % 2 == 0) != is_odd;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  SimplexMesh<dim>::neighbor(const unsigned int cell,
+                             const unsigned int i) const
+  {
+    const Facet f = facet(cell, i);
+    for (const unsigned int other : cells_at[f[0]])
+      if (other != cell && has(other, f[1]) &&
+          (dim == 2 || has(other, f[dim - 1])))
+        return other;
+    return no_index;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  SimplexMesh<dim>::cells_at_edge(const unsigned int a,
+                                  const unsigned int b) const
+  {
+    std::vector<unsigned int> result;
+    for (const unsigned int cell : cells_at[a])
+      if (has(cell, b))
+        result.push_back(cell);
+    return result;
+  }
+
+
+
+  template <int dim>
+  double
+  SimplexMesh<dim>::volume(const CellVertices &cell) const
+  {
+    Tensor<1, dim> edges[dim];
+    for (unsigned int i = 0; i < dim; ++i)
+      edges[i] = vertices[cell[i + 1]] - vertices[cell[0]];
+    if constexpr (dim == 2)
+      return 0.5 * (edges[0][0] * edges[1][1] - edges[0][1] * edges[1][0]);
+    else
+      return triple(edges[0], edges[1], edges[2]) / 6.;
+  }
+
+
+
+  template <int dim>
+  double
+  SimplexMesh<dim>::quality(const CellVertices &cell, const double bound) const
+  {
+    const double size = size_at(cell), measure = volume(cell);
+    if (measure <= 0.)
+      return measure / std::pow(size, dim) - 1e-12;
+    double largest_square = 0.; // of edges, or of twice the areas of faces
+    for (unsigned int i = 0; i <= dim; ++i)
+      {
+        const Point<dim> &a    = vertices[cell[(i + 1) % (dim + 1)]];
+        const Tensor<1, dim> e = vertices[cell[(i + 2) % (dim + 1)]] - a;
+        if constexpr (dim == 2)
+          largest_square = std::max(largest_square, e * e);
+        else
+          {
+            const Tensor<1, dim> normal =
+              cross_product_3d(e, vertices[cell[(i + 3) % 4]] - a);
+            largest_square = std::max(largest_square, normal * normal);
+          }
+      }
+    const double altitude = (dim == 2 ? 2. : 6.) * measure /
+                            std::sqrt(largest_square) /
+                            (regular_altitude<dim> * size);
+    if constexpr (dim == 2)
+      return altitude;
+    else
+      {
+        if (altitude <= std::max(flat, bound))
+          return altitude;
+        const double jacobian =
+          jacobian_weight * least_piece_jacobian({{&vertices[cell[0]],
+                                                   &vertices[cell[1]],
+                                                   &vertices[cell[2]],
+                                                   &vertices[cell[3]]}});
+        return std::min(altitude, std::max(jacobian, flat * altitude));
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  SimplexMesh<dim>::least_quality_at(const unsigned int vertex,
+                                     const double bound) const
+  {
+    double least = 1e300;
+    for (const unsigned int cell : cells_at[vertex])
+      {
+        least = std::min(least, quality(cells[cell].vertices, bound));
+        if (least <= bound)
+          break;
+      }
+    return least;
+  }
+
+
+
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  SimplexMesh<dim>::locked_directions(const unsigned int v,
+                                      const bool may_leave_joints) const
+  {
+    std::vector<Tensor<1, dim>> locked;
+    for (const bool is_joint : {false, true})
+      for (const unsigned int s : bound_to[v])
+        if (surfaces[s].is_joint() == is_joint &&
+            !(is_joint && may_leave_joints))
+          {
+            // twice, since the first time may leave little but rounding
+            const Tensor<1, dim> n =
+              free_part(free_part(surfaces[s].normal_at(vertices[v]), locked),
+                        locked);
+            if (n.norm() > (is_joint ? least_joint_sine : least_model_sine))
+              locked.push_back(n / n.norm());
+          }
+    return locked;
+  }
+
+
+
+  template <int dim>
+  void
+  SimplexMesh<dim>::return_to_circles(const unsigned int vertex)
+  {
+    for (const unsigned int s : bound_to[vertex])
+      if (surfaces[s].radius > 0.)
+        vertices[vertex] -= surfaces[s].distance(vertices[vertex]) *
+                            surfaces[s].normal_at(vertices[vertex]);
+  }
+
+
+
+  template <int dim>
+  void
+  SimplexMesh<dim>::rename_marks(const Facet &facet,
+                                 const std::vector<Mark> &list,
+                                 const unsigned int from,
+                                 const unsigned int to)
+  {
+    Facet renamed = facet;
+    std::replace(renamed.begin(), renamed.end(), from, to);
+    bool is_odd;
+    renamed = sorted(renamed, is_odd);
+    for (Mark mark : list)
+      {
+        mark.plus_is_positive = (mark.plus_is_positive != is_odd);
+        add_mark(renamed, mark);
+      }
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  SimplexMesh<dim>::split_edge(const unsigned int a,
+                               const unsigned int b,
+                               const Point<dim> &p)
+  {
+    const unsigned int middle =
+      add_vertex(p, 0.5 * (target_size[a] + target_size[b]));
+    const auto split_marks = [&](const Facet &facet) {
+      const auto found = marks.find(facet);
+      if (found == marks.end())
+        return;
+      const std::vector<Mark> list = found->second;
+      marks.erase(found);
+      rename_marks(facet, list, b, middle);
+      rename_marks(facet, list, a, middle);
+    };
+    const std::vector<unsigned int> ring = cells_at_edge(a, b);
+    if constexpr (dim == 2)
+      split_marks(sorted(Facet{{a, b}}));
+    else
+      for (const unsigned int cell : ring)
+        for (const unsigned int v : cells[cell].vertices)
+          if (v != a && v != b)
+            split_marks(sorted(Facet{{a, b, v}}));
+    for (const unsigned int cell : ring)
+      {
+        CellVertices at_a = cells[cell].vertices, at_b = at_a;
+        std::replace(at_a.begin(), at_a.end(), b, middle);
+        std::replace(at_b.begin(), at_b.end(), a, middle);
+        remove_cell(cell);
+        add_cell(at_a);
+        add_cell(at_b);
+      }
+    return middle;
+  }
+
+
+
+  template <int dim>
+  std::vector<typename SimplexMesh<dim>::Facet>
+  SimplexMesh<dim>::marked_facets() const
+  {
+    std::vector<Facet> result;
+    result.reserve(marks.size());
+    for (const auto &entry : marks)
+      result.push_back(entry.first);
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+
+
+  template <int dim>
+  Point<dim>
+  SimplexMesh<dim>::center(const Facet &facet) const
+  {
+    Point<dim> result;
+    for (const unsigned int v : facet)
+      result += vertices[v] / double(dim);
+    return result;
+  }
+
+
+
+  template <int dim>
+  double
+  SimplexMesh<dim>::measure(const Facet &facet) const
+  {
+    const Tensor<1, dim> e = vertices[facet[1]] - vertices[facet[0]];
+    if constexpr (dim == 2)
+      return e.norm();
+    else
+      return 0.5 * cross_product_3d(e, vertices[facet[2]] - vertices[facet[0]])
+                     .norm();
+  }
+
+  template class SimplexMesh<2>;
+  template class SimplexMesh<3>;
+} // namespace Keyblock

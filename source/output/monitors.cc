@@ -1,0 +1,486 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/expression.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/output/monitors.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    std::string
+    without_unit(const std::string &column)
+    {
+      return column.substr(0, column.find(" ["));
+    }
+  } // namespace
+
+
+
+  bool
+  History::has(const std::string &name) const
+  {
+    return std::any_of(columns.begin(), columns.end(), [&](const auto &column) {
+      return without_unit(column) == name;
+    });
+  }
+
+
+
+  std::vector<double>
+  History::column(const std::string &name, const unsigned int begin) const
+  {
+    unsigned int index = 0;
+    while (index < columns.size() && without_unit(columns[index]) != name)
+      ++index;
+    Assert(index < columns.size(), dealii::ExcMessage("no column " + name));
+    std::vector<double> values;
+    for (unsigned int r = begin; r < rows.size(); ++r)
+      values.push_back(rows[r][index]);
+    return values;
+  }
+
+
+
+  double
+  History::last(const std::string &name) const
+  {
+    return column(name, rows.size() - 1)[0];
+  }
+
+
+
+  template <int dim>
+  Monitors<dim>::Monitors(const Scene<dim> &scene,
+                          const SplitMesh<dim> &split,
+                          const Blocks<dim> &blocks,
+                          const Numbering<dim> &numbering,
+                          const CellArrays<dim> &cells,
+                          const Fields<dim> &fields,
+                          const Contact<dim> *contact)
+    : baseline(fields.displacement)
+    , scene(scene)
+    , split(split)
+    , blocks(blocks)
+    , numbering(numbering)
+    , cells(cells)
+    , fields(fields)
+    , contact(contact)
+  {
+    cell_volume.assign(split.mesh.n_cells(), 0.);
+    for (const unsigned int c : numbering.mesh_cell)
+      cell_volume[c] = split.mesh.cell_volume(c);
+    block_of_node.assign(numbering.n_local(), none);
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      for (const unsigned int v : split.mesh.cells[c])
+        if (numbering.local_node(v) != none)
+          if (split.block_of_cell[c] != none)
+            block_of_node[numbering.local_node(v)] = split.block_of_cell[c];
+    for (const auto &monitor : scene.monitors)
+      find_target(*monitor);
+    name_columns();
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::find_target(const Monitor<dim> &monitor)
+  {
+    unsigned int node = none, block = none;
+    std::vector<unsigned int> nodes;
+    double least = std::numeric_limits<double>::max();
+    if (monitor.kind == "point")
+      {
+        unsigned int nearest = none;
+        for (unsigned int v = 0; v < split.mesh.vertices.size(); ++v)
+          {
+            const double d = split.mesh.vertices[v].distance(monitor.location);
+            if (d < least)
+              {
+                least   = d;
+                nearest = v;
+              }
+          }
+        if (numbering.is_owned(nearest))
+          node = numbering.local_node(nearest);
+        look_for_location(monitor, least);
+      }
+    if (monitor.kind == "block")
+      for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+        {
+          const double d = split.mesh.cell_center(c).distance(monitor.location);
+          if (d < least && split.block_of_cell[c] != none)
+            {
+              least = d;
+              block = split.block_of_cell[c];
+            }
+        }
+    if (monitor.kind == "block")
+      {
+        AssertThrow(block != none,
+                    InputError("The monitor '" + monitor.name +
+                               "' is of kind block, but there is no block: all "
+                               "rock is dug later; correct 'Monitors/" +
+                               monitor.name + "/Kind'."));
+        look_for_location(monitor, least);
+      }
+    if (monitor.kind == "region")
+      {
+        const Expression<dim> region(monitor.region,
+                                     1,
+                                     "Monitors/" + monitor.name + "/Region");
+        for (unsigned int i = 0; i < numbering.n_owned(); ++i)
+          if (region.value(split.mesh.vertices[numbering.vertex_of_node[i]],
+                           0.,
+                           0) > 0.)
+            nodes.push_back(i);
+        const unsigned int n_nodes = sum_over_ranks<unsigned int>(nodes.size());
+        AssertThrow(n_nodes > 0,
+                    InputError("The formula of the entry 'Monitors/" +
+                               monitor.name +
+                               "/Region' is positive at no node; correct it, "
+                               "or leave the monitor out."));
+      }
+    node_of_monitor.push_back(node);
+    block_of_monitor.push_back(block);
+    nodes_of_monitor.push_back(nodes);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::look_for_location(const Monitor<dim> &monitor,
+                                   const double distance)
+  {
+    constexpr double tolerance = 1e-6; // of a cell's size
+    const Mesh<dim> &mesh      = split.mesh;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        const Point<dim> center = mesh.cell_center(c);
+        double reach            = 0.;
+        for (const unsigned int v : mesh.cells[c])
+          reach = std::max(reach, center.distance(mesh.vertices[v]));
+        if (center.distance(monitor.location) > (1. + tolerance) * reach)
+          continue;
+        bool is_inside = true;
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          {
+            const Tensor<1, dim> area = mesh.face_area_vector(c, f);
+            is_inside =
+              is_inside && area * (monitor.location - mesh.face_center(c, f)) <=
+                             tolerance * reach * area.norm();
+          }
+        if (is_inside)
+          return;
+      }
+    Point<dim> low = mesh.vertices[0], high = low;
+    for (const Point<dim> &p : mesh.vertices)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          low[d]  = std::min(low[d], p[d]);
+          high[d] = std::max(high[d], p[d]);
+        }
+    std::ostringstream text;
+    text << "The monitor '" << monitor.name << "' is at (" << monitor.location
+         << ") m, which is in no rock";
+    const std::string remedy =
+      "correct 'Monitors/" + monitor.name + "/Location'";
+    AssertThrow(distance <= low.distance(high),
+                InputError(text.str() + " by far; " + remedy + "."));
+    text << "; it follows the nearest "
+         << (monitor.kind == "block" ? "block, with a cell " : "node, ")
+         << std::setprecision(3) << distance << " m away: " << remedy
+         << ", if that is not meant.";
+    warnings.push_back(text.str());
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::name_columns()
+  {
+    const std::vector<std::string> axes = {"x", "y", "z"};
+    std::vector<std::string> &columns   = history.columns;
+    columns                             = {"stage [-]", "step [-]", "time [s]"};
+    for (const auto &monitor : scene.monitors)
+      {
+        const auto add_vector = [&](const std::string &quantity,
+                                    const std::string &unit) {
+          for (unsigned int d = 0; d < dim; ++d)
+            columns.push_back(monitor->name + "." + quantity + "_" + axes[d] +
+                              " [" + unit + "]");
+        };
+        const auto add_scalars = [&](const std::vector<std::string> &names) {
+          for (const std::string &name : names)
+            columns.push_back(monitor->name + "." + name);
+        };
+        if (monitor->kind == "joint")
+          {
+            add_scalars({"normal_force [N]", "shear_force [N]"});
+            add_vector("force", "N");
+            add_vector("center", "m");
+            add_scalars(
+              {"open [-]", "sliding [-]", "sticking [-]", "intact [-]"});
+            continue;
+          }
+        if (monitor->kind == "support")
+          {
+            add_vector("reaction", "N");
+            continue;
+          }
+        add_vector("u", "m");
+        add_vector("v", "m/s");
+        if (monitor->kind == "block")
+          add_scalars({"rotation [rad]",
+                       "angular_momentum [N m s]",
+                       "mean_stress_trace [Pa]"});
+      }
+    for (unsigned int i = 0; i < n_recorded_energies; ++i)
+      columns.push_back("energy." + Energies::terms()[i].name + " [J]");
+    columns.push_back("energy.residual [J]");
+    columns.push_back("unbalanced_ratio [-]");
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::reset_baseline()
+  {
+    baseline = fields.displacement;
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample_block(const unsigned int block,
+                              std::vector<double> &row)
+  {
+    // mass, m u, m v, m x, m X, then with centres known: rotation, momentum
+    std::vector<double> sums(1 + 4 * dim, 0.);
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      if (block_of_node[node] == block)
+        {
+          const double m = fields.mass[node];
+          sums[0] += m;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const unsigned int i = dim * node + d;
+              sums[1 + d] += m * (fields.displacement[i] - baseline[i]);
+              sums[1 + dim + d] += m * fields.velocity[i];
+              sums[1 + 2 * dim + d] +=
+                m * (fields.reference[i] + fields.displacement[i]);
+              sums[1 + 3 * dim + d] += m * fields.reference[i];
+            }
+        }
+    sum_lists(sums);
+    if (sums[0] > 0.)
+      for (unsigned int i = 1; i < sums.size(); ++i)
+        sums[i] /= sums[0];
+    std::vector<double> spin(3, 0.);
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      if (block_of_node[node] == block)
+        {
+          double X[2], x[2], v[2], u[2];
+          for (unsigned int k = 0; k < 2; ++k)
+            {
+              // in 3D about the y axis: the plane of x and z
+              const unsigned int d = (dim == 3 && k == 1) ? 2 : k;
+              const unsigned int i = dim * node + d;
+              u[k]                 = fields.displacement[i];
+              X[k] = fields.reference[i] - sums[1 + 3 * dim + d];
+              x[k] = fields.reference[i] + u[k] - sums[1 + 2 * dim + d];
+              v[k] = fields.velocity[i];
+            }
+          const double m = fields.mass[node];
+          spin[0] += m * (X[0] * x[1] - X[1] * x[0]);
+          spin[1] += m * (X[0] * x[0] + X[1] * x[1]);
+          spin[2] += m * (x[0] * v[1] - x[1] * v[0]);
+        }
+    sum_lists(spin);
+    for (unsigned int i = 1; i < 1 + 2 * dim; ++i)
+      row.push_back(sums[i]);
+    row.push_back(std::atan2(spin[0], spin[1]));
+    row.push_back(spin[2]);
+
+    // mean over the volume of the in-plane (2D) or full (3D) trace
+    double trace = 0., volume = 0.;
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      {
+        const unsigned int mesh_cell = cells.mesh_cell[c];
+        if (split.block_of_cell[mesh_cell] != block)
+          continue;
+        const double share = cell_volume[mesh_cell] / (1 << dim);
+        for (int q = 0; q < (1 << dim); ++q)
+          {
+            const auto stress = cells.stress_at(c, q);
+            for (unsigned int d = 0; d < dim; ++d)
+              trace += share * stress[d];
+          }
+        volume += cell_volume[mesh_cell];
+      }
+    std::vector<double> mean = {trace, volume};
+    sum_lists(mean);
+    row.push_back(mean[1] > 0. ? mean[0] / mean[1] : 0.);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample_joint(const Monitor<dim> &monitor,
+                              std::vector<double> &row)
+  {
+    const bool is_all = monitor.joint == "all";
+    const std::vector<unsigned int> joints =
+      is_all ? std::vector<unsigned int>() : scene.joints_called(monitor.joint);
+    JointSums<dim> sums;
+    if (contact && (is_all || !joints.empty()))
+      sums = contact->sum_over_joints(joints);
+    row.push_back(sums.normal);
+    row.push_back(sums.shear);
+    row.insert(row.end(), sums.force.begin(), sums.force.end());
+    row.insert(row.end(), sums.center.begin(), sums.center.end());
+    for (const unsigned int n :
+         {sums.n_open, sums.n_sliding, sums.n_sticking, sums.n_intact})
+      row.push_back(n);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample_support(const Monitor<dim> &monitor,
+                                std::vector<double> &row)
+  {
+    // what holds the nodes of the support against all other forces
+    std::vector<double> sums(dim, 0.);
+    for (unsigned int s = 0; s < scene.supports.size(); ++s)
+      if (scene.supports[s]->name == monitor.support)
+        for (const unsigned int node : fields.nodes_of_support[s])
+          for (unsigned int d = 0; d < dim; ++d)
+            sums[d] += fields.internal_force[dim * node + d] -
+                       fields.load[dim * node + d] -
+                       fields.contact_force[dim * node + d];
+    sum_lists(sums);
+    row.insert(row.end(), sums.begin(), sums.end());
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample_nodes(const std::vector<unsigned int> &nodes,
+                              std::vector<double> &row)
+  {
+    std::vector<double> total(1, 0.);
+    for (const unsigned int node : nodes)
+      total[0] += fields.mass[node];
+    sum_lists(total);
+    const bool has_mass = total[0] > 0.;
+    // mass, m u, m v
+    std::vector<double> sums(1 + 2 * dim, 0.);
+    for (const unsigned int node : nodes)
+      {
+        const double m = has_mass ? fields.mass[node] : 1.;
+        sums[0] += m;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int i = dim * node + d;
+            sums[1 + d] += m * (fields.displacement[i] - baseline[i]);
+            sums[1 + dim + d] += m * fields.velocity[i];
+          }
+      }
+    sum_lists(sums);
+    for (unsigned int i = 1; i < sums.size(); ++i)
+      row.push_back(sums[i] / sums[0]);
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Monitors<dim>::make_row(const ExplicitStep<dim> &step,
+                          const unsigned int stage)
+  {
+    std::vector<double> row = {double(stage), double(step.n_steps), step.time};
+    for (unsigned int m = 0; m < scene.monitors.size(); ++m)
+      {
+        const Monitor<dim> &monitor = *scene.monitors[m];
+        if (monitor.kind == "joint")
+          sample_joint(monitor, row);
+        else if (monitor.kind == "block")
+          sample_block(block_of_monitor[m], row);
+        else if (monitor.kind == "support")
+          sample_support(monitor, row);
+        else if (monitor.kind == "region")
+          sample_nodes(nodes_of_monitor[m], row);
+        else
+          sample_nodes(node_of_monitor[m] == none
+                         ? std::vector<unsigned int>()
+                         : std::vector<unsigned int>{node_of_monitor[m]},
+                       row);
+      }
+    for (unsigned int i = 0; i < n_recorded_energies; ++i)
+      row.push_back(step.energies.*Energies::terms()[i].value);
+    row.push_back(step.energies.residual());
+    row.push_back(step.unbalanced_ratio);
+    return row;
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample_start(const ExplicitStep<dim> &step)
+  {
+    const std::vector<double> row = make_row(step, 0);
+    if (is_root())
+      history.rows.push_back(row);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::sample(const ExplicitStep<dim> &step, const unsigned int stage)
+  {
+    const std::vector<double> row = make_row(step, stage);
+    while (history.stage_begin.size() <= stage)
+      history.stage_begin.push_back(history.rows.size());
+    if (is_root())
+      history.rows.push_back(row);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::write_csv(const std::string &file_name) const
+  {
+    if (!is_root())
+      return assert_written(true, file_name);
+    std::ofstream out(file_name);
+    for (unsigned int c = 0; c < history.columns.size(); ++c)
+      out << (c ? "," : "") << history.columns[c];
+    out << '\n' << std::setprecision(12);
+    for (const auto &row : history.rows)
+      {
+        for (unsigned int c = 0; c < row.size(); ++c)
+          out << (c ? "," : "") << row[c];
+        out << '\n';
+      }
+    assert_written(bool(out.flush()), file_name);
+  }
+
+  template class Monitors<2>;
+  template class Monitors<3>;
+} // namespace Keyblock

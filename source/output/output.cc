@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/data_out_base.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <deal.II/numerics/data_out.h>
+
+#include <keyblock/base/mpi.h>
+#include <keyblock/output/output.h>
+
+#include <fstream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    dealii::DataOutBase::VtkFlags
+    vtk_flags(const double time)
+    {
+      dealii::DataOutBase::VtkFlags flags;
+      flags.time                = time;
+      flags.print_date_and_time = false;
+      flags.compression_level =
+        dealii::DataOutBase::VtkFlags::ZlibCompressionLevel::best_speed;
+      return flags;
+    }
+
+    /** Write a VTU file; returns whether that worked. */
+    template <typename Data>
+    bool
+    write_file(const Data &data, const std::string &name)
+    {
+      std::ofstream out(name);
+      try
+        {
+          data.write_vtu(out);
+        }
+      catch (const dealii::ExcIO &)
+        {
+          return false;
+        }
+      return bool(out.flush());
+    }
+
+    /** The faces of the interface as patches, values at their corners. */
+    template <int dim>
+    class FacePatches : public dealii::DataOutInterface<dim - 1, dim>
+    {
+    public:
+      using Patch = dealii::DataOutBase::Patch<dim - 1, dim>;
+
+      std::vector<Patch> patches;
+      std::vector<std::string> names;
+      std::vector<std::tuple<
+        unsigned int,
+        unsigned int,
+        std::string,
+        dealii::DataComponentInterpretation::DataComponentInterpretation>>
+        vectors;
+
+      const std::vector<Patch> &
+      get_patches() const override
+      {
+        return patches;
+      }
+      std::vector<std::string>
+      get_dataset_names() const override
+      {
+        return names;
+      }
+      std::vector<std::tuple<
+        unsigned int,
+        unsigned int,
+        std::string,
+        dealii::DataComponentInterpretation::DataComponentInterpretation>>
+      get_nonscalar_data_ranges() const override
+      {
+        return vectors;
+      }
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  Output<dim>::Output(const Scene<dim> &scene,
+                      const SplitMesh<dim> &split,
+                      const Blocks<dim> &blocks,
+                      const Numbering<dim> &numbering,
+                      const CellArrays<dim> &cells,
+                      const Fields<dim> &fields,
+                      const Contact<dim> *contact,
+                      const std::string &folder)
+    : scene(scene)
+    , split(split)
+    , blocks(blocks)
+    , numbering(numbering)
+    , cells(cells)
+    , fields(fields)
+    , contact(contact)
+    , folder(folder)
+  {}
+
+
+
+  template <int dim>
+  void
+  Output<dim>::write_vtu(const double time)
+  {
+    const std::string number =
+      dealii::Utilities::int_to_string(records.size() / 2, 4);
+    const auto write = [&](auto &data, const std::string &base) {
+      data.set_flags(vtk_flags(time));
+      std::string name = base + "_" + number;
+      if (n_ranks() == 1)
+        {
+          name += ".vtu";
+          assert_written(write_file(data, folder + name), folder + name);
+        }
+      else
+        {
+          bool is_written = write_file(data,
+                                       folder + name + "." +
+                                         std::to_string(this_rank()) + ".vtu");
+          if (is_root())
+            {
+              std::vector<std::string> pieces;
+              for (unsigned int r = 0; r < n_ranks(); ++r)
+                pieces.push_back(name + "." + std::to_string(r) + ".vtu");
+              std::ofstream record(folder + name + ".pvtu");
+              data.write_pvtu_record(record, pieces);
+              is_written = record.flush() && is_written;
+            }
+          name += ".pvtu";
+          assert_written(is_written, folder + name);
+        }
+      records.emplace_back(time, name);
+    };
+
+    dealii::DataOut<dim> rock;
+    rock.attach_dof_handler(*numbering.dof_handler);
+    const dealii::IndexSet &owned = numbering.dof_handler->locally_owned_dofs();
+    using DofVector = dealii::LinearAlgebra::distributed::Vector<double>;
+    DofVector displacement(numbering.partitioner),
+      velocity(numbering.partitioner);
+    for (unsigned int i = 0; i < owned.n_elements(); ++i)
+      {
+        displacement.local_element(i) = fields.displacement[i];
+        velocity.local_element(i)     = fields.velocity[i];
+      }
+    displacement.update_ghost_values();
+    velocity.update_ghost_values();
+    using Interpretation =
+      dealii::DataComponentInterpretation::DataComponentInterpretation;
+    const std::vector<Interpretation> is_vector(
+      dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
+    rock.add_data_vector(displacement,
+                         std::vector<std::string>(dim, "displacement"),
+                         dealii::DataOut<dim>::type_dof_data,
+                         is_vector);
+    rock.add_data_vector(velocity,
+                         std::vector<std::string>(dim, "velocity"),
+                         dealii::DataOut<dim>::type_dof_data,
+                         is_vector);
+    const unsigned int n = numbering.triangulation->n_active_cells();
+    dealii::Vector<double> block(n), material(n);
+    const std::vector<std::string> components =
+      dim == 2 ? std::vector<std::string>{"xx", "yy", "zz", "xy"}
+               : std::vector<std::string>{"xx", "yy", "zz", "yz", "xz", "xy"};
+    std::vector<dealii::Vector<double>> stress(components.size(),
+                                               dealii::Vector<double>(n));
+    std::map<unsigned int, unsigned int> local_cell;
+    for (unsigned int c = 0; c < cells.mesh_cell.size(); ++c)
+      local_cell[cells.mesh_cell[c]] = c;
+    const bool has_plastic =
+      std::any_of(scene.materials.begin(),
+                  scene.materials.end(),
+                  [](const auto &m) { return m->is_plastic(); });
+    dealii::Vector<double> plastic_strain(n);
+    for (const auto &cell : numbering.triangulation->active_cell_iterators())
+      {
+        if (cell->is_artificial())
+          continue;
+        const unsigned int mesh_cell = numbering.mesh_cell_of(cell);
+        const unsigned int i         = cell->active_cell_index();
+        const unsigned int b         = split.block_of_cell[mesh_cell];
+        block[i]                     = b == none ? 0 : blocks.blocks[b].id;
+        material[i]                  = split.mesh.material[mesh_cell];
+        const auto found             = local_cell.find(mesh_cell);
+        if (found != local_cell.end())
+          for (unsigned int q = 0; q < (1 << dim); ++q)
+            {
+              const auto at_point = cells.stress_at(found->second, q);
+              for (unsigned int k = 0; k < components.size(); ++k)
+                stress[k][i] += at_point[k] / (1 << dim);
+            }
+        if (found != local_cell.end() && found->second >= cells.first_plastic())
+          for (unsigned int q = 0; q < (1 << dim); ++q)
+            plastic_strain[i] +=
+              cells.plastic_strain[(found->second - cells.first_plastic()) *
+                                     (1 << dim) +
+                                   q] /
+              (1 << dim);
+      }
+    rock.add_data_vector(block, "block");
+    rock.add_data_vector(material, "material");
+    for (unsigned int k = 0; k < components.size(); ++k)
+      rock.add_data_vector(stress[k], "stress_" + components[k]);
+    if (has_plastic)
+      rock.add_data_vector(plastic_strain, "plastic_strain");
+    rock.set_cell_selection([&](const auto &cell) {
+      // not those that are dug
+      if (!cell->is_locally_owned())
+        return false;
+      const unsigned int c = numbering.mesh_cell_of(cell);
+      return local_cell.count(c) > 0 ||
+             scene.materials[split.mesh.material[c]]->is_rigid();
+    });
+    rock.build_patches();
+    write(rock, "rock");
+
+    // the owner of the minus cell holds the nodes of both sides
+    std::vector<bool> is_local(split.mesh.n_cells(), false);
+    for (const auto &cell : numbering.triangulation->active_cell_iterators())
+      if (cell->is_locally_owned())
+        is_local[numbering.mesh_cell_of(cell)] = true;
+
+    FacePatches<dim> faces;
+    faces.names = {
+      "status", "is_intact", "gap", "slip", "pressure", "shear", "joint"};
+    if (contact)
+      {
+        const auto states = contact->gather_pair_states();
+        const double kick = contact->present_kick();
+        std::map<std::array<unsigned int, 3>, unsigned int> pair_at;
+        for (unsigned int p = 0; p < states.size(); ++p)
+          pair_at[{{split.interface.pairs[p].minus,
+                    split.interface.pairs[p].plus,
+                    split.interface.pairs[p].joint}}] = p;
+        for (const JointFace &face : split.interface.joint_faces)
+          {
+            const auto minus =
+              split.mesh.face_vertices(face.minus_cell, face.minus_face);
+            const auto plus =
+              split.mesh.face_vertices(face.plus_cell, face.plus_face);
+            const bool is_here = is_local[face.minus_cell];
+            if (!is_here)
+              continue;
+            typename FacePatches<dim>::Patch patch;
+            patch.patch_index    = faces.patches.size();
+            patch.n_subdivisions = 1;
+            patch.reference_cell = dim == 2
+                                     ? dealii::ReferenceCells::Line
+                                     : dealii::ReferenceCells::Quadrilateral;
+            patch.data.reinit(faces.names.size(), minus.size());
+            for (unsigned int v = 0; v < minus.size(); ++v)
+              {
+                const unsigned int nm = numbering.local_node(minus[v]);
+                Vector<dim> jump{}, n;
+                unsigned int p = none;
+                for (const unsigned int other : plus)
+                  {
+                    const auto found =
+                      pair_at.find({{minus[v], other, face.joint}});
+                    if (found == pair_at.end())
+                      continue;
+                    p                     = found->second;
+                    const unsigned int np = numbering.local_node(other);
+                    for (int d = 0; d < dim; ++d)
+                      jump[d] = fields.displacement[dim * np + d] -
+                                fields.displacement[dim * nm + d];
+                  }
+                for (int d = 0; d < dim; ++d)
+                  patch.vertices[v][d] = fields.reference[dim * nm + d] +
+                                         fields.displacement[dim * nm + d];
+                if (p == none)
+                  continue;
+                for (int d = 0; d < dim; ++d)
+                  n[d] = split.interface.pairs[p].normal[d];
+                const double gap      = dot<dim>(jump, n);
+                const double pressure = dot<dim>(states[p].impulse, n);
+                const double scale =
+                  1. / (kick * split.interface.pairs[p].area);
+                patch.data(0, v) = static_cast<int>(states[p].status);
+                patch.data(1, v) = states[p].is_intact;
+                patch.data(2, v) = gap;
+                patch.data(3, v) = norm<dim>(add<dim>(jump, -gap, n));
+                patch.data(4, v) = pressure * scale;
+                patch.data(5, v) =
+                  scale * norm<dim>(add<dim>(states[p].impulse, -pressure, n));
+                patch.data(6, v) = face.joint;
+              }
+            faces.patches.push_back(patch);
+          }
+      }
+    write(faces, "interface");
+    bool is_written = true;
+    if (is_root())
+      {
+        std::ofstream pvd(folder + "solution.pvd");
+        pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+               "version=\"0.1\">\n  <Collection>\n";
+        for (unsigned int i = 0; i < records.size(); ++i)
+          pvd << "    <DataSet timestep=\"" << records[i].first << "\" part=\""
+              << i % 2 << "\" name=\"" << (i % 2 ? "interface" : "rock")
+              << "\" file=\"" << records[i].second << "\"/>\n";
+        pvd << "  </Collection>\n</VTKFile>\n";
+        is_written = bool(pvd.flush());
+      }
+    assert_written(is_written, folder + "solution.pvd");
+  }
+
+  template class Output<2>;
+  template class Output<3>;
+} // namespace Keyblock

@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/revision.h>
+#include <deal.II/base/utilities.h>
+
+#include <keyblock/base/mpi.h>
+#include <keyblock/output/output.h>
+#include <keyblock/safety/block_theory.h>
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    /** Take numbers that are not finite out of @p json, and list their paths,
+     * which begin with @p path. */
+    void
+    take_out_not_finite(Json &json,
+                        const std::string &path,
+                        std::vector<std::string> &found)
+    {
+      if (!json.is_structured())
+        return;
+      const bool is_list = json.is_array();
+      unsigned int index = 0;
+      for (auto entry = json.begin(); entry != json.end(); ++index)
+        {
+          const std::string name =
+            path + (path.empty() ? "" : "/") +
+            (is_list ? std::to_string(index) : entry.key());
+          if (entry->is_number_float() && !std::isfinite(entry->get<double>()))
+            {
+              found.push_back(name);
+              entry = json.erase(entry);
+              continue;
+            }
+          take_out_not_finite(*entry, name, found);
+          ++entry;
+        }
+    }
+
+    /** The factor of limit equilibrium, or that there is none that fails. */
+    void
+    put_limit_factor(const double factor, Json &json)
+    {
+      const bool is_stable = std::isinf(factor) && factor > 0.;
+      json["outcome"]      = is_stable ? "stable" : "factor";
+      if (!is_stable)
+        json["value"] = factor;
+    }
+
+    template <int dim>
+    Json
+    list_of(const Point<dim> &point)
+    {
+      Json list = Json::array();
+      for (unsigned int d = 0; d < dim; ++d)
+        list.push_back(point[d]);
+      return list;
+    }
+
+    Json
+    energies_as_json(const Energies &energies)
+    {
+      Json json = Json::object();
+      for (const Energies::Term &term : Energies::terms())
+        json[term.name] = energies.*term.value;
+      json["residual"]          = energies.residual();
+      json["relative_residual"] = energies.relative_residual();
+      return json;
+    }
+
+    double
+    peak_memory()
+    {
+      rusage usage;
+      getrusage(RUSAGE_SELF, &usage);
+      return 1024. * usage.ru_maxrss;
+    }
+
+    Json
+    trials_as_json(const std::vector<Trial> &trials)
+    {
+      Json list = Json::array();
+      for (const Trial &trial : trials)
+        list.push_back({{"factor", trial.factor},
+                        {"start", trial.start},
+                        {"of_group", trial.is_of_group},
+                        {"stable", trial.is_stable},
+                        {"undecided", trial.is_undecided},
+                        {"broken_bonds", trial.n_broken},
+                        {"phase", trial.phase},
+                        {"slip", trial.slip},
+                        {"velocity", trial.velocity},
+                        {"acceleration", trial.acceleration},
+                        {"unbalanced", trial.unbalanced},
+                        {"steps", trial.n_steps},
+                        {"seconds", trial.seconds},
+                        {"phase_1_seconds", trial.phase_1_seconds}});
+      return list;
+    }
+
+    /** The blocks that move together, and their factor. */
+    Json
+    group_as_json(const SafetyFactor &factor)
+    {
+      return {{"blocks", factor.group},
+              {"lower", factor.group_lower},
+              {"upper", factor.group_upper},
+              {"value", 0.5 * (factor.group_lower + factor.group_upper)}};
+    }
+
+    Json
+    strength_reduction_as_json(const SafetyFactor &factor)
+    {
+      Json json = {{"stage", factor.stage}, {"lower", factor.lower}};
+      if (factor.outcome != SafetyFactor::Outcome::clamped)
+        {
+          json["upper"] = factor.upper;
+          json["value"] = factor.value();
+        }
+      if (factor.undecided_upper > 0.)
+        {
+          json["undecided_lower"] = factor.undecided_lower;
+          json["undecided_upper"] = factor.undecided_upper;
+        }
+      json["outcome"]      = describe_outcome(factor);
+      json["failure_mode"] = factor.failure_mode;
+      if (!factor.group.empty())
+        json["group"] = group_as_json(factor);
+      json["trials"] = trials_as_json(factor.trials);
+      return json;
+    }
+
+    /** Factors of one block, in the order of the stages. */
+    void
+    put_factors(const std::vector<SafetyFactor> &factors,
+                const unsigned int block,
+                Json &json)
+    {
+      Json strength = Json::array(), limit = Json::array(),
+           ratio = Json::array();
+      for (const SafetyFactor &factor : factors)
+        {
+          if (factor.block != block)
+            continue;
+          strength.push_back(strength_reduction_as_json(factor));
+          Json cheap = {{"stage", factor.stage},
+                        {"mode", factor.limit_mode},
+                        {"remark", factor.limit_remark}};
+          put_limit_factor(factor.limit_factor, cheap);
+          limit.push_back(cheap);
+          ratio.push_back(
+            {{"stage", factor.stage}, {"value", factor.stress_ratio}});
+          json["failure_mode"] = factor.failure_mode;
+        }
+      if (strength.empty())
+        return;
+      json["safety_factor"]     = strength;
+      json["limit_equilibrium"] = limit;
+      json["stress_ratio"]      = ratio;
+    }
+
+    /** Areas by name of the joint. */
+    template <int dim, typename Areas>
+    Json
+    areas_as_json(const Areas &areas, const Scene<dim> &scene)
+    {
+      Json json = Json::object();
+      for (const auto &[joint, area] : areas)
+        json[scene.joints[joint]->name] = area;
+      return json;
+    }
+
+    template <int dim>
+    void
+    put_exact_measures(const Block<dim> &block,
+                       const Scene<dim> &scene,
+                       Json &json)
+    {
+      json["exact_volume"] = block.exact.volume;
+      json["exact_weight"] = 9.81 * block.exact_mass();
+      if (!block.exact.joint_area.empty())
+        json["exact_joint_areas"] =
+          areas_as_json(block.exact.joint_area, scene);
+    }
+
+    template <int dim>
+    Json
+    mesh_report_as_json(const MeshReport<dim> &report, const Scene<dim> &scene)
+    {
+      Json json = {{"way", report.way},
+                   {"reason", report.reason},
+                   {"largest_shift", report.largest_shift},
+                   {"largest_shift_in_cells", report.largest_shift_in_cells},
+                   {"percentile_99", report.percentile_99},
+                   {"percentile_99_in_cells", report.percentile_99_in_cells},
+                   {"area_ratio_of_finite_joints", report.area_ratio},
+                   {"area_ratio_of_large_joints", report.area_ratio_of_large},
+                   {"passes", report.n_passes},
+                   {"lost_blocks", report.n_lost_blocks},
+                   {"largest_lost_volume", report.largest_lost_volume}};
+      if (report.n_lost_blocks > 0)
+        json["largest_lost_place"] = list_of<dim>(report.largest_lost_place);
+      const auto names = [&scene](const std::vector<unsigned int> &joints) {
+        std::string text;
+        for (const unsigned int j : joints)
+          text += (text.empty() ? "" : ", ") + scene.joints[j]->name;
+        return text;
+      };
+      json["joints_lost"]    = names(report.lost);
+      json["joints_outside"] = names(report.outside);
+      for (const auto &pair : report.merged)
+        json["merged_areas"][scene.joints[pair.joint]->name + " " +
+                             scene.joints[pair.other]->name] = pair.area;
+      for (const auto &gap : report.gaps)
+        json["open_ends"].push_back(scene.joints[gap.joint]->name + " before " +
+                                    scene.joints[gap.other]->name);
+      return json;
+    }
+
+    template <int dim>
+    Json
+    blocks_as_json(const Blocks<dim> &blocks,
+                   const Scene<dim> &scene,
+                   const std::vector<SafetyFactor> &factors,
+                   const std::vector<unsigned int> &removal_stage,
+                   const std::vector<MassScaling> &scaling)
+    {
+      Json list = Json::array();
+      for (const Block<dim> &block : blocks.blocks)
+        {
+          const unsigned int b = &block - blocks.blocks.data();
+          Json json            = {{"id", block.id}, {"class", Json::array()}};
+          for (const BlockClass kind : block.class_of_stage)
+            json["class"].push_back(to_string(kind));
+          json["removable"] = block.is_removable;
+          json["cells"]     = block.n_cells;
+          json["volume"]    = block.volume;
+          if (!block.is_infinite)
+            {
+              json["width"]        = block.width;
+              json["cells_across"] = block.cells_across();
+            }
+          if (block.exact.is_known)
+            put_exact_measures(block, scene, json);
+          json["mass"]   = block.mass;
+          json["weight"] = 9.81 * block.mass;
+          json["added_mass"] =
+            b < scaling.size() ? scaling[b].added_fraction() : 0.;
+          json["centroid"] = list_of<dim>(block.centroid);
+          if (block.exposed_stage != none)
+            json["exposed_stage"] = block.exposed_stage;
+          if (!block.joint_area.empty())
+            json["joint_areas"] = areas_as_json(block.joint_area, scene);
+          if (b < removal_stage.size() && removal_stage[b] > 1)
+            json["removed_in_stage"] = scene.stages[removal_stage[b] - 2]->name;
+          put_factors(factors, b, json);
+          list.push_back(json);
+        }
+      return list;
+    }
+
+    template <int dim>
+    Json
+    stage_as_json(const StageReport &stage)
+    {
+      Json json = {{"name", stage.name},
+                   {"steps", stage.steps},
+                   {"time_step", stage.time_step},
+                   {"unbalanced_ratio", stage.unbalanced_ratio},
+                   {"largest_nodal_ratio", stage.largest_nodal_ratio},
+                   {"converged", stage.is_converged}};
+      if (!stage.remark.empty())
+        json["remark"] = stage.remark;
+      json["max_displacement"]      = stage.max_displacement;
+      json["cells"]                 = stage.cells;
+      json["plastic_cells"]         = stage.plastic_cells;
+      json["yielding_points"]       = stage.yielding_points;
+      json["open_points"]           = stage.points.open;
+      json["sliding_points"]        = stage.points.sliding;
+      json["sticking_points"]       = stage.points.sticking;
+      json["contacts_through_rock"] = stage.through_rock;
+      json["largest_overlap"]       = stage.largest_overlap;
+      if (stage.largest_overlap > 0.)
+        json["largest_overlap_at"] =
+          std::vector<double>(stage.overlap_place.begin(),
+                              stage.overlap_place.begin() + dim);
+      json["energy"] = energies_as_json(stage.energies);
+      return json;
+    }
+
+    Json
+    run_as_json(const RunReport &run)
+    {
+      return {{"steps", run.steps},
+              {"time_step", run.time_step},
+              {"time_step_set_at", run.stable_step_place},
+              {"step_ratio", run.step_ratio},
+              {"time_step_set_beside", run.stable_step_joints},
+              {"added_mass", total_added_fraction(run.mass_scaling)},
+              {"simulated_time", run.simulated_time},
+              {"wall_time", run.wall_time},
+              {"loop_time", run.loop_time},
+              {"contact_time", run.contact_time},
+              {"force_time", run.force_time},
+              {"skipped_element_steps", run.skipped_steps},
+              {"million_element_steps_per_second",
+               run.loop_time > 0. ? 1e-6 * run.element_steps / run.loop_time
+                                  : 0.},
+              {"capped_contact_groups", run.capped_groups}};
+    }
+
+    Json
+    program_as_json()
+    {
+      return {{"version", KEYBLOCK_VERSION},
+              {"deal_ii_version", DEAL_II_PACKAGE_VERSION},
+              {"ranks", n_ranks()},
+#ifdef DEBUG
+              {"build_type", "Debug"}};
+#else
+              {"build_type", "Release"}};
+#endif
+    }
+
+    Json
+    geostress_as_json(const Geostress &geostress)
+    {
+      Json json = {{"coefficients", Json::object()},
+                   {"standard_errors", Json::object()}};
+      for (unsigned int j = 0; j < geostress.names.size(); ++j)
+        {
+          const std::string &name       = geostress.names[j];
+          json["coefficients"][name]    = geostress.fit.coefficients[j];
+          json["standard_errors"][name] = geostress.fit.standard_errors[j];
+        }
+      json["r_squared"]        = geostress.fit.r_squared;
+      json["condition_number"] = geostress.fit.condition_number;
+      return json;
+    }
+
+    /** Throw ComputationError on all ranks if rank 0 has a @p message. */
+    void
+    assert_finite(const std::string &message)
+    {
+      const std::string text = text_of_root(message);
+      AssertThrow(text.empty(), ComputationError(text));
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Output<dim>::write_summary(const MeshQuality &quality,
+                             const MeshReport<dim> &mesh_report,
+                             const RunReport &run,
+                             const std::vector<StageReport> &stages,
+                             const History &history,
+                             const CheckValues &checks,
+                             const std::vector<SafetyFactor> &factors,
+                             const std::vector<unsigned int> &removal_stage,
+                             const Geostress *geostress) const
+  {
+    const double memory         = sum_over_ranks(peak_memory());
+    const std::string file_name = folder + "summary.json";
+    if (!is_root())
+      {
+        assert_written(true, file_name);
+        assert_finite("");
+        return;
+      }
+    Json root = Json::object();
+    if (geostress != nullptr)
+      root["geostress"] = geostress_as_json(*geostress);
+    root["program"] = program_as_json();
+    root["scene"]   = {{"name", scene.file},
+                       {"title", scene.title},
+                       {"dimension", dim},
+                       {"cells", split.mesh.n_cells()},
+                       {"nodes", numbering.n_global()},
+                       {"joints", scene.joints.size()},
+                       {"sign_codes", blocks.n_sign_codes},
+                       {"pairs", split.interface.pairs.size()},
+                       {"minimum_scaled_jacobian",
+                        quality.minimum_scaled_jacobian}};
+    if (!mesh_report.way.empty())
+      root["mesh"] = mesh_report_as_json(mesh_report, scene);
+    root["run"]                      = run_as_json(run);
+    root["run"]["peak_memory_bytes"] = memory;
+    root["energy"] =
+      energies_as_json(stages.empty() ? Energies() : stages.back().energies);
+    root["blocks"] = blocks_as_json<dim>(
+      blocks, scene, factors, removal_stage, run.mass_scaling);
+    if (scene.block_theory.report)
+      root["block_theory"] =
+        block_theory_as_json(find_block_theory(scene, scene.block_theory));
+    root["stages"] = Json::array();
+    for (const StageReport &stage : stages)
+      root["stages"].push_back(stage_as_json<dim>(stage));
+    root["monitors"] = Json::object();
+    if (!history.rows.empty())
+      for (unsigned int c = 3; c < history.columns.size(); ++c)
+        root["monitors"][history.columns[c]] = history.rows.back()[c];
+    root["checks"] = Json::object();
+    for (const auto &[name, value] : checks)
+      root["checks"][name] = value;
+
+    std::vector<std::string> not_finite;
+    take_out_not_finite(root, "", not_finite);
+    if (!not_finite.empty())
+      root["not_finite"] = not_finite;
+    std::ofstream out(file_name);
+    out << root.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    assert_written(bool(out.flush()), file_name);
+    assert_finite(
+      not_finite.empty()
+        ? ""
+        : "The value '" + not_finite.front() + "' of '" + file_name +
+            "' is not finite" +
+            (not_finite.size() > 1
+               ? ", nor are " + std::to_string(not_finite.size() - 1) +
+                   " others"
+               : "") +
+            "; the file lists them under 'not_finite' and leaves them out.");
+  }
+
+  template void Output<2>::write_summary(const MeshQuality &,
+                                         const MeshReport<2> &,
+                                         const RunReport &,
+                                         const std::vector<StageReport> &,
+                                         const History &,
+                                         const CheckValues &,
+                                         const std::vector<SafetyFactor> &,
+                                         const std::vector<unsigned int> &,
+                                         const Geostress *) const;
+  template void Output<3>::write_summary(const MeshQuality &,
+                                         const MeshReport<3> &,
+                                         const RunReport &,
+                                         const std::vector<StageReport> &,
+                                         const History &,
+                                         const CheckValues &,
+                                         const std::vector<SafetyFactor> &,
+                                         const std::vector<unsigned int> &,
+                                         const Geostress *) const;
+} // namespace Keyblock

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/expression.h>
+#include <keyblock/safety/block_statics.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <sstream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Faces bent by less are not worth a remark [deg]. */
+    constexpr double least_bend = 1.;
+
+    bool
+    depends_on_time(const std::string &formula)
+    {
+      return std::regex_search(formula, std::regex("\\bt\\b"));
+    }
+
+    /** Adds what is to be said about one block. */
+    template <int dim>
+    class Remarks
+    {
+    public:
+      Remarks(const Ground<dim> &ground,
+              const FreeFaces<dim> &free,
+              const Blocks<dim> &blocks,
+              const unsigned int block,
+              BlockStatics<dim> &statics)
+        : ground(ground)
+        , free(free)
+        , scene(ground.scene)
+        , blocks(blocks)
+        , index(block)
+        , block(blocks.blocks[block])
+        , around(statics.around)
+        , limit(statics.limit)
+        , remarks(statics.remarks)
+      {}
+
+      void
+      add_loads(const double time)
+      {
+        const auto &coefficient = scene.safety.seismic_coefficient;
+        if (around.loads.seismic.norm() > 0.)
+          {
+            add() << "with the seismic coefficient ";
+            for (unsigned int d = 0; d < coefficient.size(); ++d)
+              last << (d ? ", " : "") << coefficient[d];
+            last << ", which runs and trials do not see";
+          }
+        bool is_varying = depends_on_time(scene.initial_state.gravity);
+        for (const auto &traction : scene.tractions)
+          is_varying = is_varying || (!around.loads.tractions.empty() &&
+                                      depends_on_time(traction->expression));
+        if (is_varying)
+          add() << "loads of t = " << time << " s";
+      }
+
+      void
+      add_rotation(const Rotation &rotation, const double factor_of_sliding)
+      {
+        using Mode = typename LimitEquilibrium<dim>::Mode;
+        if (limit.mode == Mode::one_plane && !rotation.is_judged)
+          add() << "rotation not judged: its base is not plane";
+        if (rotation.outside == 0.)
+          return;
+        add() << "the resultant passes " << rotation.outside
+              << " m outside the base";
+        if (limit.mode == Mode::rotating)
+          last << ", which no friction prevents; sliding alone "
+               << factor_of_sliding;
+        else if (dim == 2)
+          last << "; " << rotation.obstacle << " keeps it from turning";
+        else
+          last << ": it may rotate (an indication only)";
+      }
+
+      void
+      add_faces()
+      {
+        std::set<std::string> names;
+        for (unsigned int i = 0; i < limit.n_pressed; ++i)
+          names.insert(around.faces[limit.faces[i]].name);
+        const unsigned int n_planes =
+          limit.mode == LimitEquilibrium<dim>::Mode::two_planes ? 2 : 1;
+        if (names.size() > n_planes)
+          add() << "parallel faces share the normal force by their areas";
+        if (around.has_free_face)
+          add() << "free faces that touch have the default friction angle";
+        if (around.largest_bend > least_bend)
+          add() << "faces on " << around.bent << ", bent by up to "
+                << around.largest_bend << " degrees, taken as plane";
+        for (const auto &joint : scene.joints)
+          {
+            if (std::none_of(around.faces.begin(),
+                             around.faces.end(),
+                             [&](const BlockFace<dim> &face) {
+                               return face.name == joint->name;
+                             }))
+              continue;
+            if (joint->tensile_strength > 0.)
+              add() << "tensile strength of " << joint->name << " left out";
+            if (joint->cohesion_of_sliding() < joint->cohesion)
+              add() << "peak cohesion of " << joint->name << ", residual "
+                    << joint->cohesion_of_sliding() << " Pa";
+          }
+      }
+
+      void
+      add_neighbors()
+      {
+        std::set<unsigned int> moving;
+        std::set<std::string> moved;
+        for (unsigned int i = 0; i < around.faces.size(); ++i)
+          for (const unsigned int other : around.others[i])
+            {
+              const Block<dim> &b = blocks.blocks[other];
+              const auto pressed  = limit.faces.begin() + limit.n_pressed;
+              if (!b.is_infinite && !b.is_rigid &&
+                  std::find(limit.faces.begin(), pressed, i) != pressed)
+                moving.insert(b.id);
+              if (b.is_rigid)
+                add_motion_of(other, moved);
+            }
+        if (!moving.empty())
+          {
+            add() << "rests on block";
+            for (const unsigned int id : moving)
+              last << (id == *moving.begin() ? " " : ", ") << id;
+            last << ", taken as fixed";
+          }
+        for (const std::string &name : moved)
+          add() << "motion of " << name << " left out";
+        if (around.is_attached)
+          add() << "joined to rock that is not dug yet, left out";
+        if (around.is_on_fill)
+          add() << "joined to fill, left out";
+        for (const auto &support : scene.supports)
+          if (is_held_by(*support))
+            add() << "held by the support " << support->name << ", left out";
+      }
+
+      /** Free faces ahead on its way. */
+      void
+      add_obstacle()
+      {
+        if (limit.direction.norm() == 0. ||
+            limit.mode == LimitEquilibrium<dim>::Mode::rotating)
+          return;
+        const Mesh<dim> &mesh = ground.split.mesh;
+        std::optional<typename FreeFaces<dim>::Meeting> first;
+        for (const unsigned int i : free.of_block(index))
+          {
+            const CellFace &own = free.faces[i];
+            const Tensor<1, dim> area =
+              mesh.face_area_vector(own.cell, own.face);
+            if (area * limit.direction <= 1e-6 * area.norm())
+              continue;
+            const auto meeting =
+              free.first_ahead(mesh.face_center(own.cell, own.face),
+                               limit.direction,
+                               0.,
+                               first ? first->distance : block.size,
+                               index);
+            if (meeting && (!first || meeting->distance < first->distance))
+              first = meeting;
+          }
+        if (!first)
+          return;
+        const unsigned int other = ground.split.block_of_cell[first->face.cell];
+        add() << "meets ";
+        if (other == none)
+          last << "rock that is not dug yet";
+        else if (blocks.blocks[other].is_infinite)
+          last << "the rock";
+        else
+          last << "block " << blocks.blocks[other].id;
+        last << " after " << first->distance << " m";
+      }
+
+      void
+      finish()
+      {
+        add();
+        remarks.pop_back();
+      }
+
+    private:
+      /** Begin a remark. */
+      std::ostringstream &
+      add()
+      {
+        if (!remarks.empty())
+          remarks.back() = last.str();
+        remarks.emplace_back();
+        last.str("");
+        last.precision(4);
+        return last;
+      }
+
+      /** Whether the support holds a vertex of the block. */
+      bool
+      is_held_by(const Support<dim> &support) const
+      {
+        const Mesh<dim> &mesh = ground.split.mesh;
+        std::unique_ptr<Expression<dim>> inside;
+        if (!support.region.empty())
+          inside = std::make_unique<Expression<dim>>(support.region,
+                                                     1,
+                                                     "Supports/*/Region");
+        for (const unsigned int c : free.cells_of_block(index))
+          {
+            if (inside)
+              for (const unsigned int v : mesh.cells[c])
+                if (inside->value(mesh.vertices[v], 0., 0) > 0.)
+                  return true;
+            for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+              for (const std::string &name : support.boundaries)
+                if (mesh.is_on(c, f, name))
+                  return true;
+          }
+        return false;
+      }
+
+      /** Names of the rigid bodies of a block that move. */
+      void
+      add_motion_of(const unsigned int other,
+                    std::set<std::string> &names) const
+      {
+        for (const unsigned int c : free.cells_of_block(other))
+          if (const auto &material =
+                *scene.materials[ground.split.mesh.material[c]];
+              !material.rigid_velocity.empty())
+            names.insert(material.name);
+      }
+
+      const Ground<dim> &ground;
+      const FreeFaces<dim> &free;
+      const Scene<dim> &scene;
+      const Blocks<dim> &blocks;
+      const unsigned int index;
+      const Block<dim> &block;
+      const BlockSurroundings<dim> &around;
+      const LimitEquilibrium<dim> &limit;
+      std::vector<std::string> &remarks;
+      std::ostringstream last;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  BlockStatics<dim>
+  judge_block(const Ground<dim> &ground,
+              const FreeFaces<dim> &free,
+              const Blocks<dim> &blocks,
+              const unsigned int block,
+              const double time)
+  {
+    BlockStatics<dim> statics;
+    statics.around = look_around(ground, free, blocks.blocks[block], time);
+    const BlockLoads<dim> &loads = statics.around.loads;
+    statics.limit =
+      solve_limit_equilibrium<dim>(statics.around.faces, loads.without_water());
+    const double factor_of_sliding = statics.limit.factor;
+    const Rotation rotation =
+      judge_rotation<dim>(statics.around.faces, loads.all(), statics.limit);
+    Remarks<dim> remarks(ground, free, blocks, block, statics);
+    remarks.add_loads(time);
+    remarks.add_rotation(rotation, factor_of_sliding);
+    remarks.add_faces();
+    remarks.add_neighbors();
+    remarks.add_obstacle();
+    remarks.finish();
+    return statics;
+  }
+
+
+
+  template <int dim>
+  bool
+  has_initial_stress(const Scene<dim> &scene)
+  {
+    return !scene.initial_state.stress.empty() ||
+           scene.initial_state.has_depth_stress() ||
+           !scene.initial_state.measured_points.empty();
+  }
+
+  template BlockStatics<2> judge_block(const Ground<2> &,
+                                       const FreeFaces<2> &,
+                                       const Blocks<2> &,
+                                       const unsigned int,
+                                       const double);
+  template BlockStatics<3> judge_block(const Ground<3> &,
+                                       const FreeFaces<3> &,
+                                       const Blocks<3> &,
+                                       const unsigned int,
+                                       const double);
+  template bool has_initial_stress(const Scene<2> &);
+  template bool has_initial_stress(const Scene<3> &);
+} // namespace Keyblock

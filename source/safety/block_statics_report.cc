@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Limit equilibrium for people.
+#include <keyblock/safety/block_statics.h>
+
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    template <int dim>
+    std::string
+    components(const Tensor<1, dim> &force)
+    {
+      std::ostringstream out;
+      out << std::setprecision(5) << '(';
+      for (unsigned int d = 0; d < dim; ++d)
+        out << (d ? ", " : "")
+            << (std::abs(force[d]) < 1e-12 * force.norm() ? 0.
+                                                          : 1e-3 * force[d]);
+      out << ')';
+      return out.str();
+    }
+
+    /** Whether two answers are the same but for rounding. */
+    template <int dim>
+    bool
+    agree(const BlockStatics<dim> &a, const BlockStatics<dim> &b)
+    {
+      return a.mode() == b.mode() && a.forces() == b.forces() &&
+             a.remark() == b.remark() &&
+             (a.limit.factor == b.limit.factor ||
+              std::abs(a.limit.factor - b.limit.factor) <
+                1e-9 * a.limit.factor);
+    }
+
+    template <int dim>
+    void
+    print_row(std::ostream &out,
+              const unsigned int id,
+              const std::string &stage,
+              const BlockStatics<dim> &statics)
+    {
+      out << std::setw(4) << id << "  " << std::left << std::setw(11) << stage
+          << std::right << "  " << std::setw(9);
+      if (std::isfinite(statics.limit.factor))
+        out << std::setprecision(6) << statics.limit.factor;
+      else
+        out << '-';
+      out << "  " << statics.mode() << ": " << statics.forces();
+      const std::string remark = statics.remark();
+      out << (remark.empty() ? "" : "; ") << remark << '\n';
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::string
+  BlockStatics<dim>::remark() const
+  {
+    std::string text;
+    for (const std::string &one : remarks)
+      text += (text.empty() ? "" : "; ") + one;
+    return text;
+  }
+
+
+
+  template <int dim>
+  std::string
+  BlockStatics<dim>::forces() const
+  {
+    const BlockLoads<dim> &loads = around.loads;
+    std::ostringstream out;
+    out << std::setprecision(6) << "weight " << 1e-3 * loads.weight.norm();
+    if (!loads.tractions.empty())
+      out << ", tractions " << components(sum_of(loads.tractions));
+    if (!loads.water.empty())
+      out << ", water " << components(sum_of(loads.water));
+    if (loads.seismic.norm() > 0.)
+      out << ", seismic " << components(loads.seismic);
+    if (limit.direction.norm() > 0.)
+      out << ", driving " << 1e-3 * limit.driving_force;
+    for (unsigned int i = 0; i < limit.n_pressed; ++i)
+      out << ", N " << 1e-3 * limit.normal_forces[i] << " on "
+          << around.faces[limit.faces[i]].name;
+    for (const unsigned int i : limit.faces)
+      if (around.faces[i].cohesion > 0.)
+        out << ", cA " << 1e-3 * around.faces[i].cohesion * around.faces[i].area
+            << " on " << around.faces[i].name;
+    return out.str();
+  }
+
+
+
+  template <int dim>
+  void
+  print_block_statics(std::ostream &out,
+                      const Scene<dim> &scene,
+                      const SplitMesh<dim> &split,
+                      const Blocks<dim> &blocks)
+  {
+    std::vector<std::unique_ptr<BlockStatics<dim>>> last(blocks.blocks.size());
+    std::ostringstream rows;
+    for (unsigned int number = 1; number < scene.stages.size() + 2; ++number)
+      {
+        if (number > 1 && !is_changing(scene, number))
+          continue;
+        const Ground<dim> ground{scene, split, number, nullptr};
+        const FreeFaces<dim> free(ground);
+        for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+          {
+            const auto &classes = blocks.blocks[b].class_of_stage;
+            if (classes[std::min<std::size_t>(number, classes.size() - 1)] !=
+                BlockClass::exposed)
+              continue;
+            auto statics = std::make_unique<BlockStatics<dim>>(
+              judge_block(ground, free, blocks, b, 0.));
+            if (!last[b] || !agree(*last[b], *statics))
+              print_row(rows,
+                        blocks.blocks[b].id,
+                        number == 1 ? "the start"
+                                    : scene.stages[number - 2]->name,
+                        *statics);
+            last[b] = std::move(statics);
+          }
+      }
+    if (rows.str().empty())
+      return;
+    out << "Limit equilibrium of rigid blocks between fixed neighbours, "
+        << (has_initial_stress(scene) ? "without the in-situ stress, " : "")
+        << "in kN" << (dim == 2 ? "/m" : "") << "; rotation is judged on one "
+        << (dim == 2 ? "plane only" : "plane only, as an indication")
+        << "\n  id  after           factor  mode and forces\n"
+        << rows.str();
+  }
+
+  template struct BlockStatics<2>;
+  template struct BlockStatics<3>;
+  template void print_block_statics(std::ostream &,
+                                    const Scene<2> &,
+                                    const SplitMesh<2> &,
+                                    const Blocks<2> &);
+  template void print_block_statics(std::ostream &,
+                                    const Scene<3> &,
+                                    const SplitMesh<3> &,
+                                    const Blocks<3> &);
+} // namespace Keyblock

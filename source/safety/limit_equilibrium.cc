@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/safety/limit_equilibrium.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Keyblock
+{
+  using dealii::Tensor;
+
+  namespace
+  {
+    /** Cosines below this are taken for a movement along the face. */
+    constexpr double tolerance = 1e-9;
+
+    /** Difference of unit normals up to which faces count as parallel. */
+    constexpr double parallel = 1e-6;
+
+    template <int dim>
+    bool
+    closes_none(const std::vector<BlockFace<dim>> &faces,
+                const Tensor<1, dim> &direction)
+    {
+      for (const BlockFace<dim> &face : faces)
+        if (face.inward * direction < -tolerance)
+          return false;
+      return true;
+    }
+
+    /** Unit vector of @p force within the plane of @p face; zero if none. */
+    template <int dim>
+    Tensor<1, dim>
+    along(const BlockFace<dim> &face, const Tensor<1, dim> &force)
+    {
+      const Tensor<1, dim> t = force - (force * face.inward) * face.inward;
+      return t.norm() > tolerance * force.norm() ? t / t.norm()
+                                                 : Tensor<1, dim>();
+    }
+
+    /** Add to @p result the faces that it moves along without pressing on
+     * them: cohesion resists there. Returns their resistance [N]. */
+    template <int dim>
+    double
+    add_side_faces(const std::vector<BlockFace<dim>> &faces,
+                   LimitEquilibrium<dim> &result)
+    {
+      const std::vector<unsigned int> pressed = result.faces;
+      double resistance                       = 0.;
+      for (unsigned int i = 0; i < faces.size(); ++i)
+        if (std::abs(faces[i].inward * result.direction) <= tolerance &&
+            faces[i].cohesion > 0. &&
+            std::find(pressed.begin(), pressed.end(), i) == pressed.end())
+          {
+            resistance += faces[i].cohesion * faces[i].area;
+            result.faces.push_back(i);
+            result.normal_forces.push_back(0.);
+          }
+      return resistance;
+    }
+
+    /** Let @p planes be pressed, and all faces parallel to them, which share
+     * their normal forces [N]. */
+    template <int dim>
+    void
+    press(const std::vector<BlockFace<dim>> &faces,
+          const std::vector<unsigned int> &planes,
+          const std::vector<double> &normal_forces,
+          LimitEquilibrium<dim> &result)
+    {
+      for (unsigned int p = 0; p < planes.size(); ++p)
+        {
+          std::vector<unsigned int> group;
+          double area = 0.;
+          for (unsigned int i = 0; i < faces.size(); ++i)
+            if ((faces[i].inward - faces[planes[p]].inward).norm() < parallel)
+              {
+                group.push_back(i);
+                area += faces[i].area;
+              }
+          for (const unsigned int i : group)
+            {
+              result.faces.push_back(i);
+              result.normal_forces.push_back(
+                normal_forces[p] *
+                (area > 0. ? faces[i].area / area : 1. / group.size()));
+            }
+        }
+      result.n_pressed = result.faces.size();
+    }
+
+    /** Effective normal forces on one or two @p planes that balance the
+     * resultant across the direction of sliding [N]. */
+    template <int dim>
+    std::vector<double>
+    normal_forces_on(const std::vector<BlockFace<dim>> &faces,
+                     const std::vector<unsigned int> &planes,
+                     const Tensor<1, dim> &resultant)
+    {
+      const Tensor<1, dim> &a = faces[planes[0]].inward;
+      if (planes.size() == 1)
+        return {-(resultant * a)};
+      const Tensor<1, dim> &b  = faces[planes[1]].inward;
+      const double cosine      = a * b;
+      const double determinant = 1. - cosine * cosine;
+      const double ra = -(resultant * a), rb = -(resultant * b);
+      return {(ra - cosine * rb) / determinant,
+              (rb - cosine * ra) / determinant};
+    }
+
+    /** Factor and forces of a block that slides along result.direction on
+     * @p planes, which it presses on. */
+    template <int dim>
+    void
+    resist(const std::vector<BlockFace<dim>> &faces,
+           const std::vector<unsigned int> &planes,
+           const Tensor<1, dim> &resultant,
+           LimitEquilibrium<dim> &result)
+    {
+      result.driving_force = resultant * result.direction;
+      press(faces, planes, normal_forces_on(faces, planes, resultant), result);
+      double resistance = 0.;
+      for (unsigned int i = 0; i < result.faces.size(); ++i)
+        {
+          const BlockFace<dim> &face = faces[result.faces[i]];
+          resistance += face.cohesion * face.area +
+                        face.tangent_friction * result.normal_forces[i];
+        }
+      resistance += add_side_faces(faces, result);
+      result.factor = resistance / result.driving_force;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  LimitEquilibrium<dim>
+  solve_limit_equilibrium(const std::vector<BlockFace<dim>> &faces,
+                          const Tensor<1, dim> &load)
+  {
+    using Mode = typename LimitEquilibrium<dim>::Mode;
+    LimitEquilibrium<dim> result;
+    Tensor<1, dim> resultant = load;
+    for (const BlockFace<dim> &face : faces)
+      resultant += face.water_force * face.inward;
+    if (resultant.norm() == 0.)
+      {
+        result.factor = std::numeric_limits<double>::infinity();
+        return result;
+      }
+    if (closes_none(faces, resultant / resultant.norm()))
+      {
+        result.direction = resultant / resultant.norm();
+        result.mode =
+          result.direction[dim - 1] > 0. ? Mode::lifting : Mode::falling;
+        result.driving_force = resultant.norm();
+        result.factor = add_side_faces(faces, result) / result.driving_force;
+        return result;
+      }
+    for (unsigned int i = 0; i < faces.size(); ++i)
+      if (resultant * faces[i].inward < 0.)
+        {
+          const Tensor<1, dim> s = along(faces[i], resultant);
+          if (s.norm() > 0. && closes_none(faces, s))
+            {
+              result.mode      = Mode::one_plane;
+              result.direction = s;
+              resist(faces, {i}, resultant, result);
+              return result;
+            }
+        }
+    if constexpr (dim == 3)
+      for (unsigned int i = 0; i < faces.size(); ++i)
+        for (unsigned int j = i + 1; j < faces.size(); ++j)
+          {
+            Tensor<1, dim> s =
+              cross_product_3d(faces[i].inward, faces[j].inward);
+            if (s.norm() < tolerance)
+              continue;
+            s *= (s * resultant > 0. ? 1. : -1.) / s.norm();
+            if (s * resultant < tolerance * resultant.norm() ||
+                !closes_none(faces, s) ||
+                along(faces[i], resultant) * faces[j].inward > 0. ||
+                along(faces[j], resultant) * faces[i].inward > 0.)
+              continue;
+            LimitEquilibrium<dim> candidate;
+            const std::vector<double> normal_forces =
+              normal_forces_on(faces, {i, j}, resultant);
+            if (normal_forces[0] < 0. || normal_forces[1] < 0.)
+              continue;
+            candidate.mode      = Mode::two_planes;
+            candidate.direction = s;
+            resist(faces, {i, j}, resultant, candidate);
+            return candidate;
+          }
+    result.factor = std::numeric_limits<double>::infinity();
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::string
+  LimitEquilibrium<dim>::describe(const std::vector<BlockFace<dim>> &all) const
+  {
+    switch (mode)
+      {
+        case Mode::stable:
+          return "stable";
+        case Mode::falling:
+          return "falling";
+        case Mode::lifting:
+          return "lifting";
+        case Mode::one_plane:
+        case Mode::two_planes:
+          return "sliding on " + names(all);
+        case Mode::rotating:
+          return "rotating on " + names(all);
+      }
+    return "";
+  }
+
+
+
+  template <int dim>
+  std::string
+  LimitEquilibrium<dim>::names(const std::vector<BlockFace<dim>> &all) const
+  {
+    std::vector<std::string> found;
+    for (unsigned int i = 0; i < n_pressed; ++i)
+      if (const std::string &name = all[faces[i]].name;
+          std::find(found.begin(), found.end(), name) == found.end())
+        found.push_back(name);
+    std::string text;
+    for (const std::string &name : found)
+      text += (text.empty() ? "" : "/") + name;
+    return text;
+  }
+
+  template struct LimitEquilibrium<2>;
+  template struct LimitEquilibrium<3>;
+  template LimitEquilibrium<2>
+  solve_limit_equilibrium(const std::vector<BlockFace<2>> &,
+                          const Tensor<1, 2> &);
+  template LimitEquilibrium<3>
+  solve_limit_equilibrium(const std::vector<BlockFace<3>> &,
+                          const Tensor<1, 3> &);
+} // namespace Keyblock

@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The search for the factor between holding and failing.
+#include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/safety_factor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Keyblock
+{
+  std::string
+  describe_outcome(const SafetyFactor &factor)
+  {
+    std::ostringstream above;
+    above << "above " << factor.lower;
+    switch (factor.outcome)
+      {
+        case SafetyFactor::Outcome::bracketed:
+          return "value";
+        case SafetyFactor::Outcome::falls_freely:
+          return "falls freely";
+        case SafetyFactor::Outcome::immovable:
+          return "immovable";
+        case SafetyFactor::Outcome::clamped:
+          return above.str() + (factor.limit_factor < factor.lower
+                                  ? ", held by clamping"
+                                  : "");
+        case SafetyFactor::Outcome::undecided:
+          return "undecided";
+      }
+    return "";
+  }
+
+
+
+  /** The bracket so far, and the states that trials start from. */
+  template <int dim>
+  class StrengthReductionSearch<dim>::Search
+  {
+  public:
+    Search(StrengthReductionSearch &owner,
+           const unsigned int block,
+           const unsigned int number,
+           const Known &known,
+           std::vector<Trial> &trials)
+      : stable(known.stable)
+      , unstable(known.unstable)
+      , owner(owner)
+      , block(block)
+      , number(number)
+      , start(known.start)
+      , first_slip(owner.run.contact->mean_slip(block))
+      , before(take_snapshot(owner.run))
+      , state(owner.freeze_beyond_reach(block) ? take_snapshot(owner.run)
+                                               : before)
+      , trials(trials)
+    {}
+
+    /** Try @p factor; with warm starts the next trial goes on from the highest
+     * factor that held. */
+    bool
+    holds_at(const double factor)
+    {
+      const bool is_above = warm && warm_start <= factor;
+      recall(is_above ? *warm : state, owner.run);
+      const Trial trial =
+        owner.trials.try_factor(block,
+                                number,
+                                is_above ? warm_start : start_of(factor),
+                                factor,
+                                first_slip);
+      trials.push_back(trial);
+      if (trial.is_stable)
+        {
+          if (owner.scene.safety.warm_start && factor > stable)
+            {
+              warm = std::make_unique<Snapshot<dim>>(take_snapshot(owner.run));
+              warm_start = factor;
+            }
+          stable = std::max(stable, factor);
+        }
+      else if (trial.is_undecided)
+        {
+          ++n_undecided;
+          undecided_lower =
+            undecided_upper == 0. ? factor : std::min(undecided_lower, factor);
+          undecided_upper = std::max(undecided_upper, factor);
+        }
+      else
+        {
+          unstable       = factor;
+          unstable_start = trial.start;
+        }
+      forget_undecided_outside();
+      return trial.is_stable;
+    }
+
+    /** Whether the block failed at the end of the bracket by a small change
+     * of strength from a factor that held: a large one may shake it loose. If
+     * it did not, it is tried; if it holds, the bracket is open again. */
+    bool
+    confirm()
+    {
+      if (!owner.scene.safety.warm_start || warm_start <= unstable_start)
+        return true;
+      const double failed = unstable;
+      unstable            = 0.;
+      return !holds_at(failed);
+    }
+
+    /** Back to the state before the first trial. */
+    void
+    finish()
+    {
+      recall(before, owner.run);
+    }
+
+    /** Whether @p factor would tell something new. */
+    bool
+    is_open(const double factor) const
+    {
+      return factor > stable && (unstable == 0. || factor < unstable) &&
+             (factor < undecided_lower || factor > undecided_upper);
+    }
+
+    /** Whether the bracket is as narrow as asked for, but for undecided
+     * factors in it; or does not get narrower. */
+    bool
+    is_done() const
+    {
+      if (unstable == 0.)
+        return false;
+      const double width = owner.scene.safety.bracket * unstable;
+      return undecided_upper == 0. ? unstable - stable <= width
+                                   : n_undecided >= most_undecided ||
+                                       (undecided_lower - stable <= width &&
+                                        unstable - undecided_upper <= width);
+    }
+
+    /** Whether so many trials were undecided that more are of no use. */
+    bool
+    is_hopeless() const
+    {
+      return n_undecided >= most_undecided;
+    }
+
+    /** The factor to try next in a closed bracket. */
+    double
+    next() const
+    {
+      const auto middle = [](const double a, const double b) {
+        return b > 2. * a ? std::sqrt(a * b) : 0.5 * (a + b);
+      };
+      if (undecided_upper == 0.)
+        return middle(stable, unstable);
+      return unstable - undecided_upper > undecided_lower - stable
+               ? middle(undecided_upper, unstable)
+               : middle(stable, undecided_lower);
+    }
+
+    double stable, unstable; ///< 0: none known
+
+    /** Factors without a verdict; 0: none. */
+    double undecided_lower = 0., undecided_upper = 0.;
+
+  private:
+    /** Trials without a verdict after which a search ends. */
+    static constexpr unsigned int most_undecided = 6;
+
+    /** What holds or fails decides those below or above it. */
+    void
+    forget_undecided_outside()
+    {
+      if (undecided_upper == 0.)
+        return;
+      undecided_lower = std::max(undecided_lower, stable);
+      if (unstable > 0.)
+        undecided_upper = std::min(undecided_upper, unstable);
+      if (undecided_upper <= stable ||
+          (unstable > 0. && undecided_lower >= unstable))
+        undecided_lower = undecided_upper = 0.;
+    }
+
+    /** Factor from which strength changes to @p factor: not through failure. */
+    double
+    start_of(const double factor) const
+    {
+      return factor < start ? std::max(owner.scene.safety.lowest, 0.5 * factor)
+                            : start;
+    }
+
+    StrengthReductionSearch &owner;
+    const unsigned int block, number;
+    const double start; ///< factor of the state
+    const Vector<dim> first_slip;
+    const Snapshot<dim> before, state;
+    std::vector<Trial> &trials;
+    std::unique_ptr<Snapshot<dim>> warm; ///< of the highest factor that held
+    double warm_start        = 0.;
+    double unstable_start    = 0.; ///< of the trial that failed at `unstable`
+    unsigned int n_undecided = 0;
+  };
+
+
+
+  template <int dim>
+  StrengthReductionSearch<dim>::StrengthReductionSearch(
+    const Scene<dim> &scene,
+    const SplitMesh<dim> &split,
+    const Blocks<dim> &blocks,
+    const Numbering<dim> &numbering,
+    const RunParts<dim> &run)
+    : scene(scene)
+    , split(split)
+    , blocks(blocks)
+    , run(run)
+    , trials(scene, split, blocks, numbering, run)
+  {}
+
+
+
+  template <int dim>
+  SafetyFactor
+  StrengthReductionSearch<dim>::find(const unsigned int block,
+                                     const unsigned int number,
+                                     const Known &known)
+  {
+    SafetyFactor result;
+    result.block = block;
+    add_cheap_answers(block, result);
+    trials.forget_failure();
+    {
+      Search search(*this, block, number, known, result.trials);
+      result.outcome =
+        scene.safety.method == "sweep" ? sweep(search) : bisect(search, known);
+      result.lower           = search.stable;
+      result.upper           = search.unstable;
+      result.undecided_lower = search.undecided_lower;
+      result.undecided_upper = search.undecided_upper;
+      search.finish();
+    }
+    if (result.outcome != SafetyFactor::Outcome::immovable)
+      result.failure_mode = trials.failure();
+    else if (std::isfinite(result.limit_factor))
+      result.outcome = SafetyFactor::Outcome::clamped;
+    if (result.outcome == SafetyFactor::Outcome::bracketed &&
+        scene.safety.reduced_joints != "all")
+      find_group(number, known, result);
+    trials.reduce(block, 1.);
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthReductionSearch<dim>::find_group(const unsigned int number,
+                                           const Known &known,
+                                           SafetyFactor &result)
+  {
+    Known guess = known;
+    guess.hint  = result.value();
+    for (std::vector<unsigned int> more = trials.blocks_along(); !more.empty();)
+      {
+        trials.companions.insert(trials.companions.end(),
+                                 more.begin(),
+                                 more.end());
+        std::vector<Trial> tried;
+        Search search(*this, result.block, number, guess, tried);
+        const auto outcome = bisect(search, guess);
+        search.finish();
+        for (Trial &trial : tried)
+          {
+            trial.is_of_group = true;
+            result.trials.push_back(trial);
+          }
+        if (outcome != SafetyFactor::Outcome::bracketed)
+          break;
+        result.group       = ids_of_group(result.block);
+        result.group_lower = search.stable;
+        result.group_upper = search.unstable;
+        // those that move with the group only
+        more = trials.blocks_along();
+        more.erase(std::remove_if(more.begin(),
+                                  more.end(),
+                                  [&](const unsigned int b) {
+                                    return std::count(trials.companions.begin(),
+                                                      trials.companions.end(),
+                                                      b) > 0;
+                                  }),
+                   more.end());
+        guess.hint = 0.5 * (result.group_lower + result.group_upper);
+      }
+    trials.companions.clear();
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  StrengthReductionSearch<dim>::ids_of_group(const unsigned int block) const
+  {
+    std::vector<unsigned int> ids = {blocks.blocks[block].id};
+    for (const unsigned int b : trials.companions)
+      ids.push_back(blocks.blocks[b].id);
+    std::sort(ids.begin(), ids.end());
+    return ids;
+  }
+
+
+
+  template <int dim>
+  bool
+  StrengthReductionSearch<dim>::freeze_beyond_reach(const unsigned int block)
+  {
+    const SafetySettings &settings = scene.safety;
+    if (settings.reach == 0. || settings.reduced_joints == "all" ||
+        settings.reduces_rock)
+      return false;
+    std::vector<unsigned int> moving = trials.companions;
+    moving.push_back(block);
+    std::vector<bool> is_frozen(split.mesh.n_cells());
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      is_frozen[c] =
+        std::none_of(moving.begin(), moving.end(), [&](const unsigned int m) {
+          const Block<dim> &b = blocks.blocks[m];
+          return split.block_of_cell[c] == m ||
+                 split.mesh.cell_center(c).distance(b.centroid) <=
+                   (0.5 + settings.reach) * b.size;
+        });
+    run.conditions.freeze(is_frozen);
+    return true;
+  }
+
+
+
+  template <int dim>
+  SafetyFactor::Outcome
+  StrengthReductionSearch<dim>::find_bracket(Search &search,
+                                             double spread) const
+  {
+    using Outcome                  = SafetyFactor::Outcome;
+    const SafetySettings &settings = scene.safety;
+    for (const double middle = search.stable > 0. ? search.stable
+                                                  : search.unstable;
+         search.stable == 0. || search.unstable == 0.;
+         spread *= 4.)
+      {
+        if (search.stable >= settings.highest)
+          return Outcome::immovable;
+        if (search.unstable > 0. && search.unstable <= settings.lowest)
+          return Outcome::falls_freely;
+        if (search.is_hopeless())
+          return Outcome::undecided;
+        if (search.stable == 0.)
+          search.holds_at(std::max(settings.lowest, middle / (1. + spread)));
+        else
+          search.holds_at(std::min(settings.highest, middle * (1. + spread)));
+      }
+    return Outcome::bracketed;
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthReductionSearch<dim>::try_guess(Search &search,
+                                          double guess,
+                                          const double onset,
+                                          const double spread) const
+  {
+    const SafetySettings &settings = scene.safety;
+    guess                          = std::min(guess, settings.highest);
+    if (search.is_done() || !search.is_open(guess))
+      return;
+    // a block that slips at the onset may be caught by its neighbour further
+    // on: the guess must not jump over that
+    if (onset > (1. + settings.bracket) * search.stable &&
+        onset < guess / (1. + settings.bracket) &&
+        !search.holds_at(onset * (1. + spread)))
+      guess = onset;
+    const double below = std::max(settings.lowest, guess / (1. + spread));
+    const double above = std::min(settings.highest, guess * (1. + spread));
+    if (guess < settings.highest && search.is_open(below))
+      search.holds_at(below);
+    if (search.is_open(above))
+      search.holds_at(above);
+  }
+
+
+
+  template <int dim>
+  SafetyFactor::Outcome
+  StrengthReductionSearch<dim>::bisect(Search &search, const Known &known) const
+  {
+    const SafetySettings &settings = scene.safety;
+    // with nothing to go by, most blocks that hold cannot move at all
+    const bool has_hint = known.hint > 0.;
+    const double guess  = has_hint             ? known.hint
+                          : search.stable > 0. ? settings.highest
+                                               : 1.;
+    double spread       = 0.4 * settings.bracket;
+    for (const double middle : {guess, known.limit})
+      try_guess(search, middle, known.onset, spread);
+    spread = has_hint ? 4. * spread : 0.5;
+    do
+      {
+        const auto outcome = find_bracket(search, spread);
+        if (outcome != SafetyFactor::Outcome::bracketed)
+          return outcome;
+        while (!search.is_done())
+          search.holds_at(search.next());
+        spread = settings.bracket;
+    } while (!search.confirm());
+    return SafetyFactor::Outcome::bracketed;
+  }
+
+
+
+  template <int dim>
+  SafetyFactor::Outcome
+  StrengthReductionSearch<dim>::sweep(Search &search) const
+  {
+    const SafetySettings &settings = scene.safety;
+    const double first             = std::max(search.stable, settings.lowest);
+    for (unsigned int i = search.stable > 0. ? 1 : 0;; ++i)
+      {
+        const double factor = first + i * settings.sweep_step;
+        if (factor > settings.highest)
+          return SafetyFactor::Outcome::immovable;
+        if (!search.holds_at(factor) && search.unstable > 0.)
+          return search.stable > 0. ? SafetyFactor::Outcome::bracketed
+                                    : SafetyFactor::Outcome::falls_freely;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthReductionSearch<dim>::add_cheap_answers(const unsigned int block,
+                                                  SafetyFactor &result) const
+  {
+    const Ground<dim> ground        = run.conditions.ground();
+    const BlockStatics<dim> statics = judge_block<dim>(
+      ground, FreeFaces<dim>(ground), blocks, block, run.step.time);
+    result.limit_mode   = statics.mode();
+    result.limit_remark = statics.remark();
+    result.limit_factor = statics.limit.factor;
+    result.stress_ratio = stress_ratio<dim>(scene,
+                                            statics.around.faces,
+                                            statics.limit.faces,
+                                            run.contact->sum_over_block(block));
+  }
+
+  template class StrengthReductionSearch<2>;
+  template class StrengthReductionSearch<3>;
+} // namespace Keyblock

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/scene/command_line.h>
+
+#include <keyblock/base/errors.h>
+#include <keyblock/scene/scene.h>
+
+#include <boost/program_options.hpp>
+
+#include <sstream>
+
+namespace Keyblock
+{
+  CommandLine::CommandLine(int argc, const char *const argv[])
+  {
+    namespace options = boost::program_options;
+    options::options_description visible("Options"), all;
+    visible.add_options()("validate", "read, mesh and check; compute nothing")(
+      "set",
+      options::value<std::vector<std::string>>(),
+      "\"Section/Entry=value\": overrides an entry; may be repeated")(
+      "restart",
+      options::value<std::string>(),
+      "checkpoint file to continue from, with the same scene")(
+      "output", options::value<std::string>(), "output folder")(
+      "print-parameters",
+      "all entries of a scene, as Markdown")("help", "this text")("version",
+                                                                  "version");
+    all.add(visible).add_options()("scene",
+                                   options::value<std::vector<std::string>>());
+    options::positional_options_description positional;
+    positional.add("scene", -1);
+    options::variables_map values;
+    try
+      {
+        options::store(options::command_line_parser(argc, argv)
+                         .options(all)
+                         .positional(positional)
+                         .run(),
+                       values);
+      }
+    catch (const options::error &error)
+      {
+        AssertThrow(false,
+                    InputError(std::string("The command line cannot be "
+                                           "understood: ") +
+                               error.what() + "; see --help."));
+      }
+    std::ostringstream text;
+    if (values.count("help"))
+      text << "Usage: keyblock [options] SCENE.prm\n" << visible;
+    else if (values.count("version"))
+      text << "keyblock " << KEYBLOCK_VERSION << '\n';
+    else if (values.count("print-parameters"))
+      print_parameters(text);
+    answer = text.str();
+    if (!answer.empty())
+      return;
+    if (values.count("set"))
+      overrides = values["set"].as<std::vector<std::string>>();
+    if (values.count("output"))
+      output = values["output"].as<std::string>();
+    if (values.count("restart"))
+      restart = values["restart"].as<std::string>();
+    is_validation     = values.count("validate") > 0;
+    const auto scenes = values.count("scene")
+                          ? values["scene"].as<std::vector<std::string>>()
+                          : std::vector<std::string>();
+    AssertThrow(scenes.size() == 1,
+                InputError("The command line names " +
+                           std::to_string(scenes.size()) +
+                           " scene files; name exactly one, as in `keyblock "
+                           "prm/tutorial/sliding_block.prm`."));
+    scene = scenes[0];
+  }
+} // namespace Keyblock

@@ -1,0 +1,784 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Every entry of a scene file: its name, default, range, unit and meaning;
+// those of joints are in scene/joint_entries.cc.
+#include <keyblock/scene/scene.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+
+#include <tuple>
+
+namespace Keyblock
+{
+  namespace
+  {
+    using dealii::Patterns::Double;
+    using dealii::Patterns::Integer;
+    using dealii::Patterns::Selection;
+
+    const Double any_number;
+    const Double not_negative(0.);
+    const Double positive(1e-300);
+    const Double fraction(0., 1.);
+    const Double friction_range(0., 89.9);
+  } // namespace
+
+  template <int dim>
+  void
+  Domain<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Shape",
+                      shape,
+                      "box: axis-parallel, by Corner and Size; parallelepiped: "
+                      "by Corner and Edges; polygon (2D): by Polygon; file: "
+                      "whatever the mesh in File covers.",
+                      Selection("box|parallelepiped|polygon|file"));
+    prm.add_parameter("Corner", corner, "The corner with least x, y (z) [m].");
+    prm.add_parameter("Size", size, "Lengths along x, y (z) of a box [m].");
+    prm.add_parameter("Edges",
+                      edges,
+                      "Edge vectors of a parallelepiped from Corner [m], for "
+                      "example `1, 0; 0, 2`; they must be right-handed.");
+    prm.add_parameter(
+      "Polygon",
+      polygon,
+      "Corners of a 2D domain in order [m], `x, y; x, y; ...`.");
+    prm.add_parameter("File",
+                      file,
+                      "Mesh file: Gmsh .msh, Abaqus .inp, VTK .vtk, UCD .ucd, "
+                      "relative to the scene file. Triangles, tetrahedra and "
+                      "wedges are cut into quadrilaterals and hexahedra.");
+    prm.add_parameter(
+      "Truncated boundaries",
+      truncated_boundaries,
+      "Outer boundaries beyond which the rock goes on: a block "
+      "that touches one is infinite. Names left, right, bottom, "
+      "top, front, back, all, none, or `id N` for a "
+      "boundary of a mesh file.");
+    prm.add_parameter("Origin",
+                      origin,
+                      "Coordinates of the model's origin in the grid of the "
+                      "table Joints/File: they are subtracted from the table's "
+                      "coordinates, so that the model has small numbers [m].");
+  }
+
+  template <int dim>
+  void
+  Meshing<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Generator",
+                      generator,
+                      "structured: equal cells in a box or parallelepiped "
+                      "(joints and excavations must follow cell faces); gmsh: "
+                      "a mesh that follows joints and excavations; file: "
+                      "Domain/File.",
+                      Selection("structured|gmsh|file"));
+    prm.add_parameter("Cells",
+                      cells,
+                      "Structured: number of cells along each edge.");
+    prm.add_parameter("Gradings",
+                      gradings,
+                      "Structured: for each edge, either `uniform` or a ratio "
+                      "of the last cell's length to the first's.");
+    prm.add_parameter("Size",
+                      size,
+                      "Gmsh: cell size far away [m]; 0 means a twentieth (2D) "
+                      "or a twelfth (3D) of the domain's longest side.",
+                      not_negative);
+    prm.add_parameter(
+      "Size at excavation",
+      size_at_excavation,
+      "Gmsh: cell size on the excavation [m]; 0 means Size, or, "
+      "if Cells across blocks or no Size is given, at most a "
+      "tenth of the narrowest excavation.",
+      not_negative);
+    prm.add_parameter("Size at joints",
+                      size_at_joints,
+                      "Gmsh: cell size on joints [m]; 0 means no request.",
+                      not_negative);
+    prm.add_parameter("Grading distance",
+                      grading_distance,
+                      "Gmsh: distance over which the size grows to Size [m]; 0 "
+                      "means a quarter of the domain.",
+                      not_negative);
+    prm.add_parameter(
+      "Cells across blocks",
+      cells_across,
+      "Gmsh: how many cells finite blocks near excavations (all, if nothing is "
+      "dug) are to have across their least width: the scene is meshed again "
+      "with smaller cells where blocks have fewer, at most three times. 0: "
+      "sizes do not depend on blocks.",
+      Double(0., 50.));
+    prm.add_parameter("Least size",
+                      least_size,
+                      "Gmsh: the smallest cell size that Cells across blocks "
+                      "may ask for [m]; 0 means a quarter of Size at "
+                      "excavation.",
+                      not_negative);
+    prm.add_parameter("Joint tolerance",
+                      joint_tolerance,
+                      "A cell face lies on a joint if its vertices are within "
+                      "this fraction of the face's size [-].",
+                      Double(0., 0.1));
+    prm.add_parameter(
+      "Snap",
+      snap,
+      "Gmsh: where joints cannot be followed exactly with cells of a good "
+      "shape, they are cut into a mesh of the rest, and vertices nearer to a "
+      "joint than this part of the edges wanted there (2.6 cell sizes in 2D, 3 "
+      "in 3D) are moved onto it. Larger: larger time steps; smaller: joints "
+      "and thin blocks more exact. 0: always exact, or refused.",
+      Double(0., 0.45));
+    prm.add_parameter("Refine at excavations",
+                      refine_at_excavations,
+                      "Distances from outlines of excavations [m], decreasing: "
+                      "cells nearer than the first are halved once, nearer "
+                      "than the second twice, and so on.");
+    prm.add_parameter("Refine at joints",
+                      refine_at_joints,
+                      "Distances from joints [m], used in the same way.");
+    prm.add_parameter(
+      "Refinement levels",
+      refinement_levels,
+      "A formula in x, y (z): how often cells are halved whose centre is "
+      "there. A box: `2 * (abs(x) < 5) * (abs(y) < 8)`.");
+  }
+
+  bool
+  JointStrength::is_weaker_than(const JointStrength &other) const
+  {
+    return std::tie(friction_angle, cohesion) <
+           std::tie(other.friction_angle, other.cohesion);
+  }
+
+  template <int dim>
+  void
+  Excavation<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Shape",
+                      shape,
+                      "polygon (2D): Vertices; circle (2D): Center and Radius, "
+                      "arcs kept; box: Corner and Size; extruded polygon "
+                      "(3D): Vertices in the x-z plane, From and To along y; "
+                      "formula (structured and file meshes): Formula.",
+                      Selection("polygon|circle|box|extruded polygon|formula"));
+    prm.add_parameter(
+      "Formula",
+      formula,
+      "A formula in x, y (z) that is positive at the centres of "
+      "the cells dug out.");
+    prm.add_parameter("Vertices", vertices, "Corners in order [m].");
+    prm.add_parameter("Corner",
+                      corner,
+                      "The corner with least coordinates [m].");
+    prm.add_parameter("Size", size, "Lengths along the axes [m].");
+    prm.add_parameter("Center", center, "Centre of the circle [m].");
+    prm.add_parameter("Radius",
+                      radius,
+                      "Radius of the circle [m].",
+                      not_negative);
+    prm.add_parameter("From", from, "Extrusion: least y [m].");
+    prm.add_parameter("To", to, "Extrusion: greatest y [m].");
+    prm.add_parameter("Stage",
+                      stage,
+                      "Name of the stage that digs it; start: it is not there "
+                      "from the beginning.");
+    prm.add_parameter("Backfill stage",
+                      backfill_stage,
+                      "Name of a later stage that fills it, unstressed; empty: "
+                      "none.");
+    prm.add_parameter("Backfill material",
+                      backfill_material,
+                      "Name of the material it is filled with.");
+  }
+
+  template <int dim>
+  void
+  Material<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Region",
+      region,
+      "Where: all; `id N` for cells of a mesh file; or a formula "
+      "in x, y (z) that is positive at the cell centres "
+      "inside; or `band A B` for the rock between the joints A and B. Later "
+      "materials overwrite earlier ones.");
+    prm.add_parameter("Stage",
+                      stage,
+                      "The stage from which on it takes the place of what its "
+                      "region was made of; stresses stay as they are. Empty: "
+                      "from the start.");
+    prm.add_parameter(
+      "Model",
+      model,
+      "elastic; mohr_coulomb: elastic until it yields; rigid: a "
+      "fixed (or moved) body without strain, whose cells cost "
+      "nothing.",
+      Selection("elastic|mohr_coulomb|rigid"));
+    prm.add_parameter("Young modulus", young_modulus, "E [Pa].", positive);
+    prm.add_parameter("Poisson ratio",
+                      poisson_ratio,
+                      "nu [-], below 0.5.",
+                      Double(-0.999, 0.4999));
+    prm.add_parameter("Density", density, "rho [kg/m3].", positive);
+    prm.add_parameter("Cohesion",
+                      cohesion,
+                      "mohr_coulomb: c [Pa].",
+                      not_negative);
+    prm.add_parameter("Friction angle",
+                      friction_angle,
+                      "mohr_coulomb: phi [deg].",
+                      friction_range);
+    prm.add_parameter("Dilation angle",
+                      dilation_angle,
+                      "mohr_coulomb: psi, at most phi [deg]; -1: associated, "
+                      "psi = phi.",
+                      Double(-1., 89.));
+    prm.add_parameter("Tensile strength",
+                      tensile_strength,
+                      "mohr_coulomb: cut-off of the tensile stress [Pa]; -1: "
+                      "none besides c / tan(phi).",
+                      Double(-1.));
+    prm.add_parameter("Residual cohesion",
+                      residual_cohesion,
+                      "mohr_coulomb: c after failure [Pa]; -1: unchanged.",
+                      Double(-1.));
+    prm.add_parameter("Residual friction angle",
+                      residual_friction_angle,
+                      "mohr_coulomb: phi after failure [deg]; -1: unchanged.",
+                      Double(-1., 89.));
+    prm.add_parameter(
+      "Residual tensile strength",
+      residual_tensile_strength,
+      "mohr_coulomb: cut-off after failure [Pa]; -1: unchanged.",
+      Double(-1.));
+    prm.add_parameter("Softening strain",
+                      softening_strain,
+                      "mohr_coulomb: plastic strain over which strengths fall "
+                      "to the residual ones [-]; 0: at once.",
+                      not_negative);
+    prm.add_parameter("Integration",
+                      integration,
+                      "full: all Gauss points; mean dilatation: the volume "
+                      "change is averaged over each cell, which keeps plastic "
+                      "flow from locking; automatic: mean dilatation for "
+                      "Poisson ratios above 0.4. mohr_coulomb always has it.",
+                      Selection("automatic|full|mean dilatation"));
+    prm.add_parameter("Rigid velocity",
+                      rigid_velocity,
+                      "Velocity of a rigid body, a formula in t, one component "
+                      "per axis separated by ';' [m/s]; empty: at rest.");
+  }
+
+  template <int dim>
+  void
+  Support<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Boundaries",
+      boundaries,
+      "Outer boundaries: left, right, bottom, top, front, back, "
+      "all, or `id N`.");
+    prm.add_parameter("Region",
+                      region,
+                      "Instead: a formula in x, y (z) that is positive at the "
+                      "nodes held.");
+    prm.add_parameter("Directions",
+                      directions,
+                      "all; normal: a roller on each named boundary; or axes, "
+                      "for example x or xz.",
+                      Selection("all|normal|x|y|z|xy|xz|yz"));
+    prm.add_parameter("Kind",
+                      kind,
+                      "held: fixed or moved by Velocity; far field: the "
+                      "stiffness of infinite rock around the model, exact for "
+                      "double forces at Center if the far field encloses it "
+                      "(Boundaries only), after the initial state.",
+                      Selection("held|far field"));
+    prm.add_parameter("Displacement",
+                      displacement,
+                      "Instead of Velocity: displacement reached at the end of "
+                      "the ramp of the first quasi-static or static stage, a "
+                      "formula in x, y (z) per axis [m].");
+    prm.add_parameter("Center",
+                      center,
+                      "Far field: centre of the excavation, from which the "
+                      "distance to the boundary is measured [m].");
+    prm.add_parameter("Velocity",
+                      velocity,
+                      "Prescribed velocity, a formula in x, y (z), t per axis "
+                      "separated by ';' [m/s]; empty: held.");
+  }
+
+  template <int dim>
+  void
+  Traction<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Boundaries", boundaries, "As for supports.");
+    prm.add_parameter(
+      "Region",
+      region,
+      "Instead: a formula in x, y (z) positive at the centres of "
+      "the loaded outer faces.");
+    prm.add_parameter("Traction",
+                      expression,
+                      "Force per area, a formula in x, y (z), t per axis "
+                      "separated by ';' [N/m2].");
+    prm.add_parameter("Stage",
+                      stage,
+                      "Name of the stage with which it begins, as a ramp if "
+                      "that is quasi-static; start: it belongs to the initial "
+                      "state.");
+  }
+
+  template <int dim>
+  void
+  InitialState<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Gravity",
+                      gravity,
+                      "Acceleration, a formula in t per axis separated by ';' "
+                      "[m/s2]; empty: none.");
+    prm.add_parameter("Stress",
+                      stress,
+                      "Initial stress, tension positive, formulas in x, y (z) "
+                      "[Pa]: 2D xx; yy; zz; xy. 3D xx; yy; zz; yz; xz; xy.");
+    prm.add_parameter(
+      "Velocity",
+      velocity,
+      "Initial velocity, a formula in x, y (z) per axis [m/s].");
+    prm.add_parameter("Surface elevation",
+                      surface_elevation,
+                      "Elevation of the ground surface, from which depth is "
+                      "counted [m].");
+    prm.add_parameter(
+      "Vertical stress gradient",
+      vertical_stress_gradient,
+      "Compression added per metre of depth [Pa/m]; with it, or "
+      "with Surface stress, the initial stress grows with "
+      "depth.",
+      not_negative);
+    prm.add_parameter("Surface stress",
+                      surface_stress,
+                      "Vertical compression at the surface elevation [Pa].");
+    prm.add_parameter("Lateral ratios",
+                      lateral_ratios,
+                      "Horizontal over vertical stress [-]: 2D along x and out "
+                      "of the plane, 3D along and across Lateral azimuth; one "
+                      "number for both.");
+    prm.add_parameter("Lateral azimuth",
+                      lateral_azimuth,
+                      "3D: azimuth of the first lateral stress, clockwise from "
+                      "north (+y) [deg].");
+    prm.add_parameter(
+      "Measured points",
+      measured_points,
+      "CSV file of measured stresses, relative to the scene "
+      "file, with the header x,y,(z,)component,value,weight: "
+      "components as in Stress, values in Pa, tension positive. "
+      "The initial stress is the sum of Stress fields that fits "
+      "them best.");
+    prm.add_parameter(
+      "Stress fields",
+      stress_fields,
+      "Unit fields of the inversion: gravity; push x (push y) "
+      "and graded x (graded y) of 1 Pa and of 1 Pa per metre of "
+      "depth below Surface elevation, compression; shear xy "
+      "(3D).");
+    prm.add_parameter("Equilibrium",
+                      equilibrium,
+                      "static: one elastic solve with all joints tied brings "
+                      "the initial stress into equilibrium with loads and "
+                      "supports, and displacements are zeroed; none: the "
+                      "stress is taken as it is.",
+                      Selection("none|static"));
+  }
+
+  void
+  ContactSettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Method",
+      method,
+      "exact: coupled, to the tolerance; paper: one uncoupled "
+      "pass, the published variant, as a baseline; none: joints "
+      "are ignored.",
+      Selection("exact|paper|none"));
+    prm.add_parameter("Default friction angle",
+                      default_friction_angle,
+                      "For faces that lie on no joint [deg].",
+                      friction_range);
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "Change of a node's momentum per iteration, relative "
+                      "to the largest impulse of its group [-].",
+                      Double(1e-15, 1e-2));
+    prm.add_parameter("Maximum iterations",
+                      maximum_iterations,
+                      "Cap of iterations per group and step [-].",
+                      Integer(1));
+    prm.add_parameter("Slip tolerance",
+                      slip_tolerance,
+                      "A pair becomes point-to-surface when it has slipped "
+                      "by this fraction of the face size [-].",
+                      Double(0., 1.));
+    prm.add_parameter("Weld infinite blocks",
+                      weld_infinite_blocks,
+                      "Joints between infinite blocks stay welded.");
+    prm.add_parameter("Tie all joints",
+                      tie_all,
+                      "Infinite strength on every joint.");
+  }
+
+  void
+  TimeStepping::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Kinematics",
+                      kinematics,
+                      "small: reference geometry; large: current geometry, "
+                      "objective stress rate.",
+                      Selection("small|large"));
+    prm.add_parameter("Safety",
+                      safety,
+                      "Fraction of the stable time step used [-].",
+                      Double(1e-6, 2.));
+    prm.add_parameter("Maximum step",
+                      maximum_step,
+                      "Upper limit of the time step [s]; 0: none.",
+                      not_negative);
+    prm.add_parameter("Least step",
+                      least_step,
+                      "Stable step, without damping and safety, that dynamic "
+                      "stages are to have [s]; 0: any. Cells with a smaller "
+                      "one get inertia, but no weight, from the others of "
+                      "their block.",
+                      not_negative);
+    prm.add_parameter("Largest added mass",
+                      largest_added_mass,
+                      "What such cells get, at most, as a fraction of the "
+                      "block's mass, and what any other cell gives, as a "
+                      "fraction of its own [-].",
+                      Double(0., 0.5));
+    prm.add_parameter("Energy ledger",
+                      ledger,
+                      "Keep every energy term, each step.");
+    prm.add_parameter("Skip cells at rest",
+                      skips_resting,
+                      "Leave out of the steps the cells that are far from all "
+                      "that moves.");
+    prm.add_parameter("Rest speed",
+                      rest_speed,
+                      "Speed of nodes at rest, at most, as a share of that of "
+                      "the fastest node [-].",
+                      Double(0., 1.));
+  }
+
+  void
+  Stage::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Kind",
+                      kind,
+                      "dynamic: Duration of true motion; quasi-static: damped "
+                      "steps with scaled density until forces balance; static: "
+                      "one elastic solve, all joints tied.",
+                      Selection("dynamic|quasi-static|static"));
+    prm.add_parameter("Duration",
+                      duration,
+                      "Simulated time [s].",
+                      not_negative);
+    prm.add_parameter("Maximum steps",
+                      maximum_steps,
+                      "End after so many steps; 0: no limit, quasi-static "
+                      "200,000.",
+                      Integer(0));
+    prm.add_parameter("Unbalanced ratio",
+                      unbalanced_ratio,
+                      "End as soon as the unbalanced force over the driving "
+                      "force is below this [-]; 0: never, quasi-static 1e-5.",
+                      not_negative);
+    prm.add_parameter("Damping ratio",
+                      damping_ratio,
+                      "Stiffness-proportional damping: fraction of critical at "
+                      "each cell's highest frequency [-]. Without mass and "
+                      "local damping it damps also the deformation of finite "
+                      "blocks that slide, critically from 0.3 on.",
+                      Double(0., 10.));
+    prm.add_parameter("Mass damping",
+                      mass_damping,
+                      "Mass-proportional damping [1/s].",
+                      not_negative);
+    prm.add_parameter("Local damping",
+                      local_damping,
+                      "Local non-viscous damping [-]; 0: none, in quasi-static "
+                      "stages 0.8.",
+                      fraction);
+    prm.add_parameter("Damp contact force",
+                      damps_contact_force,
+                      "Local damping counts contact forces; without them "
+                      "sliding jams (for comparison only).");
+    prm.add_parameter("Density scaling",
+                      scales_density,
+                      "Quasi-static: masses that let all cells take the same "
+                      "step; gravity keeps the true ones.");
+    prm.add_parameter(
+      "Ramp duration",
+      ramp_duration,
+      "Time over which the forces of what is dug are taken away "
+      "[s]; 0: four periods of the lowest mode.",
+      not_negative);
+    prm.add_parameter("Ramp unbalance",
+                      ramp_unbalance,
+                      "The ramp slows down where the unbalanced ratio exceeds "
+                      "this [-].",
+                      positive);
+    prm.add_parameter("Friction angle override",
+                      friction_angle_override,
+                      "Replaces every friction angle in this stage [deg]; -1: "
+                      "no.",
+                      Double(-1., 89.9));
+    prm.add_parameter("Reset motion",
+                      reset_motion,
+                      "Start the stage with zero velocities and count "
+                      "displacements from here.");
+  }
+
+  template <int dim>
+  void
+  Monitor<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Kind",
+      kind,
+      "point: nearest node; block: the block at Location; region: mean over "
+      "the nodes where Region is positive, by mass; joint: sums over a joint; "
+      "support: reaction of a support.",
+      Selection("point|block|region|joint|support"));
+    prm.add_parameter("Location",
+                      location,
+                      "Point, or a point in a block [m].");
+    prm.add_parameter("Region",
+                      region,
+                      "Region: formula of the reference position, positive "
+                      "inside [-].");
+    prm.add_parameter("Joint",
+                      joint,
+                      "Name of a joint or of a set of joints, or all for "
+                      "every contact point.");
+    prm.add_parameter("Support", support, "Name of the support.");
+  }
+
+  void
+  SafetySettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Blocks",
+                      blocks,
+                      "Blocks whose safety factor is looked for at the end of "
+                      "stages: none, all (finite ones that are not attached), "
+                      "or their numbers in the block table.");
+    prm.add_parameter("Stages",
+                      stages,
+                      "Names of the stages; empty: all of them.");
+    prm.add_parameter("Reduced joints",
+                      reduced_joints,
+                      "of the block: only where it touches others; all: of the "
+                      "whole model.",
+                      Selection("of the block|all"));
+    prm.add_parameter("Joints",
+                      joints,
+                      "Reduce only these joints, or sets of joints; empty: no "
+                      "restriction.");
+    prm.add_parameter("Reduce rock",
+                      reduces_rock,
+                      "Divide the strength of mohr_coulomb rock as well.");
+    prm.add_parameter("Teams",
+                      teams,
+                      "Teams of ranks that look for the factors of different "
+                      "blocks at the same time; all compute the stages. "
+                      "A divisor of the number of ranks. Without a signal, "
+                      "checkpoints wait until all factors of a stage are "
+                      "found.",
+                      Integer(1));
+    prm.add_parameter("Method",
+                      method,
+                      "bisection of a bracket, or sweep: from Lowest by Sweep "
+                      "step until it fails (the published way).",
+                      Selection("bisection|sweep"));
+    prm.add_parameter("Sweep step",
+                      sweep_step,
+                      "Step of a sweep [-].",
+                      positive);
+    prm.add_parameter("Bracket",
+                      bracket,
+                      "Width of the final bracket over its upper end [-].",
+                      Double(1e-6, 1.));
+    prm.add_parameter("Lowest",
+                      lowest,
+                      "A block that fails at this factor falls freely [-].",
+                      positive);
+    prm.add_parameter("Highest",
+                      highest,
+                      "A block that holds at this factor is immovable, or held "
+                      "by clamping if limit equilibrium can move it [-].",
+                      positive);
+    prm.add_parameter(
+      "Mass damping",
+      mass_damping,
+      "Of the first phase, which looks for an equilibrium, over "
+      "the critical one of the block's lowest mode [-].",
+      Double(0., 10.));
+    prm.add_parameter("Adaptive damping",
+                      adaptive_damping,
+                      "Whether blocks that creep to rest by one slow mode are "
+                      "damped by the frequency of that mode.");
+    prm.add_parameter("Local damping",
+                      local_damping,
+                      "Of the first phase besides [-].",
+                      Double(0., 1.));
+    prm.add_parameter("Damping ratio",
+                      damping_ratio,
+                      "Of the highest mode of each cell, in both phases [-].",
+                      Double(0., 2.));
+    prm.add_parameter("Window",
+                      window,
+                      "Time between two looks at the block, in periods of its "
+                      "lowest mode [-].",
+                      Double(0.1, 100.));
+    prm.add_parameter("Maximum periods",
+                      maximum_periods,
+                      "Length of the first phase, at most; the second ends "
+                      "after 20 besides [-].",
+                      positive);
+    prm.add_parameter("Trial steps",
+                      trial_steps,
+                      "Steps that every trial goes on for, though it is "
+                      "decided (the published way: 5000); 0: none.");
+    prm.add_parameter("Warm start",
+                      warm_start,
+                      "Start a trial from the highest factor at which the "
+                      "block came to rest; else from the end of the stage.");
+    prm.add_parameter("Reach",
+                      reach,
+                      "Trials move the rock within this many sizes of the "
+                      "block and hold the rest; 0: move all. Without effect "
+                      "where all joints or the rock are reduced [-].",
+                      not_negative);
+    prm.add_parameter("True masses",
+                      true_masses,
+                      "In the second phase; else those of the first, which "
+                      "give all cells one time step.");
+    prm.add_parameter("Seismic coefficient",
+                      seismic_coefficient,
+                      "Acceleration per axis over 9.81 m/s2 that limit "
+                      "equilibrium adds to gravity, and nothing else does; "
+                      "empty: none [-].");
+    prm.add_parameter("Removal slip",
+                      removal_slip,
+                      "In quasi-static stages a block that has slid this share "
+                      "of its size, and goes on, is taken away; 0: never [-].",
+                      not_negative);
+  }
+
+
+
+  void
+  BlockTheorySettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Report",
+                      report,
+                      "Whether to print and store which joint pyramids of the "
+                      "infinite joints are removable.");
+    prm.add_parameter("Walls",
+                      walls,
+                      "Azimuths that walls face, seen from the rock [deg]; in "
+                      "2D 90 and 270 only.");
+    prm.add_parameter(
+      "Roof span",
+      roof_span,
+      "Width of a flat roof for the largest wedges [m] (3D); 0: "
+      "none.",
+      not_negative);
+    prm.add_parameter("Roof axis",
+                      roof_axis,
+                      "Azimuth of the axis across which it is measured [deg].");
+  }
+
+
+
+  void
+  CheckSettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Closed form",
+                      closed_form,
+                      "What the last stage is compared with.",
+                      Selection(
+                        "none|resting|incline|bar_impact|oblique_impact|"
+                        "bond_break|newmark|gravity_column|kirsch|salencon|"
+                        "spherical_cavity|footing|value|"
+                        "toppling|rotation"));
+    prm.add_parameter("Joint", joint, "The joint it is measured on.");
+    prm.add_parameter("Quantity",
+                      quantity,
+                      "value: column of history.csv whose last entry is "
+                      "compared, without its unit.");
+    prm.add_parameter("Reference",
+                      reference,
+                      "value: what it is compared with.");
+    prm.add_parameter("Reference time",
+                      reference_time,
+                      "Time since the start of the last stage at which "
+                      "displacements are compared [s]; 0: its end.",
+                      not_negative);
+    prm.add_parameter("Window start",
+                      window_start,
+                      "Begin of the window of means and fits, as a fraction of "
+                      "the last stage [-].",
+                      fraction);
+    prm.add_parameter(
+      "Length",
+      length,
+      "bar_impact, bond_break: length of the bar; footing: loaded "
+      "width, half a cell past the last held node; spherical_cavity: its "
+      "radius, about the origin [m].",
+      not_negative);
+  }
+
+  void
+  OutputSettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Folder",
+                      folder,
+                      "Output folder; empty: output-NAME beside the working "
+                      "directory, NAME being that of the scene.");
+    prm.add_parameter("History interval",
+                      history_interval,
+                      "Steps between lines of history.csv.",
+                      Integer(1));
+    prm.add_parameter("VTU count",
+                      vtu_count,
+                      "Number of VTU outputs per stage, besides the first.",
+                      Integer(0));
+    prm.add_parameter("Write VTU", write_vtu, "Whether to write VTU at all.");
+    prm.add_parameter("Checkpoint interval",
+                      checkpoint_interval,
+                      "Wall time between checkpoints, from which --restart "
+                      "continues [s]; 0: only when a signal stops the run.",
+                      Double(0.));
+  }
+
+  template struct Domain<2>;
+  template struct Domain<3>;
+  template struct Meshing<2>;
+  template struct Meshing<3>;
+  template struct Excavation<2>;
+  template struct Excavation<3>;
+  template struct Material<2>;
+  template struct Material<3>;
+  template struct Support<2>;
+  template struct Support<3>;
+  template struct Traction<2>;
+  template struct Traction<3>;
+  template struct InitialState<2>;
+  template struct InitialState<3>;
+  template struct Monitor<2>;
+  template struct Monitor<3>;
+} // namespace Keyblock

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/errors.h>
+#include <keyblock/scene/joint_columns.h>
+
+#include <boost/algorithm/string.hpp>
+#include <boost/algorithm/string/trim_all.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    enum class Quantity
+    {
+      words,
+      length,
+      angle,
+      stress,
+      number
+    };
+
+    struct KnownColumn
+    {
+      JointColumn column;
+      Quantity quantity;
+      std::vector<std::string> names; ///< the first is used in messages
+    };
+
+    const std::vector<KnownColumn> &
+    known_columns()
+    {
+      using C                                     = JointColumn;
+      using Q                                     = Quantity;
+      static const std::vector<KnownColumn> known = {
+        {C::name, Q::words, {"name", "joint", "id", "label"}},
+        {C::set, Q::words, {"set", "joint set", "family"}},
+        {C::dip, Q::angle, {"dip", "dip angle"}},
+        {C::dip_direction,
+         Q::angle,
+         {"dip direction", "dip dir", "dipdir", "dip azimuth", "dd"}},
+        {C::strike, Q::angle, {"strike"}},
+        {C::trend, Q::angle, {"trend", "pole trend"}},
+        {C::plunge, Q::angle, {"plunge", "pole plunge"}},
+        {C::normal_x, Q::number, {"normal x", "nx"}},
+        {C::normal_y, Q::number, {"normal y", "ny"}},
+        {C::normal_z, Q::number, {"normal z", "nz"}},
+        {C::x, Q::length, {"x", "easting", "east"}},
+        {C::y, Q::length, {"y", "northing", "north"}},
+        {C::z, Q::length, {"z", "elevation"}},
+        {C::x1, Q::length, {"x1"}},
+        {C::y1, Q::length, {"y1"}},
+        {C::x2, Q::length, {"x2"}},
+        {C::y2, Q::length, {"y2"}},
+        {C::radius, Q::length, {"radius", "r"}},
+        {C::diameter, Q::length, {"diameter"}},
+        {C::extent, Q::words, {"extent"}},
+        {C::vertices, Q::length, {"vertices", "polygon"}},
+        {C::friction_angle,
+         Q::angle,
+         {"friction angle",
+          "friction",
+          "phi",
+          "friction static",
+          "static friction",
+          "static friction angle"}},
+        {C::kinetic_friction_angle,
+         Q::angle,
+         {"kinetic friction angle", "friction kinetic", "kinetic friction"}},
+        {C::cohesion, Q::stress, {"cohesion", "c"}},
+        {C::tensile_strength,
+         Q::stress,
+         {"tensile strength", "tension", "tensile"}},
+        {C::residual_cohesion,
+         Q::stress,
+         {"residual cohesion", "cohesion residual"}},
+        {C::water_pressure, Q::stress, {"water pressure", "water"}},
+        {C::comment,
+         Q::words,
+         {"comment", "comments", "remark", "remarks", "note", "notes"}}};
+      return known;
+    }
+
+    struct Unit
+    {
+      Quantity quantity;
+      double factor;
+    };
+
+    const std::map<std::string, Unit> &
+    known_units()
+    {
+      static const double degrees                    = 180. / std::acos(-1.);
+      static const std::map<std::string, Unit> known = {
+        {"m", {Quantity::length, 1.}},
+        {"km", {Quantity::length, 1e3}},
+        {"cm", {Quantity::length, 1e-2}},
+        {"mm", {Quantity::length, 1e-3}},
+        {"deg", {Quantity::angle, 1.}},
+        {"degree", {Quantity::angle, 1.}},
+        {"degrees", {Quantity::angle, 1.}},
+        {"rad", {Quantity::angle, degrees}},
+        {"pa", {Quantity::stress, 1.}},
+        {"kpa", {Quantity::stress, 1e3}},
+        {"mpa", {Quantity::stress, 1e6}},
+        {"gpa", {Quantity::stress, 1e9}},
+        {"n/m2", {Quantity::stress, 1.}},
+        {"kn/m2", {Quantity::stress, 1e3}},
+        {"mn/m2", {Quantity::stress, 1e6}}};
+      return known;
+    }
+
+    /** Small letters, words apart by one space, brackets and signs spelled. */
+    std::string
+    normalized(std::string text)
+    {
+      // the sign of degrees and the superscript 2 in UTF-8 and in Latin-1
+      for (const char *sign : {"\xC2\xB0", "\xC2\xBA", "\xB0", "\xBA"})
+        boost::replace_all(text, sign, " deg");
+      for (const char *sign : {"\xC2\xB2", "\xB2", "^2"})
+        boost::replace_all(text, sign, "2");
+      for (char &letter : text)
+        if (std::string("_-()[],.").find(letter) != std::string::npos)
+          letter = ' ';
+      boost::to_lower(text, std::locale::classic());
+      boost::trim_all(text, std::locale::classic());
+      return text;
+    }
+
+    const KnownColumn *
+    column_called(const std::string &name)
+    {
+      for (const KnownColumn &known : known_columns())
+        if (std::find(known.names.begin(), known.names.end(), name) !=
+            known.names.end())
+          return &known;
+      return nullptr;
+    }
+
+    std::string
+    list_known()
+    {
+      std::string list;
+      for (const KnownColumn &known : known_columns())
+        list += (list.empty() ? "" : ", ") + known.names.front();
+      return list;
+    }
+
+    /** What a title of the header, maybe with a unit as its last word, means.*/
+    std::pair<const KnownColumn *, double>
+    understand(const std::string &title, const std::string &where)
+    {
+      const std::string words = normalized(title);
+      if (const KnownColumn *known = column_called(words))
+        return {known, 1.};
+      const auto space         = words.rfind(' ');
+      const KnownColumn *known = space == std::string::npos
+                                   ? nullptr
+                                   : column_called(words.substr(0, space));
+      AssertThrow(known,
+                  InputError(where + " names the column '" + title +
+                             "', which is not known; known are " +
+                             list_known() + "."));
+      const auto unit = known_units().find(words.substr(space + 1));
+      AssertThrow(
+        unit != known_units().end() && unit->second.quantity == known->quantity,
+        InputError(where + " gives the column '" + title +
+                   "' a unit that is not known or does not fit; lengths may "
+                   "be in m, km, cm or mm, angles in deg or rad, stresses in "
+                   "Pa, kPa, MPa or GPa."));
+      return {known, unit->second.factor};
+    }
+  } // namespace
+
+
+
+  const std::string &
+  name_of(const JointColumn column)
+  {
+    return std::find_if(known_columns().begin(),
+                        known_columns().end(),
+                        [&](const auto &k) { return k.column == column; })
+      ->names.front();
+  }
+
+
+
+  std::map<JointColumn, ColumnPlace>
+  find_joint_columns(const DelimitedText &table)
+  {
+    const std::string where = "Line " + std::to_string(table.header.line) +
+                              " of the table '" + table.file_name +
+                              "', its header,";
+    std::map<JointColumn, ColumnPlace> places;
+    for (unsigned int i = 0; i < table.header.fields.size(); ++i)
+      {
+        const auto [known, unit] = understand(table.header.fields[i], where);
+        AssertThrow(known->column == JointColumn::comment ||
+                      places.count(known->column) == 0,
+                    InputError(where + " names the column '" +
+                               known->names.front() +
+                               "' twice, the second "
+                               "time as '" +
+                               table.header.fields[i] + "'; remove one."));
+        places[known->column] = ColumnPlace{i, unit};
+      }
+    return places;
+  }
+} // namespace Keyblock

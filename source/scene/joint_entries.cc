@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Every entry of joints, their table and their sets.
+#include <keyblock/scene/scene.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+
+namespace Keyblock
+{
+  namespace
+  {
+    using dealii::Patterns::Double;
+    using dealii::Patterns::Selection;
+
+    const Double not_negative(0.);
+    const Double fraction(0., 1.);
+    const Double friction_range(0., 89.9);
+  } // namespace
+
+  void
+  JointStrength::declare_strength(ParameterHandler &prm)
+  {
+    prm.add_parameter("Friction angle",
+                      friction_angle,
+                      "Static friction angle [deg].",
+                      friction_range);
+    prm.add_parameter("Kinetic friction angle",
+                      kinetic_friction_angle,
+                      "Friction angle while sliding [deg]; -1: the static one.",
+                      Double(-1., 89.9));
+    prm.add_parameter("Cohesion", cohesion, "Cohesion [Pa].", not_negative);
+    prm.add_parameter("Tensile strength",
+                      tensile_strength,
+                      "Tensile strength [Pa], at most cohesion / tan(friction "
+                      "angle).",
+                      not_negative);
+    prm.add_parameter("Residual cohesion",
+                      residual_cohesion,
+                      "Cohesion left where the joint has slid [Pa]; -1: as "
+                      "'Cohesion'. Below it the joint is brittle. Where it has "
+                      "opened there is none, nor tensile strength.",
+                      Double(-1.));
+    prm.add_parameter("Water pressure",
+                      water_pressure,
+                      "A formula in x, y (z): pressure of water in the joint, "
+                      "which pushes both sides apart [Pa]; empty: none.");
+  }
+
+  void
+  JointNetwork::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "File",
+      file,
+      "Table of more joints, relative to the scene file: CSV with a header "
+      "and one joint a row. Columns: name, set; dip and dip direction, or "
+      "strike and dip (dip direction = strike + 90), or trend and plunge of "
+      "the pole, or normal x, y, z; x, y, z; radius or diameter, or extent, or "
+      "vertices (`\"x, y, z; ...\"`), in 2D x1, y1, x2, y2; friction angle, "
+      "kinetic friction angle, cohesion, tensile strength, residual cohesion, "
+      "water pressure; comment. Units m, deg and Pa, or as the header says, "
+      "`cohesion (kPa)`. Separated by `,`, `;` or tabs; with the latter two "
+      "decimal commas are understood. Rows without a name are J1, J2, ... by "
+      "their number; a subsection of that name overrides the row.");
+    prm.add_parameter("Resolved",
+                      is_resolved,
+                      "Names lists all joints already, those of File and of "
+                      "Joint sets included, and neither is used again. So it "
+                      "stands in used.prm.");
+  }
+
+  template <int dim>
+  void
+  Joint<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Point", point, "A point on the joint [m].");
+    prm.add_parameter("Normal",
+                      normal_entry,
+                      "Normal vector; empty: from Dip and Dip direction.");
+    prm.add_parameter("Dip",
+                      dip,
+                      "Angle below the horizontal [deg].",
+                      Double(0., 90.));
+    prm.add_parameter("Dip direction",
+                      dip_direction,
+                      "Azimuth towards which the joint descends, clockwise "
+                      "from north (+y) [deg]; in 2D 90 (+x) or 270 (-x).",
+                      Double(0., 360.));
+    prm.add_parameter("Extent",
+                      extent,
+                      "infinite; disc: Radius about Point (in 2D a segment of "
+                      "that half length); polygon: Vertices (in 2D the two "
+                      "ends).",
+                      Selection("infinite|disc|polygon"));
+    prm.add_parameter("Radius",
+                      radius,
+                      "Radius of the disc [m].",
+                      not_negative);
+    prm.add_parameter("Vertices",
+                      vertices,
+                      "Corners of the polygon on the plane, in order [m]; with "
+                      "them Point and Normal may be left out.");
+    declare_strength(prm);
+    prm.add_parameter("Set",
+                      set,
+                      "Name of the set it belongs to, whose strength it has "
+                      "where it gives none of its own; empty: none.");
+  }
+
+  template <int dim>
+  void
+  JointSet<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Dip",
+                      dip,
+                      "Of the mean pole: angle below the horizontal [deg].",
+                      Double(0., 90.));
+    prm.add_parameter("Dip direction",
+                      dip_direction,
+                      "Of the mean pole: azimuth clockwise from north (+y) "
+                      "[deg]; in 2D 90 (+x) or 270 (-x).",
+                      Double(0., 360.));
+    prm.add_parameter("Concentration",
+                      concentration,
+                      "Kappa of Fisher's law of the poles, in 2D of von Mises' "
+                      "law [-]; 0: any direction; -1: all parallel.",
+                      Double(-1.));
+    prm.add_parameter(
+      "Spacing",
+      spacing,
+      "Mean distance of the joints along the mean normal [m]; 0: by P32 or "
+      "P10. With none of the three no joints are made, and the strength "
+      "below is that of joints of other sources that name this set.",
+      not_negative);
+    prm.add_parameter("Spacing law",
+                      spacing_law,
+                      "exponential: a Poisson process; constant (infinite "
+                      "joints only).",
+                      Selection("exponential|constant"));
+    prm.add_parameter("Jitter",
+                      jitter,
+                      "Constant spacing: each joint is moved at random by up "
+                      "to half this share of the spacing to either side [-].",
+                      fraction);
+    prm.add_parameter("Persistence",
+                      persistence,
+                      "Spacing of planes that are not jointed all over: the "
+                      "share of their area that is [-]. P32 (P21) is then "
+                      "Persistence over the spacing; for finite joints.",
+                      Double(1e-6, 1.));
+    prm.add_parameter(dim == 2 ? "P21" : "P32",
+                      intensity,
+                      "Instead of Spacing: mean area of joints per volume "
+                      "[m2/m3]; in 2D P21, length per area [m/m2].",
+                      not_negative);
+    prm.add_parameter("P10",
+                      frequency,
+                      "Instead of Spacing: mean number of joints per length "
+                      "along the mean normal [1/m].",
+                      not_negative);
+    prm.add_parameter(
+      "Radius law",
+      radius_law,
+      "Of the radii of discs (2D: half lengths): constant: Radius mean; "
+      "uniform: from Radius minimum to maximum; exponential, lognormal: of "
+      "Radius mean (and deviation) before they are cut off at minimum and "
+      "maximum; power law: density r^-exponent; infinite: no discs but "
+      "planes.",
+      Selection("infinite|constant|uniform|exponential|lognormal|power law"));
+    prm.add_parameter("Radius mean",
+                      radius_mean,
+                      "Mean radius [m].",
+                      not_negative);
+    prm.add_parameter("Radius deviation",
+                      radius_deviation,
+                      "Lognormal: standard deviation [m].",
+                      not_negative);
+    prm.add_parameter("Radius minimum",
+                      radius_minimum,
+                      "Least radius [m].",
+                      not_negative);
+    prm.add_parameter("Radius maximum",
+                      radius_maximum,
+                      "Greatest radius [m]; 0: exponential and lognormal ten "
+                      "times the mean.",
+                      not_negative);
+    prm.add_parameter("Radius exponent",
+                      radius_exponent,
+                      "Power law: exponent of the density [-].",
+                      Double(0., 10.));
+    prm.add_parameter("Region corner",
+                      region_corner,
+                      "Corner with least coordinates of the box in which "
+                      "centres of discs lie [m]; empty: the domain and a "
+                      "margin of the greatest radius, so that the density is "
+                      "the same up to its edge.");
+    prm.add_parameter("Region size",
+                      region_size,
+                      "Lengths of that box along the axes [m].");
+    prm.add_parameter("Seed",
+                      seed,
+                      "Of the random numbers, together with the set's name: "
+                      "the same seed gives the same joints everywhere.");
+    strength.declare_strength(prm);
+  }
+
+  template void Joint<2>::declare(ParameterHandler &);
+  template void Joint<3>::declare(ParameterHandler &);
+  template void JointSet<2>::declare(ParameterHandler &);
+  template void JointSet<3>::declare(ParameterHandler &);
+} // namespace Keyblock

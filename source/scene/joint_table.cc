@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/errors.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/scene/joint_columns.h>
+#include <keyblock/scene/joint_table.h>
+
+#include <boost/algorithm/string.hpp>
+#include <boost/algorithm/string/trim_all.hpp>
+
+#include <array>
+
+namespace Keyblock
+{
+  namespace
+  {
+    using C       = JointColumn;
+    using Columns = std::map<JointColumn, ColumnPlace>;
+
+    /** One row of a table, and sentences about it. */
+    class RowReader
+    {
+    public:
+      RowReader(const DelimitedText &table,
+                const Columns &columns,
+                const DelimitedText::Row &row)
+        : table(table)
+        , columns(columns)
+        , row(row)
+      {}
+
+      /** `Line 7 of the table 'joints.csv'`. */
+      std::string
+      place() const
+      {
+        return "Line " + std::to_string(row.line) + " of the table '" +
+               table.file_name + "'";
+      }
+
+      void
+      require(const bool condition,
+              const C column,
+              const std::string &sentence) const
+      {
+        if (condition)
+          return;
+        AssertThrow(false,
+                    InputError(place() + ", column '" + name_of(column) +
+                               "': " + sentence));
+      }
+
+      bool
+      has(const C column) const
+      {
+        return !text(column).empty();
+      }
+
+      /** What stands in the column; empty without such a column. */
+      const std::string &
+      text(const C column) const
+      {
+        static const std::string nothing;
+        const auto found = columns.find(column);
+        return found == columns.end() ? nothing
+                                      : row.fields[found->second.index];
+      }
+
+      /** The number in the column, in m, deg or Pa; it must be there. */
+      double
+      number(const C column) const
+      {
+        require(columns.count(column) > 0,
+                column,
+                "there is no such column; add it.");
+        require(has(column), column, "there is no value; give a number.");
+        double value = 0.;
+        require(read_number(text(column), table.has_decimal_comma(), value),
+                column,
+                "'" + text(column) +
+                  "' is not a number; write digits with a decimal point (or "
+                  "comma, if ';' or tabs separate the columns).");
+        return value * columns.at(column).unit;
+      }
+
+      double
+      number_in(const C column,
+                const double lowest,
+                const double highest,
+                const std::string &unit) const
+      {
+        const double value = number(column);
+        require(value >= lowest && value <= highest,
+                column,
+                "the value " + text(column) + " is out of range; give " +
+                  (highest < 1e300 ? "one from " + exact_text(lowest) + " to " +
+                                       exact_text(highest)
+                                   : exact_text(lowest) + " or more") +
+                  " " + unit + ".");
+        return value;
+      }
+
+      /** Replace @p value where the row has a number in the column. */
+      void
+      replace(double &value,
+              const C column,
+              const double lowest,
+              const double highest,
+              const std::string &unit) const
+      {
+        if (has(column))
+          value = number_in(column, lowest, highest, unit);
+      }
+
+      const DelimitedText &table;
+      const Columns &columns;
+      const DelimitedText::Row &row;
+    };
+
+    /** Azimuth between 0 and 360 degrees. */
+    double
+    wrapped(const double azimuth)
+    {
+      return azimuth >= 360. ? azimuth - 360. : azimuth;
+    }
+
+    template <int dim>
+    void
+    read_orientation(const RowReader &row, Joint<dim> &joint)
+    {
+      const std::array<C, 3> normal = {{C::normal_x, C::normal_y, C::normal_z}};
+      if (row.has(normal[0]) || row.has(normal[1]) || row.has(normal[2]))
+        for (unsigned int d = 0; d < dim; ++d)
+          joint.normal_entry.push_back(row.number(normal[d]));
+      else if (row.columns.count(C::plunge) || row.columns.count(C::trend))
+        {
+          joint.dip = 90. - row.number_in(C::plunge, 0., 90., "degrees");
+          joint.dip_direction =
+            wrapped(row.number_in(C::trend, 0., 360., "degrees") + 180.);
+        }
+      else
+        {
+          joint.dip = row.number_in(C::dip, 0., 90., "degrees");
+          joint.dip_direction =
+            row.columns.count(C::strike)
+              ? wrapped(row.number_in(C::strike, 0., 360., "degrees") + 90.)
+              : row.number_in(C::dip_direction, 0., 360., "degrees");
+        }
+    }
+
+    /** The coordinates in "x, y, z" or "x y z". */
+    template <int dim>
+    Point<dim>
+    read_vertex(const RowReader &row, const std::string &text)
+    {
+      // a comma parts coordinates unless blanks do and it is a decimal one
+      std::vector<std::string> words;
+      boost::split(words, text, boost::is_space(), boost::token_compress_on);
+      const bool has_commas =
+        words.size() == 1 ||
+        std::any_of(words.begin(), words.end(), [](const std::string &word) {
+          return word.back() == ',' || word.front() == ',';
+        });
+      if (has_commas)
+        {
+          boost::split(words, text, boost::is_any_of(","));
+          for (std::string &word : words)
+            boost::trim(word);
+        }
+      Point<dim> vertex;
+      bool is_point = words.size() == dim;
+      for (unsigned int d = 0; d < dim && is_point; ++d)
+        is_point = read_number(words[d],
+                               row.table.has_decimal_comma() && !has_commas,
+                               vertex[d]);
+      row.require(is_point,
+                  C::vertices,
+                  "'" + text + "' is not a point of " + std::to_string(dim) +
+                    " coordinates; write \"x, y" + (dim == 3 ? ", z" : "") +
+                    "; x, y" + (dim == 3 ? ", z" : "") + "; ...\" in quotes.");
+      for (unsigned int d = 0; d < dim; ++d)
+        vertex[d] *= row.columns.at(C::vertices).unit;
+      return vertex;
+    }
+
+    template <int dim>
+    void
+    read_polygon(const RowReader &row,
+                 const Point<dim> &origin,
+                 Joint<dim> &joint)
+    {
+      if (dim == 2 && !row.has(C::vertices))
+        {
+          const std::array<C, 4> ends = {{C::x1, C::y1, C::x2, C::y2}};
+          joint.vertices.resize(2);
+          for (unsigned int i = 0; i < 4; ++i)
+            joint.vertices[i / 2][i % 2] = row.number(ends[i]) - origin[i % 2];
+          return;
+        }
+      row.require(row.has(C::vertices),
+                  C::vertices,
+                  "the extent is polygon, but there are no corners; give "
+                  "them.");
+      std::vector<std::string> corners;
+      boost::split(corners, row.text(C::vertices), boost::is_any_of(";"));
+      for (std::string &corner : corners)
+        {
+          boost::trim(corner);
+          joint.vertices.push_back(
+            Point<dim>(read_vertex<dim>(row, corner) - origin));
+        }
+    }
+
+    /** What the row says about the extent, in words or by what it gives. */
+    std::string
+    find_extent(const RowReader &row)
+    {
+      const std::string words = boost::to_lower_copy(row.text(C::extent));
+      row.require(words.empty() || words == "infinite" || words == "disc" ||
+                    words == "polygon",
+                  C::extent,
+                  "'" + row.text(C::extent) +
+                    "' is no extent; give infinite, disc or polygon.");
+      if (!words.empty())
+        return words;
+      if (row.has(C::vertices) || row.has(C::x1) || row.has(C::y1) ||
+          row.has(C::x2) || row.has(C::y2))
+        return "polygon";
+      const C size = row.columns.count(C::diameter) ? C::diameter : C::radius;
+      if (row.columns.count(size))
+        {
+          row.require(row.has(size),
+                      size,
+                      "there is no value; give a length, or infinite in the "
+                      "column 'extent'.");
+          return "disc";
+        }
+      row.require(row.columns.count(C::vertices) + row.columns.count(C::x1) ==
+                    0,
+                  row.columns.count(C::vertices) ? C::vertices : C::x1,
+                  "there is no value; give the corners, or infinite in the "
+                  "column 'extent'.");
+      return "infinite";
+    }
+
+    template <int dim>
+    void
+    read_geometry(const RowReader &row,
+                  const Point<dim> &origin,
+                  Joint<dim> &joint)
+    {
+      joint.extent = find_extent(row);
+      if (joint.extent == "polygon")
+        return read_polygon(row, origin, joint);
+      read_orientation(row, joint);
+      const std::array<C, 3> coordinates = {{C::x, C::y, C::z}};
+      for (unsigned int d = 0; d < dim; ++d)
+        joint.point[d] = row.number(coordinates[d]) - origin[d];
+      if (joint.extent == "infinite")
+        return;
+      const bool is_diameter = row.columns.count(C::diameter) > 0;
+      const C size           = is_diameter ? C::diameter : C::radius;
+      joint.radius           = (is_diameter ? 0.5 : 1.) * row.number(size);
+      row.require(joint.radius > 0.,
+                  size,
+                  "the value " + row.text(size) +
+                    " is not positive; give a length, or infinite in the "
+                    "column 'extent'.");
+    }
+
+    void
+    read_strength(const RowReader &row, JointStrength &strength)
+    {
+      const double all = std::numeric_limits<double>::max();
+      row.replace(
+        strength.friction_angle, C::friction_angle, 0., 89.9, "degrees");
+      row.replace(strength.kinetic_friction_angle,
+                  C::kinetic_friction_angle,
+                  -1.,
+                  89.9,
+                  "degrees");
+      row.replace(strength.cohesion, C::cohesion, 0., all, "Pa");
+      row.replace(
+        strength.tensile_strength, C::tensile_strength, 0., all, "Pa");
+      row.replace(
+        strength.residual_cohesion, C::residual_cohesion, -1., all, "Pa");
+      if (!row.has(C::water_pressure))
+        return;
+      const double unit       = row.columns.at(C::water_pressure).unit;
+      const std::string &text = row.text(C::water_pressure);
+      double pressure         = 0.;
+      if (read_number(text, row.table.has_decimal_comma(), pressure))
+        strength.water_pressure = exact_text(unit * pressure);
+      else
+        strength.water_pressure =
+          unit == 1. ? text : exact_text(unit) + " * (" + text + ")";
+    }
+
+    /** Columns that say the same in two ways, or nothing in this dimension. */
+    template <int dim>
+    void
+    check_columns(const DelimitedText &table, const Columns &columns)
+    {
+      const std::string where = "Line " + std::to_string(table.header.line) +
+                                " of the table '" + table.file_name +
+                                "', its header,";
+      const std::vector<std::pair<C, C>> rivals = {{C::dip_direction,
+                                                    C::strike},
+                                                   {C::dip_direction, C::trend},
+                                                   {C::strike, C::trend},
+                                                   {C::dip, C::plunge},
+                                                   {C::radius, C::diameter}};
+      for (const auto &[one, other] : rivals)
+        AssertThrow(columns.count(one) == 0 || columns.count(other) == 0,
+                    InputError(where + " names the columns '" + name_of(one) +
+                               "' and '" + name_of(other) +
+                               "', which say the same; remove one."));
+      const std::vector<C> foreign =
+        dim == 2 ? std::vector<C>{C::z, C::normal_z}
+                 : std::vector<C>{C::x1, C::y1, C::x2, C::y2};
+      for (const C column : foreign)
+        AssertThrow(columns.count(column) == 0,
+                    InputError(where + " names the column '" + name_of(column) +
+                               "', which a table in " + std::to_string(dim) +
+                               "D cannot have; remove it, or change "
+                               "'Dimension'."));
+    }
+  } // namespace
+
+
+
+  void
+  check_name(const std::string &name, const std::string &owner)
+  {
+    const auto bad = name.find_first_of(",;/#*?[]={}|\\\"\n\t");
+    AssertThrow(!name.empty() && bad == std::string::npos &&
+                  name == boost::trim_all_copy(name),
+                InputError(owner + " is called '" + name +
+                           "', but names must not be empty and have no double "
+                           "blanks and none of , ; / # * ? [ ] = { } | \\ \"; "
+                           "give it another name."));
+  }
+
+
+
+  template <int dim>
+  std::vector<std::unique_ptr<Joint<dim>>>
+  read_joint_table(const std::string &file_name,
+                   const Point<dim> &origin,
+                   const std::map<std::string, JointStrength> &strength_of_set)
+  {
+    const DelimitedText table = read_delimited_text(file_name, "Joints/File");
+    const Columns columns     = find_joint_columns(table);
+    check_columns<dim>(table, columns);
+    std::vector<std::unique_ptr<Joint<dim>>> joints;
+    joints.reserve(table.rows.size());
+    for (unsigned int i = 0; i < table.rows.size(); ++i)
+      {
+        const RowReader row(table, columns, table.rows[i]);
+        joints.push_back(std::make_unique<Joint<dim>>());
+        Joint<dim> &joint = *joints.back();
+        joint.origin      = row.place();
+        joint.name =
+          row.has(C::name) ? row.text(C::name) : "J" + std::to_string(i + 1);
+        joint.set = row.text(C::set);
+        check_name(joint.name, row.place() + ", its joint");
+        if (!joint.set.empty())
+          check_name(joint.set, row.place() + ", its set");
+        const auto strength = strength_of_set.find(joint.set);
+        if (strength != strength_of_set.end())
+          static_cast<JointStrength &>(joint) = strength->second;
+        read_geometry(row, origin, joint);
+        read_strength(row, joint);
+      }
+    return joints;
+  }
+
+  template std::vector<std::unique_ptr<Joint<2>>>
+  read_joint_table(const std::string &,
+                   const Point<2> &,
+                   const std::map<std::string, JointStrength> &);
+  template std::vector<std::unique_ptr<Joint<3>>>
+  read_joint_table(const std::string &,
+                   const Point<3> &,
+                   const std::map<std::string, JointStrength> &);
+} // namespace Keyblock

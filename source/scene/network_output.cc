@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/errors.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/scene/domain_outline.h>
+#include <keyblock/scene/network_output.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    void
+    check_written(std::ofstream &out, const std::string &file_name)
+    {
+      AssertThrow(out.flush(),
+                  InputError("The file '" + file_name +
+                             "' cannot be written; check free space and "
+                             "permissions."));
+    }
+
+    /** A field of a table, quoted if it must be. */
+    std::string
+    field(const std::string &text)
+    {
+      if (text.find_first_of(",;\"#\t") == std::string::npos)
+        return text;
+      std::string quoted = "\"";
+      for (const char letter : text)
+        quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+      return quoted + '"';
+    }
+
+    template <typename Values>
+    std::string
+    joined(const Values &values,
+           const unsigned int n,
+           const std::string &separator)
+    {
+      std::string text;
+      for (unsigned int i = 0; i < n; ++i)
+        text += (i ? separator : "") + exact_text(values[i]);
+      return text;
+    }
+
+    /** Where the joint is: the columns from extent to vertices. */
+    template <int dim>
+    std::string
+    geometry_fields(const Joint<dim> &joint,
+                    const Point<dim> &origin,
+                    const bool has_normals)
+    {
+      const std::string no_vector(dim - 1, ',');
+      std::string text = joint.extent + ",";
+      if (joint.extent == "polygon")
+        {
+          std::string corners;
+          for (const Point<dim> &vertex : joint.vertices)
+            corners += (corners.empty() ? "" : "; ") +
+                       joined(Point<dim>(vertex + origin), dim, ", ");
+          return text + no_vector + ",,," +
+                 (has_normals ? no_vector + "," : "") + "," + field(corners);
+        }
+      text += joined(Point<dim>(joint.point + origin), dim, ",") + ",";
+      const bool has_normal = !joint.normal_entry.empty();
+      text += has_normal
+                ? ","
+                : exact_text(joint.dip) + "," + exact_text(joint.dip_direction);
+      if (has_normals)
+        text +=
+          "," + (has_normal ? joined(joint.normal_entry, dim, ",") : no_vector);
+      return text + "," +
+             (joint.extent == "disc" ? exact_text(joint.radius) : "") + ",";
+    }
+
+    /** Corners of what is drawn of a joint, in 2D two ends. */
+    template <int dim>
+    std::vector<Point<dim>>
+    corners_of(const Joint<dim> &joint, const DomainOutline<dim> &box)
+    {
+      if (joint.extent == "polygon")
+        return joint.vertices;
+      if (joint.extent == "infinite")
+        return box.cut(joint);
+      const Tensor<1, dim> n = joint.normal();
+      std::vector<Point<dim>> corners;
+      if constexpr (dim == 2)
+        {
+          Tensor<1, dim> half;
+          half[0] = -joint.radius * n[1];
+          half[1] = joint.radius * n[0];
+          corners = {joint.point - half, joint.point + half};
+        }
+      else
+        {
+          Tensor<1, dim> axis;
+          axis[std::abs(n[2]) < 0.9 ? 2 : 0] = 1.;
+          Tensor<1, dim> a                   = cross_product_3d(n, axis);
+          a *= joint.radius / a.norm();
+          const Tensor<1, dim> b = cross_product_3d(n, a);
+          for (unsigned int i = 0; i < 32; ++i)
+            {
+              const double angle = dealii::numbers::PI * i / 16.;
+              corners.push_back(joint.point + std::cos(angle) * a +
+                                std::sin(angle) * b);
+            }
+        }
+      return corners;
+    }
+
+    template <int dim>
+    double
+    dip_of(const Joint<dim> &joint)
+    {
+      const Tensor<1, dim> n = joint.normal();
+      return std::acos(std::min(1., n[dim - 1])) * 180. / dealii::numbers::PI;
+    }
+
+    template <int dim>
+    double
+    dip_direction_of(const Joint<dim> &joint)
+    {
+      const Tensor<1, dim> n = joint.normal();
+      const double azimuth =
+        std::atan2(n[0], dim == 3 ? n[1] : 0.) * 180. / dealii::numbers::PI;
+      return azimuth < 0. ? azimuth + 360. : azimuth;
+    }
+
+    /** Cells of a VTU file, and what is known of each. */
+    struct Cells
+    {
+      unsigned int n_points = 0, n_cells = 0;
+      std::string points, connectivity, offsets, types;
+      std::map<std::string, std::string> data;
+
+      template <int dim>
+      void
+      add(const std::vector<Point<dim>> &corners)
+      {
+        for (const Point<dim> &corner : corners)
+          {
+            points += joined(corner, dim, " ") + (dim == 2 ? " 0\n" : "\n");
+            connectivity += std::to_string(n_points++) + " ";
+          }
+        offsets += std::to_string(n_points) + " ";
+        types += dim == 2 ? "3 " : "7 "; // line, polygon
+        ++n_cells;
+      }
+
+      void
+      write(std::ostream &out) const
+      {
+        const auto array = [&out](const std::string &type,
+                                  const std::string &attributes,
+                                  const std::string &values) {
+          out << "<DataArray type=\"" << type << "\" " << attributes
+              << " format=\"ascii\">\n"
+              << values << "\n</DataArray>\n";
+        };
+        out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" "
+               "version=\"0.1\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
+            << n_points << "\" NumberOfCells=\"" << n_cells
+            << "\">\n<Points>\n";
+        array("Float64", "NumberOfComponents=\"3\"", points);
+        out << "</Points>\n<Cells>\n";
+        array("Int32", "Name=\"connectivity\"", connectivity);
+        array("Int32", "Name=\"offsets\"", offsets);
+        array("UInt8", "Name=\"types\"", types);
+        out << "</Cells>\n<CellData>\n";
+        for (const auto &[name, values] : data)
+          array("Float64", "Name=\"" + name + "\"", values);
+        out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+      }
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  write_joint_table(const std::string &file_name, const Scene<dim> &scene)
+  {
+    const bool has_normals = std::any_of(scene.joints.begin(),
+                                         scene.joints.end(),
+                                         [](const auto &joint) {
+                                           return joint->extent != "polygon" &&
+                                                  !joint->normal_entry.empty();
+                                         });
+    const std::string axes = dim == 2 ? "x (m),y (m)," : "x (m),y (m),z (m),";
+    const std::string normals =
+      dim == 2 ? "normal x,normal y," : "normal x,normal y,normal z,";
+    std::ofstream out(file_name);
+    out << "name,set,extent," << axes << "dip (deg),dip direction (deg),"
+        << (has_normals ? normals : "")
+        << "radius (m),vertices (m),friction angle (deg),"
+           "kinetic friction angle (deg),cohesion (Pa),tensile strength (Pa),"
+           "residual cohesion (Pa),water pressure (Pa)\n";
+    for (const auto &joint : scene.joints)
+      out << field(joint->name) << ',' << field(joint->set) << ','
+          << geometry_fields(*joint, scene.domain.origin, has_normals) << ','
+          << exact_text(joint->friction_angle) << ','
+          << exact_text(joint->kinetic_friction_angle) << ','
+          << exact_text(joint->cohesion) << ','
+          << exact_text(joint->tensile_strength) << ','
+          << exact_text(joint->residual_cohesion) << ','
+          << field(joint->water_pressure) << '\n';
+    check_written(out, file_name);
+  }
+
+
+
+  template <int dim>
+  void
+  write_joint_planes(const std::string &file_name,
+                     const Scene<dim> &scene,
+                     const std::vector<Point<dim>> &vertices)
+  {
+    Point<dim> lower = vertices.at(0), upper = lower;
+    for (const Point<dim> &vertex : vertices)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = std::min(lower[d], vertex[d]);
+          upper[d] = std::max(upper[d], vertex[d]);
+        }
+    const DomainOutline<dim> box(lower, upper);
+    Cells cells;
+    std::map<std::string, int> sets;
+    for (unsigned int j = 0; j < scene.joints.size(); ++j)
+      {
+        const Joint<dim> &joint = *scene.joints[j];
+        const auto corners      = corners_of(joint, box);
+        if (!joint.set.empty())
+          sets.emplace(joint.set, sets.size());
+        if (corners.empty())
+          continue;
+        cells.add(corners);
+        const auto put = [&cells](const std::string &name, const double value) {
+          cells.data[name] += exact_text(value) + " ";
+        };
+        put("joint", j);
+        put("set", joint.set.empty() ? -1 : sets[joint.set]);
+        put("dip", dip_of(joint));
+        put("dip_direction", dip_direction_of(joint));
+        put("friction_angle", joint.friction_angle);
+      }
+    std::ofstream out(file_name);
+    cells.write(out);
+    check_written(out, file_name);
+  }
+
+  template void write_joint_table(const std::string &, const Scene<2> &);
+  template void write_joint_table(const std::string &, const Scene<3> &);
+  template void write_joint_planes(const std::string &,
+                                   const Scene<2> &,
+                                   const std::vector<Point<2>> &);
+  template void write_joint_planes(const std::string &,
+                                   const Scene<3> &,
+                                   const std::vector<Point<3>> &);
+} // namespace Keyblock

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/parameter_handler.h>
+
+#include <keyblock/base/errors.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/scene/text.h>
+
+#include <boost/algorithm/string.hpp>
+#include <boost/algorithm/string/trim_all.hpp>
+#include <boost/locale/utf.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Throw a better sentence if deal.II's @p complaint is of a subsection of
+     * a name that its section does not list. */
+    void
+    require_listed(const std::string &complaint, const std::string &source)
+    {
+      const std::regex unknown(
+        "Line <(\\d+)>.*no such subsection to be entered: ([^.]+)\\.(.*)");
+      std::smatch found;
+      const bool is_unlisted = std::regex_match(complaint, found, unknown);
+      AssertThrow(!is_unlisted,
+                  InputError("In " + source + ", line " + found[1].str() +
+                             ": there is a subsection '" + found[2].str() +
+                             "/" + found[3].str() + "', but '" +
+                             found[2].str() + "/Names' does not list '" +
+                             found[3].str() +
+                             "'; add the name there, or take the subsection "
+                             "out."));
+    }
+  } // namespace
+
+
+
+  void
+  parse_entries(dealii::ParameterHandler &prm,
+                const std::string &text,
+                const std::string &file_name,
+                const std::string &source,
+                const bool skip_unknown)
+  {
+    try
+      {
+        std::istringstream in(text);
+        prm.parse_input(in, file_name, "", skip_unknown);
+      }
+    catch (const dealii::ExceptionBase &exception)
+      {
+        std::ostringstream words;
+        exception.print_info(words);
+        std::string sentence =
+          boost::trim_all_copy(boost::replace_all_copy(words.str(), "\n", " "));
+        require_listed(sentence, source);
+        if (!boost::ends_with(sentence, "."))
+          sentence += '.';
+        AssertThrow(false,
+                    InputError(
+                      "In " + source + ": " + sentence +
+                      " Entries, ranges and units are listed in "
+                      "doc/parameters.md (or by --print-parameters)."));
+      }
+  }
+
+
+
+  namespace
+  {
+    constexpr std::size_t largest_text = std::size_t(1) << 26; // [bytes]
+
+    /** The bytes of a file. Those that can be read only once, and by one
+     * process only (pipes), are kept. */
+    std::string
+    read_bytes(const std::string &file_name, const std::string &what)
+    {
+      static std::map<std::string, std::string> pipes;
+      const auto kept = pipes.find(file_name);
+      if (kept != pipes.end())
+        return kept->second;
+      std::string text;
+      std::vector<unsigned int> is_pipe(1, 0);
+      on_root([&]() {
+        std::error_code error;
+        std::ifstream in(file_name, std::ios::binary);
+        AssertThrow(in && !std::filesystem::is_directory(file_name, error),
+                    InputError("The " + what + " '" + file_name +
+                               "' cannot be read; check its path."));
+        is_pipe[0] = !std::filesystem::is_regular_file(file_name, error);
+        // a device may have no end
+        std::vector<char> piece(1u << 16);
+        while (in.read(piece.data(), piece.size()) || in.gcount() > 0)
+          {
+            text.append(piece.data(), in.gcount());
+            AssertThrow(text.size() <= largest_text,
+                        InputError("The " + what + " '" + file_name +
+                                   "' has more than 64 MB; name a scene "
+                                   "file."));
+          }
+      });
+      text = text_of_root(text);
+      broadcast(is_pipe);
+      if (is_pipe[0])
+        pipes[file_name] = text;
+      return text;
+    }
+
+    bool
+    is_utf_8(const std::string &text)
+    {
+      using Decoder = boost::locale::utf::utf_traits<char>;
+      for (auto next = text.begin(); next != text.end();)
+        if (!boost::locale::utf::is_valid_codepoint(
+              Decoder::decode(next, text.end())))
+          return false;
+      return true;
+    }
+
+    /** Throw InputError if a line of the @p text is not UTF-8 before its
+     * comment. */
+    void
+    require_utf_8(const std::string &text,
+                  const std::string &file_name,
+                  const std::string &what)
+    {
+      std::istringstream in(text);
+      std::string line;
+      for (unsigned int number = 1; std::getline(in, line); ++number)
+        AssertThrow(is_utf_8(line.substr(0, line.find('#'))),
+                    InputError("Line " + std::to_string(number) + " of the " +
+                               what + " '" + file_name +
+                               "' contains a byte that is not UTF-8; save the "
+                               "file as UTF-8."));
+    }
+
+    /** The text of a file without byte order mark, with '\n' at the end of
+     * each line. */
+    std::string
+    read_file(const std::string &file_name, const std::string &what)
+    {
+      const std::string raw = read_bytes(file_name, what);
+      AssertThrow(raw.find('\0') == std::string::npos &&
+                    !boost::starts_with(raw, "\xFF\xFE") &&
+                    !boost::starts_with(raw, "\xFE\xFF"),
+                  InputError("The " + what + " '" + file_name +
+                             "' is no plain text (it contains a byte 0, as "
+                             "UTF-16 does); save it as UTF-8."));
+      std::string text =
+        raw.substr(boost::starts_with(raw, "\xEF\xBB\xBF") ? 3 : 0);
+      boost::replace_all(text, "\r\n", "\n");
+      boost::replace_all(text, "\r", "\n");
+      require_utf_8(text, file_name, what);
+      return text;
+    }
+
+    /** A line without comment, with single blanks only, as it is parsed. */
+    std::string
+    significant(std::string line)
+    {
+      line.erase(std::min(line.find('#'), line.size()));
+      boost::trim_all(line, std::locale::classic());
+      return line;
+    }
+
+    /** Whether a line begins with @p word, in small or capital letters. */
+    bool
+    begins_with(const std::string &line, const std::string &word)
+    {
+      return boost::starts_with(line, word) ||
+             boost::starts_with(line, boost::to_upper_copy(word));
+    }
+
+    std::string include_file(const std::string &file_name,
+                             std::vector<std::string> chain);
+
+    /** Put the text of included files in the place of `include FILE`;
+     * @p chain: the files that led here. */
+    std::string
+    include_files(const std::string &text,
+                  const std::vector<std::string> &chain)
+    {
+      if (text.find("include ") == std::string::npos &&
+          text.find("INCLUDE ") == std::string::npos)
+        return text;
+      std::istringstream lines(text);
+      std::string all;
+      for (std::string line; std::getline(lines, line);)
+        {
+          const std::string words = significant(line);
+          all += begins_with(words, "include ")
+                   ? include_file(words.substr(8), chain)
+                   : line;
+          all += '\n';
+          AssertThrow(all.size() <= largest_text,
+                      InputError("The scene file '" + chain.front() +
+                                 "' has more than 64 MB with all files that "
+                                 "it includes; include each of them once."));
+        }
+      return all;
+    }
+
+    std::string
+    include_file(const std::string &file_name, std::vector<std::string> chain)
+    {
+      std::error_code error;
+      for (const std::string &before : chain)
+        AssertThrow(before != file_name &&
+                      !std::filesystem::equivalent(before, file_name, error),
+                    InputError("The file '" + chain.back() + "' includes '" +
+                               file_name +
+                               "', which includes itself in this way; remove "
+                               "that 'include'."));
+      chain.push_back(file_name);
+      return include_files(read_file(file_name, "included file"), chain);
+    }
+
+    /** Move the subsections of `subsection Joints` out of the text. */
+    void
+    set_joints_apart(SceneText &scene)
+    {
+      std::istringstream lines(scene.text);
+      std::string rest, previous;
+      std::vector<std::string> sections;
+      unsigned int number = 0;
+      for (std::string line; std::getline(lines, line); previous = line)
+        {
+          ++number;
+          const std::string words = significant(line);
+          const bool is_continued = boost::ends_with(previous, "\\");
+          const bool opens = !is_continued && begins_with(words, "subsection ");
+          const bool closes =
+            !is_continued && (words == "end" || words == "END");
+          const auto is_in_joint = [&]() {
+            return sections.size() >= 2 && sections[0] == "Joints";
+          };
+          const bool was_in_joint = is_in_joint();
+          if (closes && !sections.empty())
+            sections.pop_back();
+          if (was_in_joint && is_in_joint())
+            scene.joint_subsections.back().text += line + '\n';
+          if (opens)
+            sections.push_back(words.substr(11));
+          if (!was_in_joint && is_in_joint())
+            scene.joint_subsections.push_back({sections[1],
+                                               "",
+                                               "'" + scene.file_name +
+                                                 "', from line " +
+                                                 std::to_string(number) + " on",
+                                               number});
+          rest += (was_in_joint || is_in_joint() ? "" : line) + '\n';
+        }
+      scene.text = rest;
+    }
+
+    /** "Section/Sub/Entry=value" taken apart. */
+    void
+    add_override(const std::string &assignment, SceneText &scene)
+    {
+      const auto equal = assignment.find('=');
+      AssertThrow(equal != std::string::npos && equal > 0,
+                  InputError("The override '" + assignment +
+                             "' of --set has no '='; write "
+                             "--set \"Section/Entry=value\"."));
+      std::vector<std::string> parts;
+      const std::string path = assignment.substr(0, equal);
+      boost::split(parts, path, boost::is_any_of("/"));
+      const std::string set =
+        "set " + parts.back() + " = " + assignment.substr(equal + 1) + "\n";
+      if (parts.size() == 3 && parts[0] == "Joints")
+        {
+          scene.joint_overrides.push_back(
+            {parts[1], set, "--set \"" + assignment + "\"", 0});
+          return;
+        }
+      std::string text;
+      for (unsigned int i = 0; i + 1 < parts.size(); ++i)
+        text += "subsection " + parts[i] + "\n";
+      text += set;
+      for (unsigned int i = 0; i + 1 < parts.size(); ++i)
+        text += "end\n";
+      scene.overrides.push_back({assignment, text});
+    }
+  } // namespace
+
+
+
+  SceneText::SceneText(const std::string &file_name,
+                       const std::vector<std::string> &overrides)
+    : file_name(file_name)
+    , text(include_files(read_file(file_name, "scene file"), {file_name}))
+  {
+    set_joints_apart(*this);
+    for (const std::string &assignment : overrides)
+      add_override(assignment, *this);
+  }
+
+
+
+  void
+  SceneText::parse(dealii::ParameterHandler &prm, const bool skip_unknown) const
+  {
+    parse_entries(prm, text, file_name, "'" + file_name + "'", skip_unknown);
+    for (const Override &entry : overrides)
+      parse_entries(prm,
+                    entry.text,
+                    "",
+                    "--set \"" + entry.assignment + "\"",
+                    skip_unknown);
+  }
+} // namespace Keyblock

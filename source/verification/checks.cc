@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/mpi.h>
+#include <keyblock/verification/tools.h>
+
+#include <functional>
+#include <map>
+
+namespace Keyblock
+{
+  template <int dim>
+  RockState<dim>
+  gather_rock(const Scene<dim> &scene,
+              const SplitMesh<dim> &split,
+              const Numbering<dim> &numbering,
+              const CellArrays<dim> &cells,
+              const Fields<dim> &fields)
+  {
+    const Mesh<dim> &mesh           = split.mesh;
+    constexpr unsigned int n_values = n_stress<dim> + 2; // and strain, presence
+    std::vector<double> by_cell(n_values * mesh.n_cells(), 0.);
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      {
+        double *const value = by_cell.data() + n_values * cells.mesh_cell[c];
+        for (unsigned int q = 0; q < (1 << dim); ++q)
+          {
+            const auto stress = cells.stress_at(c, q);
+            for (int k = 0; k < n_stress<dim>; ++k)
+              value[k] += stress[k] / (1 << dim);
+            if (c >= cells.first_plastic() &&
+                cells.plastic_strain[(c - cells.first_plastic()) * (1 << dim) +
+                                     q] > 0.)
+              value[n_stress<dim>] += 1. / (1 << dim);
+          }
+        value[n_stress<dim> + 1] = 1.;
+      }
+    sum_lists(by_cell);
+    std::vector<double> by_vertex(dim * mesh.vertices.size(), 0.);
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        by_vertex[dim * numbering.vertex_of_node[node] + d] =
+          fields.displacement[dim * node + d];
+    sum_lists(by_vertex);
+
+    RockState<dim> rock;
+    rock.vertices = mesh.vertices;
+    rock.displacements.resize(mesh.vertices.size());
+    for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+      for (unsigned int d = 0; d < dim; ++d)
+        rock.displacements[v][d] = by_vertex[dim * v + d];
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        const double *const value = by_cell.data() + n_values * c;
+        if (value[n_stress<dim> + 1] == 0.)
+          continue;
+        typename RockState<dim>::Cell cell;
+        cell.vertices      = mesh.cells[c];
+        cell.material      = mesh.material[c];
+        cell.volume        = mesh.cell_volume(c);
+        cell.center        = mesh.cell_center(c);
+        cell.plastic_share = value[n_stress<dim>];
+        std::copy(value, value + n_stress<dim>, cell.stress.begin());
+        rock.cells.push_back(cell);
+      }
+    return rock;
+  }
+
+  template RockState<2> gather_rock(const Scene<2> &,
+                                    const SplitMesh<2> &,
+                                    const Numbering<2> &,
+                                    const CellArrays<2> &,
+                                    const Fields<2> &);
+  template RockState<3> gather_rock(const Scene<3> &,
+                                    const SplitMesh<3> &,
+                                    const Numbering<3> &,
+                                    const CellArrays<3> &,
+                                    const Fields<3> &);
+
+
+
+  template <int dim>
+  CheckValues
+  evaluate_checks(const CheckInput<dim> &input)
+  {
+    using Check = std::function<CheckValues(const CheckInput<dim> &)>;
+    static const std::map<std::string, Check> closed_forms = {
+      {"incline", check_incline<dim>},
+      {"resting", check_resting<dim>},
+      {"bar_impact", check_bar_impact<dim>},
+      {"oblique_impact", check_oblique_impact<dim>},
+      {"bond_break", check_bond_break<dim>},
+      {"gravity_column", check_gravity_column<dim>},
+      {"kirsch", check_kirsch<dim>},
+      {"salencon", check_salencon<dim>},
+      {"spherical_cavity", check_spherical_cavity<dim>},
+      {"footing", check_footing<dim>},
+      {"value", check_value<dim>},
+      {"newmark", check_newmark<dim>},
+      {"toppling", check_toppling<dim>},
+      {"rotation", check_rotation<dim>}};
+    const auto found = closed_forms.find(input.scene.checks.closed_form);
+    return found == closed_forms.end() || !input.history.has_last_stage()
+             ? CheckValues()
+             : found->second(input);
+  }
+
+  template CheckValues evaluate_checks(const CheckInput<2> &);
+  template CheckValues evaluate_checks(const CheckInput<3> &);
+} // namespace Keyblock

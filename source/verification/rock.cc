@@ -1,0 +1,569 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Closed forms of elastic and plastic rock.
+#include <keyblock/rock/initial_stress.h>
+#include <keyblock/verification/tools.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <array>
+
+namespace Keyblock
+{
+  using dealii::SymmetricTensor;
+
+  namespace
+  {
+    double
+    slope_of(const double angle_in_degrees)
+    {
+      const double sine =
+        std::sin(angle_in_degrees * dealii::numbers::PI / 180.);
+      return (1. + sine) / (1. - sine);
+    }
+
+    /** Stress (compression positive) and displacement in polar coordinates. */
+    struct PolarState
+    {
+      double radial_stress, hoop_stress, shear_stress; ///< [Pa]
+      double radial, tangential;                       ///< displacements [m]
+    };
+
+    /** Circular hole of radius a in an elastic plate with stresses x and y far
+     * away (Kirsch 1898), displacements those of the excavation. */
+    struct Kirsch
+    {
+      double a, x, y, shear_modulus, poisson_ratio;
+
+      PolarState
+      at(const double r, const double angle) const
+      {
+        const double s = 0.5 * (x + y), d = 0.5 * (x - y);
+        const double q = a * a / (r * r), c = std::cos(2. * angle),
+                     w = a * a / (2. * shear_modulus * r);
+        return {s * (1. - q) + d * (1. - 4. * q + 3. * q * q) * c,
+                s * (1. + q) - d * (1. + 3. * q * q) * c,
+                -d * (1. + 2. * q - 3. * q * q) * std::sin(2. * angle),
+                -w * (s + d * (4. * (1. - poisson_ratio) - q) * c),
+                w * d * (2. * (1. - 2. * poisson_ratio) + q) *
+                  std::sin(2. * angle)};
+      }
+    };
+
+    /** Circular tunnel under a hydrostatic stress in Mohr-Coulomb rock
+     * (Salencon 1969), no support pressure. */
+    struct Salencon
+    {
+      double a, pressure, shear_modulus, poisson_ratio, k, flow, strength;
+
+      double
+      plastic_radius() const
+      {
+        const double cohesive = strength / (k - 1.);
+        return a * std::pow(2. / (k + 1.) * (pressure + cohesive) / cohesive,
+                            1. / (k - 1.));
+      }
+
+      PolarState
+      at(const double r, const double) const
+      {
+        const double cohesive = strength / (k - 1.), R = plastic_radius();
+        const double w = r / (2. * shear_modulus);
+        if (r >= R)
+          {
+            const double limit = (2. * pressure - strength) / (k + 1.);
+            const double part  = (pressure - limit) * R * R / (r * r);
+            return {pressure - part, pressure + part, 0., -w * part, 0.};
+          }
+        const double grown = cohesive * std::pow(r / a, k - 1.);
+        const double chi =
+          (2. * poisson_ratio - 1.) * (pressure + cohesive) +
+          (1. - poisson_ratio) * (k * k - 1.) / (k + flow) * cohesive *
+            std::pow(R / a, k - 1.) * std::pow(R / r, flow + 1.) +
+          ((1. - poisson_ratio) * (k * flow + 1.) / (k + flow) -
+           poisson_ratio) *
+            grown;
+        return {grown - cohesive, k * grown - cohesive, 0., -w * chi, 0.};
+      }
+    };
+
+    /** Spherical cavity of radius a under a hydrostatic stress in
+     * Mohr-Coulomb rock: Salencon's solution with two hoop stresses, both on
+     * the yield surface. Elastic rock has no strength limit. */
+    class SphericalCavity
+    {
+    public:
+      const double a; ///< [m]
+
+      SphericalCavity(const double a,
+                      const double pressure,
+                      const Material<3> &rock)
+        : a(a)
+        , pressure(pressure)
+        , shear_modulus(rock.shear_modulus())
+        , k(slope_of(rock.friction_angle))
+        , strength(2. * rock.cohesion * std::sqrt(k))
+        , cohesive(strength / (k - 1.))
+        , flow(2. * slope_of(rock.dilation_angle < 0. ? rock.friction_angle
+                                                      : rock.dilation_angle))
+      {
+        limit = (3. * pressure - 2. * strength) / (2. * k + 1.);
+        if (!rock.is_plastic() || limit <= 0.)
+          {
+            limit  = 0.;
+            radius = a;
+            return;
+          }
+        const double nu = rock.poisson_ratio,
+                     e  = 2. * shear_modulus * (1. + nu);
+        radius  = a * std::pow((limit + cohesive) / cohesive, 0.5 / (k - 1.));
+        growing = cohesive * (1. - 2. * nu * k + flow * ((1. - nu) * k - nu)) /
+                  (e * (1. + 2. * (k - 1.) + flow));
+        uniform  = -(cohesive + pressure) * (1. - 2. * nu) / e;
+        decaying = (pressure - limit) / (4. * shear_modulus) - uniform -
+                   growing * grown(radius);
+      }
+
+      double
+      plastic_radius() const
+      {
+        return radius;
+      }
+
+      /** Stress, compression positive, and displacement away from the
+       * cavity. */
+      PolarState
+      at(const double r) const
+      {
+        if (r >= radius)
+          {
+            const double part = (pressure - limit) * std::pow(radius / r, 3.);
+            return {pressure - part,
+                    pressure + 0.5 * part,
+                    0.,
+                    -0.25 * r * part / shear_modulus,
+                    0.};
+          }
+        const double radial = cohesive * (grown(r) - 1.);
+        return {radial,
+                k * radial + strength,
+                0.,
+                -r * (growing * grown(r) + uniform +
+                      decaying * std::pow(radius / r, 1. + flow)),
+                0.};
+      }
+
+    private:
+      double
+      grown(const double r) const
+      {
+        return std::pow(r / a, 2. * (k - 1.));
+      }
+
+      const double pressure, shear_modulus, k, strength, cohesive, flow;
+      double limit;  ///< radial stress at the edge of the plastic rock [Pa]
+      double radius; ///< of the plastic rock [m]
+      double growing = 0., uniform = 0., decaying = 0.; ///< hoop strains [-]
+    };
+
+    /** Compare all of the rock around a hole with a solution in polar
+     * coordinates: displacements of the wall relative to the largest, stresses
+     * of cells that do not touch the wall relative to @p scale. */
+    template <int dim, typename Solution>
+    void
+    compare_around_hole(const CheckInput<dim> &input,
+                        const Solution &solution,
+                        const double scale,
+                        CheckValues &checks)
+    {
+      const Excavation<dim> &hole = *input.scene.excavations.front();
+      const auto polar            = [&](const Point<dim> &p) {
+        return std::array<double, 2>{
+          {std::hypot(p[0] - hole.center[0], p[1] - hole.center[1]),
+           std::atan2(p[1] - hole.center[1], p[0] - hole.center[0])}};
+      };
+      std::vector<bool> is_wall(input.rock.vertices.size());
+      for (unsigned int v = 0; v < is_wall.size(); ++v)
+        is_wall[v] = std::abs(polar(input.rock.vertices[v])[0] - hole.radius) <
+                     1e-6 * hole.radius;
+      double error = 0., largest = 0., closure = 0., exact_closure = 0.;
+      for (unsigned int v = 0; v < is_wall.size(); ++v)
+        if (is_wall[v])
+          {
+            const auto [r, angle]  = polar(input.rock.vertices[v]);
+            const PolarState exact = solution.at(r, angle);
+            const Tensor<1, dim> u = input.rock.displacements[v];
+            const double c = std::cos(angle), s = std::sin(angle);
+            const double radial = c * u[0] + s * u[1];
+            error =
+              std::max(error,
+                       std::hypot(radial - exact.radial,
+                                  c * u[1] - s * u[0] - exact.tangential));
+            largest =
+              std::max(largest, std::hypot(exact.radial, exact.tangential));
+            closure -= radial;
+            exact_closure -= exact.radial;
+          }
+      double stress_error = 0., square = 0., volume = 0.;
+      for (const auto &cell : input.rock.cells)
+        {
+          if (std::any_of(cell.vertices.begin(),
+                          cell.vertices.end(),
+                          [&](const unsigned int v) { return is_wall[v]; }))
+            continue;
+          const auto [r, angle]  = polar(cell.center);
+          const PolarState exact = solution.at(r, angle);
+          const double c = std::cos(angle), s = std::sin(angle);
+          const double x = -cell.stress[0], y = -cell.stress[1],
+                       xy     = -cell.stress[n_stress<dim> - 1];
+          const double radial = c * c * x + s * s * y + 2. * s * c * xy;
+          const double hoop   = s * s * x + c * c * y - 2. * s * c * xy;
+          const double shear  = s * c * (y - x) + (c * c - s * s) * xy;
+          const double off = std::max({std::abs(radial - exact.radial_stress),
+                                       std::abs(hoop - exact.hoop_stress),
+                                       std::abs(shear - exact.shear_stress)}) /
+                             scale;
+          stress_error = std::max(stress_error, off);
+          square += cell.volume * off * off;
+          volume += cell.volume;
+        }
+      compare(checks, "wall_closure", closure, exact_closure);
+      checks.emplace_back("wall_displacement_error", error / largest);
+      checks.emplace_back("stress_error", stress_error);
+      checks.emplace_back("mean_stress_error", std::sqrt(square / volume));
+      checks.emplace_back("cells", input.rock.cells.size());
+    }
+
+    /** Share of a full circle that the wall of the hole covers, 1 or what
+     * symmetry leaves [-]. */
+    template <int dim>
+    double
+    covered_share(const CheckInput<dim> &input)
+    {
+      const Excavation<dim> &hole = *input.scene.excavations.front();
+      std::vector<double> angles;
+      for (const Point<dim> &p : input.rock.vertices)
+        {
+          const double x = p[0] - hole.center[0], y = p[1] - hole.center[1];
+          if (std::abs(std::hypot(x, y) - hole.radius) < 1e-6 * hole.radius)
+            angles.push_back(std::atan2(y, x));
+        }
+      std::sort(angles.begin(), angles.end());
+      const double circle = 2. * dealii::numbers::PI;
+      double gap          = angles.front() + circle - angles.back();
+      for (unsigned int i = 1; i < angles.size(); ++i)
+        gap = std::max(gap, angles[i] - angles[i - 1]);
+      return gap > 0.5 ? 1. - gap / circle : 1.;
+    }
+
+    /** Displacements of the wall of a cavity. Returns which vertices are on
+     * it. */
+    std::vector<bool>
+    compare_wall_of_cavity(const CheckInput<3> &input,
+                           const SphericalCavity &solution,
+                           CheckValues &checks)
+    {
+      const double a = solution.a, exact = -solution.at(a).radial;
+      std::vector<bool> is_wall(input.rock.vertices.size());
+      std::vector<double> closure;
+      double error = 0.;
+      for (unsigned int v = 0; v < is_wall.size(); ++v)
+        {
+          const Point<3> &p = input.rock.vertices[v];
+          is_wall[v]        = std::abs(p.norm() - a) < 1e-6 * a;
+          if (!is_wall[v])
+            continue;
+          const Tensor<1, 3> u = input.rock.displacements[v];
+          closure.push_back(-(u * p) / a);
+          error = std::max(error, (u + exact / a * p).norm());
+        }
+      compare(checks, "wall_closure", mean(closure), exact);
+      checks.emplace_back("wall_displacement_error", error / exact);
+      return is_wall;
+    }
+
+    void
+    compare_stress_around_cavity(const CheckInput<3> &input,
+                                 const SphericalCavity &solution,
+                                 const double scale,
+                                 const std::vector<bool> &is_wall,
+                                 CheckValues &checks)
+    {
+      double largest = 0., square = 0., volume = 0.;
+      double hoop = 0., exact_hoop = 0.;
+      for (const auto &cell : input.rock.cells)
+        {
+          const double r         = cell.center.norm();
+          const Tensor<1, 3> n   = cell.center / r;
+          const PolarState exact = solution.at(r);
+          const auto &s          = cell.stress; // xx, yy, zz, yz, xz, xy
+          const double entry[6]  = {-s[0], -s[1], -s[2], -s[5], -s[4], -s[3]};
+          const SymmetricTensor<2, 3> stress(entry);
+          if (std::any_of(cell.vertices.begin(),
+                          cell.vertices.end(),
+                          [&](const unsigned int v) { return is_wall[v]; }))
+            {
+              hoop += 0.5 * cell.volume * (trace(stress) - n * (stress * n));
+              exact_hoop += cell.volume * exact.hoop_stress;
+              continue;
+            }
+          const SymmetricTensor<2, 3> reference =
+            exact.hoop_stress * dealii::unit_symmetric_tensor<3>() +
+            (exact.radial_stress - exact.hoop_stress) *
+              symmetrize(outer_product(n, n));
+          const double off = (stress - reference).norm() / scale;
+          largest          = std::max(largest, off);
+          square += cell.volume * off * off;
+          volume += cell.volume;
+        }
+      const double wall = solution.at(solution.a).hoop_stress;
+      compare(checks, "wall_hoop_stress", wall * hoop / exact_hoop, wall);
+      checks.emplace_back("stress_error", largest);
+      checks.emplace_back("mean_stress_error", std::sqrt(square / volume));
+    }
+
+    /** Radius of a ball about the origin that holds the cavity of radius @p a
+     * and the rock that has yielded; symmetry planes through the origin are
+     * where the rock ends [m]. */
+    double
+    yielded_radius(const CheckInput<3> &input, const double a)
+    {
+      double volume = 0., share = 1.;
+      for (const auto &cell : input.rock.cells)
+        volume += cell.plastic_share * cell.volume;
+      for (unsigned int d = 0; d < 3; ++d)
+        if (std::all_of(input.rock.vertices.begin(),
+                        input.rock.vertices.end(),
+                        [&](const Point<3> &p) { return p[d] > -1e-9 * a; }))
+          share *= 0.5;
+      return std::cbrt(0.75 * volume / (share * dealii::numbers::PI) +
+                       a * a * a);
+    }
+
+    template <int dim>
+    std::array<double, n_stress<dim>>
+    initial_stress(const CheckInput<dim> &input, const Point<dim> &place)
+    {
+      std::array<double, n_stress<dim>> stress;
+      InitialStress<dim>(input.scene.initial_state)
+        .evaluate(place, stress.data());
+      return stress;
+    }
+  } // namespace
+
+
+
+  /** Column under its own weight between rollers: settlement rho g (H^2 - d^2)
+   * / (2 M) at depth d, K0 stresses. */
+  template <int dim>
+  CheckValues
+  check_gravity_column(const CheckInput<dim> &input)
+  {
+    const Material<dim> &rock = *input.scene.materials.front();
+    const double modulus      = rock.lame_lambda() + 2. * rock.shear_modulus();
+    const Expression<dim> formula(input.scene.initial_state.gravity,
+                                  dim,
+                                  "Initial state/Gravity");
+    const double weight =
+      -rock.density * formula.value(Point<dim>(), 0., dim - 1);
+    double bottom = 1e300, top = -1e300;
+    for (const Point<dim> &p : input.rock.vertices)
+      {
+        bottom = std::min(bottom, p[dim - 1]);
+        top    = std::max(top, p[dim - 1]);
+      }
+    const double height   = top - bottom;
+    const double greatest = 0.5 * weight * height * height / modulus;
+    double error = 0., stress_error = 0., settlement = 0.;
+    for (unsigned int v = 0; v < input.rock.vertices.size(); ++v)
+      {
+        const double depth = top - input.rock.vertices[v][dim - 1];
+        const double u     = -input.rock.displacements[v][dim - 1];
+        error =
+          std::max(error,
+                   std::abs(u - 0.5 * weight *
+                                  (height * height - depth * depth) / modulus));
+        if (depth < 1e-9 * height)
+          settlement = u;
+      }
+    const double k0 = rock.poisson_ratio / (1. - rock.poisson_ratio);
+    for (const auto &cell : input.rock.cells)
+      {
+        const double vertical = weight * (top - cell.center[dim - 1]);
+        stress_error          = std::max({stress_error,
+                                          std::abs(-cell.stress[dim - 1] - vertical),
+                                          std::abs(-cell.stress[0] - k0 * vertical)});
+      }
+    CheckValues checks;
+    compare(checks, "settlement", settlement, greatest);
+    checks.emplace_back("displacement_error", error / greatest);
+    checks.emplace_back("stress_error", stress_error / (weight * height));
+    return checks;
+  }
+
+
+
+  template <int dim>
+  CheckValues
+  check_kirsch(const CheckInput<dim> &input)
+  {
+    const Material<dim> &rock   = *input.scene.materials.front();
+    const Excavation<dim> &hole = *input.scene.excavations.front();
+    Point<dim> center;
+    for (unsigned int d = 0; d < 2; ++d)
+      center[d] = hole.center[d];
+    const auto stress = initial_stress(input, center);
+    const Kirsch solution{hole.radius,
+                          -stress[0],
+                          -stress[1],
+                          rock.shear_modulus(),
+                          rock.poisson_ratio};
+    CheckValues checks;
+    compare_around_hole(input,
+                        solution,
+                        std::max(-stress[0], -stress[1]),
+                        checks);
+    return checks;
+  }
+
+
+
+  template <int dim>
+  CheckValues
+  check_salencon(const CheckInput<dim> &input)
+  {
+    const Material<dim> &rock   = *input.scene.materials.front();
+    const Excavation<dim> &hole = *input.scene.excavations.front();
+    Point<dim> center;
+    for (unsigned int d = 0; d < 2; ++d)
+      center[d] = hole.center[d];
+    const double pressure = -initial_stress(input, center)[0];
+    const double k        = slope_of(rock.friction_angle);
+    const Salencon solution{hole.radius,
+                            pressure,
+                            rock.shear_modulus(),
+                            rock.poisson_ratio,
+                            k,
+                            slope_of(rock.dilation_angle < 0.
+                                       ? rock.friction_angle
+                                       : rock.dilation_angle),
+                            2. * rock.cohesion * std::sqrt(k)};
+    CheckValues checks;
+    compare_around_hole(input, solution, pressure, checks);
+    double yielded = 0.;
+    for (const auto &cell : input.rock.cells)
+      yielded += cell.plastic_share * cell.volume;
+    compare(checks,
+            "plastic_radius",
+            std::sqrt(yielded / (covered_share(input) * dealii::numbers::PI) +
+                      hole.radius * hole.radius),
+            solution.plastic_radius());
+    checks.emplace_back("energy_residual",
+                        input.stages.back().energies.relative_residual());
+    return checks;
+  }
+
+
+
+  /** Spherical cavity about the origin: displacements of the wall, stresses of
+   * cells that do not touch it (norm of the difference of tensors), the hoop
+   * stress of those that do, brought to the wall in proportion to the closed
+   * form, and the radius of the rock that has yielded. */
+  template <int dim>
+  CheckValues
+  check_spherical_cavity(const CheckInput<dim> &input)
+  {
+    CheckValues checks;
+    if constexpr (dim == 3)
+      {
+        const double pressure = -initial_stress(input, Point<dim>())[0];
+        const SphericalCavity solution(input.scene.checks.length,
+                                       pressure,
+                                       *input.scene.materials.front());
+        const auto is_wall = compare_wall_of_cavity(input, solution, checks);
+        compare_stress_around_cavity(
+          input, solution, pressure, is_wall, checks);
+        if (solution.plastic_radius() > solution.a)
+          compare(checks,
+                  "plastic_radius",
+                  yielded_radius(input, solution.a),
+                  solution.plastic_radius());
+        checks.emplace_back("cells", input.rock.cells.size());
+        checks.emplace_back("energy_residual",
+                            input.stages.back().energies.relative_residual());
+      }
+    return checks;
+  }
+
+
+
+  /** A column of the history against a number of the scene. */
+  template <int dim>
+  CheckValues
+  check_value(const CheckInput<dim> &input)
+  {
+    const CheckSettings &settings = input.scene.checks;
+    CheckValues checks;
+    compare(checks,
+            "value",
+            input.history.last(settings.quantity),
+            settings.reference);
+    checks.emplace_back("energy_residual",
+                        input.stages.back().energies.relative_residual());
+    return checks;
+  }
+
+
+
+  /** Strip footing on weightless rock (Prandtl 1920): mean pressure c N_c over
+   * the loaded width, measured at the end of the last stage. */
+  template <int dim>
+  CheckValues
+  check_footing(const CheckInput<dim> &input)
+  {
+    const Material<dim> &rock = *input.scene.materials.front();
+    const double angle  = rock.friction_angle * dealii::numbers::PI / 180.;
+    const double factor = angle > 0.
+                            ? (std::exp(dealii::numbers::PI * std::tan(angle)) *
+                                 slope_of(rock.friction_angle) -
+                               1.) /
+                                std::tan(angle)
+                            : 2. + dealii::numbers::PI;
+    std::string name;
+    for (const auto &monitor : input.scene.monitors)
+      if (monitor->kind == "support")
+        name = monitor->name;
+    const auto reaction =
+      input.history.column(name + ".reaction_" + std::string(1, "xyz"[dim - 1]),
+                           input.history.stage_begin.back());
+    const unsigned int window =
+      input.scene.checks.window_start * reaction.size();
+    double sum = 0., largest = 0.;
+    for (unsigned int i = window; i < reaction.size(); ++i)
+      sum -= reaction[i] / (reaction.size() - window);
+    for (const double r : reaction)
+      largest = std::max(largest, -r);
+    CheckValues checks;
+    compare(checks,
+            "collapse_pressure",
+            sum / input.scene.checks.length,
+            rock.cohesion * factor);
+    checks.emplace_back("largest_pressure",
+                        largest / input.scene.checks.length);
+    checks.emplace_back("energy_residual",
+                        input.stages.back().energies.relative_residual());
+    return checks;
+  }
+
+  template CheckValues check_gravity_column(const CheckInput<2> &);
+  template CheckValues check_gravity_column(const CheckInput<3> &);
+  template CheckValues check_kirsch(const CheckInput<2> &);
+  template CheckValues check_kirsch(const CheckInput<3> &);
+  template CheckValues check_salencon(const CheckInput<2> &);
+  template CheckValues check_salencon(const CheckInput<3> &);
+  template CheckValues check_spherical_cavity(const CheckInput<2> &);
+  template CheckValues check_spherical_cavity(const CheckInput<3> &);
+  template CheckValues check_value(const CheckInput<2> &);
+  template CheckValues check_value(const CheckInput<3> &);
+  template CheckValues check_footing(const CheckInput<2> &);
+  template CheckValues check_footing(const CheckInput<3> &);
+} // namespace Keyblock
