@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs what building, testing and plotting need (Debian 12 or Ubuntu 22.04
-# and later), unless it is there already, then configures and builds.
+# Installs what building, testing and plotting need (Debian 12 or 13,
+# Ubuntu 24.04), unless it is there already, then configures and builds.
 # usage: contrib/setup.sh [BUILD_FOLDER]      (default: build)
 # environment: BUILD_TYPE (Release), WARNINGS_AS_ERRORS (OFF), SANITIZE (OFF),
 # JOBS (all cores)
@@ -16,14 +16,21 @@ for package in $packages; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' ||
     missing="$missing $package"
 done
+sudo=
+[ "$(id -u)" = 0 ] || sudo=sudo
 if [ -n "$missing" ]; then
   echo "Installing:$missing"
-  sudo=
-  [ "$(id -u)" = 0 ] || sudo=sudo
   $sudo apt-get update -qq
   # shellcheck disable=SC2086
   $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
     --no-install-recommends $missing >/dev/null
+fi
+# Debian 13: what deal.II was linked with, its programs ask for, too
+if grep -qs 'fuse-ld=mold' /usr/share/cmake/deal.II/*.cmake \
+    /usr/lib/*/cmake/deal.II/*.cmake && ! command -v mold >/dev/null; then
+  echo "Installing: mold"
+  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
+    --no-install-recommends mold >/dev/null
 fi
 
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE="${BUILD_TYPE:-Release}" \

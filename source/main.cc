@@ -28,7 +28,10 @@ namespace
 int
 main(int argc, char *argv[])
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // the libraries that are started here need not see the scene's arguments
+  int n_names       = 1;
+  char *only_name[] = {argv[0], nullptr}, **names = only_name;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, names, 1);
   dealii::deal_II_exceptions::disable_abort_on_exception();
   std::set_terminate(Keyblock::end_with_a_sentence);
   int exit_code = 0;

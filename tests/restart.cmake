@@ -47,7 +47,7 @@ keyblock_restart(roof_block verification/roof_block_falls
   --set "Materials/rock/Cohesion=1e5")
 keyblock_restart(factor_incline verification/factor_incline)
 keyblock_restart(factor_incline_stopped verification/factor_incline
-  ARGUMENTS --by stop --breaks 2)
+  ARGUMENTS --by stop --breaks 2 --set "Safety factor/Bracket=0.003")
 # factors by teams, each of a block, after two stages
 set(two_teams --ranks 2 --set "Safety factor/Teams=2" --set "Mesh/Cells=80, 16"
   --set "Excavations/Names=uphill, downhill, slot"

@@ -2,6 +2,7 @@
 // Contact: set-up and the order of the step.
 #include <keyblock/base/mpi.h>
 #include <keyblock/contact/contact.h>
+#include <keyblock/contact/joint_law.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -34,18 +35,14 @@ namespace Keyblock
     , numbering(numbering)
     , cells(cells)
     , fields(fields)
-    , default_tangent(tangent_of(scene.contact.default_friction_angle))
+    , law_of_free_faces(make_friction_law(scene.contact.default_friction_angle))
     , traction(interface.pairs.size())
     , search(split, blocks, scene)
   {
     for (const auto &joint : scene.joints)
       {
         has_cohesion.push_back(joint->cohesion_of_sliding() > 0.);
-        static_tangent.push_back(tangent_of(joint->friction_angle));
-        kinetic_tangent.push_back(
-          joint->kinetic_friction_angle < 0.
-            ? static_tangent.back()
-            : tangent_of(joint->kinetic_friction_angle));
+        laws.push_back(make_joint_law(*joint));
       }
     state.resize(interface.pairs.size());
     for (unsigned int p = 0; p < interface.pairs.size(); ++p)
@@ -169,17 +166,13 @@ namespace Keyblock
   Contact<dim>::beyond_strength(const unsigned int pair,
                                 const PairState<dim> &now) const
   {
-    const double kick = present_kick();
-    const PointStrength strength =
-      pair_strength(pair, state[pair].is_intact, kick);
-    const double pressure = dot<dim>(now.impulse, normal[pair]);
-    const double shear =
-      norm<dim>(add<dim>(now.impulse, -pressure, normal[pair]));
-    return {{std::max(0., -pressure - strength.tension) / kick,
-             std::max(0.,
-                      shear - strength.cohesion -
-                        strength.static_friction * pressure) /
-               kick}};
+    const double kick   = present_kick();
+    const Excess excess = excess_over_strength<dim>(
+      now.impulse,
+      normal[pair],
+      pair_strength(pair, state[pair].is_intact, kick));
+    return {
+      {std::max(0., excess.tension) / kick, std::max(0., excess.shear) / kick}};
   }
 
 
@@ -218,32 +211,35 @@ namespace Keyblock
 
 
   template <int dim>
+  StrengthEnvelope
+  Contact<dim>::envelope_of(const unsigned int joint,
+                            const JointPointState &state) const
+  {
+    StrengthEnvelope strength =
+      (joint == none ? law_of_free_faces : laws[joint])->envelope(state);
+    if (override_tangent >= 0.)
+      strength.static_tangent = strength.kinetic_tangent = override_tangent;
+    return strength;
+  }
+
+
+
+  template <int dim>
   PointStrength
   Contact<dim>::pair_strength(const unsigned int pair,
                               const bool is_intact,
                               const double kick) const
   {
-    const Pair<dim> &p      = interface.pairs[pair];
-    const Joint<dim> &joint = *scene.joints[p.joint];
-    PointStrength strength;
-    double share = reduction.share;
+    const Pair<dim> &p = interface.pairs[pair];
+    double share       = reduction.share;
     if (share != 1.)
       {
         const auto sides = blocks_of_pair(pair);
         share            = reduction.share_between(sides[0], sides[1], p.joint);
       }
-    strength.static_friction =
-      share *
-      (override_tangent >= 0. ? override_tangent : static_tangent[p.joint]);
-    strength.kinetic_friction =
-      share *
-      (override_tangent >= 0. ? override_tangent : kinetic_tangent[p.joint]);
-    if (is_intact || !state[pair].has_opened)
-      strength.cohesion =
-        share * (is_intact ? joint.cohesion : joint.cohesion_of_sliding()) *
-        p.area * kick;
-    strength.tension =
-      is_intact ? share * joint.tensile_strength * p.area * kick : 0.;
+    PointStrength strength =
+      envelope_of(p.joint, {is_intact, state[pair].has_opened})
+        .of_point(share, p.area, kick);
     strength.cohesion +=
       (state[pair].bend_shear + weld_share * state[pair].weld_shear) * kick;
     strength.tension +=

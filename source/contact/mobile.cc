@@ -3,6 +3,7 @@
 // ranks alike. Points are numbered through: surface contacts first, then pairs.
 #include <keyblock/base/mpi.h>
 #include <keyblock/contact/contact.h>
+#include <keyblock/contact/joint_law.h>
 
 #include <algorithm>
 #include <map>
@@ -136,22 +137,15 @@ namespace Keyblock
       reduction.share_between(search.block_of_slot[contact.slave],
                               contact.master_block,
                               contact.joint);
-    PointStrength strength = contact.point.strength;
-    double tangent = default_tangent, kinetic = default_tangent;
-    if (contact.joint != none)
-      {
-        tangent = static_tangent[contact.joint];
-        kinetic = kinetic_tangent[contact.joint];
-      }
-    if (override_tangent >= 0.)
-      tangent = kinetic = override_tangent;
-    strength.static_friction  = tangent * share;
-    strength.kinetic_friction = kinetic * share;
+    // surfaces lie on each other where pairs have slid
+    const StrengthEnvelope envelope =
+      envelope_of(contact.joint, {false, false});
     const auto area =
       covered_area.find({{contact.slave, contact.joint, contact.master_block}});
     if (area != covered_area.end() && !contact.is_ridge)
-      strength.cohesion = scene.joints[contact.joint]->cohesion_of_sliding() *
-                          area->second * kick * share;
+      return envelope.of_point(share, area->second, kick);
+    PointStrength strength = envelope.of_point(share, 0., kick);
+    strength.cohesion      = contact.point.strength.cohesion;
     return strength;
   }
 

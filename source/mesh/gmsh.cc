@@ -136,10 +136,15 @@ namespace Keyblock
         gmsh::option::setNumber("Mesh.MeshSize" + source, 0.);
       gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
       gmsh::option::setNumber("Mesh.Algorithm3D", delaunay_3d);
-      gmsh::model::mesh::setSizeCallback(
-        [&size, coarsening](int, int, double x, double y, double z) {
-          return coarsening * size(in_model<dim>(Point<3>(x, y, z)));
-        });
+      // (from Gmsh 4.9 on a sixth argument: the size wanted otherwise)
+      gmsh::model::mesh::setSizeCallback([&size, coarsening](const int,
+                                                             const int,
+                                                             const double x,
+                                                             const double y,
+                                                             const double z,
+                                                             const auto...) {
+        return coarsening * size(in_model<dim>(Point<3>(x, y, z)));
+      });
     }
 
     template <int dim>

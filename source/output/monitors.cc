@@ -91,12 +91,11 @@ namespace Keyblock
   void
   Monitors<dim>::find_target(const Monitor<dim> &monitor)
   {
-    unsigned int node = none, block = none;
+    unsigned int node = none, block = none, nearest = none;
     std::vector<unsigned int> nodes;
     double least = std::numeric_limits<double>::max();
     if (monitor.kind == "point")
       {
-        unsigned int nearest = none;
         for (unsigned int v = 0; v < split.mesh.vertices.size(); ++v)
           {
             const double d = split.mesh.vertices[v].distance(monitor.location);
@@ -111,15 +110,24 @@ namespace Keyblock
         look_for_location(monitor, least);
       }
     if (monitor.kind == "block")
-      for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
-        {
-          const double d = split.mesh.cell_center(c).distance(monitor.location);
-          if (d < least && split.block_of_cell[c] != none)
-            {
-              least = d;
-              block = split.block_of_cell[c];
-            }
-        }
+      {
+        // where it lies in a cell, that one's block, however far its centre is
+        const unsigned int cell = find_cell_at(monitor.location);
+        if (cell != none && split.block_of_cell[cell] != none)
+          block = split.block_of_cell[cell];
+        for (unsigned int c = 0; c < split.mesh.n_cells() && block == none; ++c)
+          {
+            const double d =
+              split.mesh.cell_center(c).distance(monitor.location);
+            if (d < least && split.block_of_cell[c] != none)
+              {
+                least   = d;
+                nearest = c;
+              }
+          }
+        if (nearest != none)
+          block = split.block_of_cell[nearest];
+      }
     if (monitor.kind == "block")
       {
         AssertThrow(block != none,
@@ -154,9 +162,8 @@ namespace Keyblock
 
 
   template <int dim>
-  void
-  Monitors<dim>::look_for_location(const Monitor<dim> &monitor,
-                                   const double distance)
+  unsigned int
+  Monitors<dim>::find_cell_at(const Point<dim> &location) const
   {
     constexpr double tolerance = 1e-6; // of a cell's size
     const Mesh<dim> &mesh      = split.mesh;
@@ -166,19 +173,32 @@ namespace Keyblock
         double reach            = 0.;
         for (const unsigned int v : mesh.cells[c])
           reach = std::max(reach, center.distance(mesh.vertices[v]));
-        if (center.distance(monitor.location) > (1. + tolerance) * reach)
+        if (center.distance(location) > (1. + tolerance) * reach)
           continue;
         bool is_inside = true;
         for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
           {
             const Tensor<1, dim> area = mesh.face_area_vector(c, f);
             is_inside =
-              is_inside && area * (monitor.location - mesh.face_center(c, f)) <=
+              is_inside && area * (location - mesh.face_center(c, f)) <=
                              tolerance * reach * area.norm();
           }
         if (is_inside)
-          return;
+          return c;
       }
+    return none;
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::look_for_location(const Monitor<dim> &monitor,
+                                   const double distance)
+  {
+    if (find_cell_at(monitor.location) != none)
+      return;
+    const Mesh<dim> &mesh = split.mesh;
     Point<dim> low = mesh.vertices[0], high = low;
     for (const Point<dim> &p : mesh.vertices)
       for (unsigned int d = 0; d < dim; ++d)

@@ -6,12 +6,18 @@
 #include <keyblock/output/output.h>
 #include <keyblock/safety/block_theory.h>
 
+#include <keyblock_commit.h>
+
+#include <boost/crc.hpp>
+
 #include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
+#include <iomanip>
+#include <sstream>
 
 namespace Keyblock
 {
@@ -322,6 +328,8 @@ namespace Keyblock
     program_as_json()
     {
       return {{"version", KEYBLOCK_VERSION},
+              {"commit", KEYBLOCK_COMMIT},
+              {"compiler", KEYBLOCK_COMPILER},
               {"deal_ii_version", DEAL_II_PACKAGE_VERSION},
               {"ranks", n_ranks()},
 #ifdef DEBUG
@@ -329,6 +337,31 @@ namespace Keyblock
 #else
               {"build_type", "Release"}};
 #endif
+    }
+
+    /** Joint sets that are made at random, with their seeds. */
+    template <int dim>
+    Json
+    seeds_as_json(const Scene<dim> &scene)
+    {
+      Json json = Json::object();
+      for (const auto &set : scene.joint_sets)
+        if (set->is_made())
+          json[set->name] = set->seed;
+      return json;
+    }
+
+    /** CRC-64/XZ of all entries as used, in hexadecimal digits. */
+    template <int dim>
+    std::string
+    digest_of(const Scene<dim> &scene)
+    {
+      const std::string entries = scene.used_entries();
+      boost::crc_optimal<64, 0x42f0e1eba9ea3693, ~0ull, ~0ull, true, true> crc;
+      crc.process_bytes(entries.data(), entries.size());
+      std::ostringstream text;
+      text << std::hex << std::setfill('0') << std::setw(16) << crc.checksum();
+      return text.str();
     }
 
     Json
@@ -384,6 +417,8 @@ namespace Keyblock
     root["program"] = program_as_json();
     root["scene"]   = {{"name", scene.file},
                        {"title", scene.title},
+                       {"digest", digest_of(scene)},
+                       {"seeds", seeds_as_json(scene)},
                        {"dimension", dim},
                        {"cells", split.mesh.n_cells()},
                        {"nodes", numbering.n_global()},

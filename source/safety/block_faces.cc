@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a block touches, weighs and bears: input of limit equilibrium.
 #include <keyblock/base/expression.h>
+#include <keyblock/contact/joint_law.h>
 #include <keyblock/safety/block_faces.h>
 
 #include <algorithm>
@@ -131,12 +132,15 @@ namespace Keyblock
       unsigned int
       new_entry(const Tensor<1, dim> &inward,
                 const std::string &name,
-                const double friction_angle)
+                const JointLaw &law)
       {
+        const StrengthEnvelope strength = law.envelope(JointPointState());
         BlockFace<dim> face;
         face.inward           = inward;
         face.name             = name;
-        face.tangent_friction = std::tan(friction_angle * degree);
+        face.tangent_friction = strength.static_tangent;
+        face.cohesion         = strength.cohesion;
+        face.tensile_strength = strength.tensile_strength;
         result.faces.push_back(face);
         result.others.emplace_back();
         return result.faces.size() - 1;
@@ -152,10 +156,8 @@ namespace Keyblock
         const unsigned int entry =
           new_entry((is_plus ? 1. : -1.) * joint.normal(),
                     joint.name,
-                    joint.friction_angle);
-        result.faces[entry].cohesion         = joint.cohesion;
-        result.faces[entry].tensile_strength = joint.tensile_strength;
-        return entries[{j, is_plus}]         = entry;
+                    *make_joint_law(joint));
+        return entries[{j, is_plus}] = entry;
       }
 
       void
@@ -217,7 +219,8 @@ namespace Keyblock
         if (entry == result.faces.size())
           new_entry(-outward,
                     "a free face",
-                    ground.scene.contact.default_friction_angle);
+                    *make_friction_law(
+                      ground.scene.contact.default_friction_angle));
         add_area(entry,
                  own,
                  area.norm(),

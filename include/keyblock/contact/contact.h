@@ -8,9 +8,14 @@
 #include <keyblock/rock/internal_force.h>
 
 #include <map>
+#include <memory>
 
 namespace Keyblock
 {
+  class JointLaw; // contact/joint_law.h
+  struct JointPointState;
+  struct StrengthEnvelope;
+
   /**
    * The contact step: from predicted velocities to velocities that satisfy
    * non-penetration, Coulomb friction and bonds (hot loop 2).
@@ -298,6 +303,10 @@ namespace Keyblock
     void book_work(const ContactPoint<dim> &point,
                    const double *old_velocity,
                    const double *new_velocity);
+    /** Strength by the joint's law, or of free faces (none), with what the
+     * stage has put in the place of friction. */
+    StrengthEnvelope envelope_of(const unsigned int joint,
+                                 const JointPointState &state) const;
     PointStrength pair_strength(const unsigned int pair,
                                 const bool is_intact,
                                 const double kick) const;
@@ -331,8 +340,8 @@ namespace Keyblock
     using Memory::state;
 
     std::vector<unsigned int> group_of_pair, group_of_slot;
-    std::vector<double> static_tangent, kinetic_tangent; ///< by joint
-    double default_tangent;
+    std::vector<std::shared_ptr<const JointLaw>> laws; ///< by joint
+    std::shared_ptr<const JointLaw> law_of_free_faces;
     double override_tangent = -1.;
     double weld_share       = 0.; ///< as in ContactStep
     bool is_tied            = false;

@@ -2,8 +2,7 @@
 #ifndef keyblock_contact_law_h
 #define keyblock_contact_law_h
 
-#include <array>
-#include <cmath>
+#include <keyblock/base/vector.h>
 
 namespace Keyblock
 {
@@ -14,37 +13,6 @@ namespace Keyblock
     sticking,
     sliding
   };
-
-  template <int dim>
-  using Vector = std::array<double, dim>;
-
-  template <int dim>
-  inline double
-  dot(const Vector<dim> &a, const Vector<dim> &b)
-  {
-    double sum = 0.;
-    for (int d = 0; d < dim; ++d)
-      sum += a[d] * b[d];
-    return sum;
-  }
-
-  template <int dim>
-  inline double
-  norm(const Vector<dim> &a)
-  {
-    return std::sqrt(dot<dim>(a, a));
-  }
-
-  /** a + s b */
-  template <int dim>
-  inline Vector<dim>
-  add(const Vector<dim> &a, const double s, const Vector<dim> &b)
-  {
-    Vector<dim> result;
-    for (int d = 0; d < dim; ++d)
-      result[d] = a[d] + s * b[d];
-    return result;
-  }
 
   /**
    * Strength of one contact point. Limits are impulses: stress times area times
@@ -57,6 +25,19 @@ namespace Keyblock
     double kinetic_friction = 0.; ///< tan(phi) while it slides
     double cohesion         = 0.;
     double tension          = 0.;
+
+    /** Largest shear [N s] under the normal impulse @p r_n: of a point that
+     * sticks, and of one that slides. */
+    double
+    sticking_limit(const double r_n) const
+    {
+      return cohesion + static_friction * r_n;
+    }
+    double
+    sliding_limit(const double r_n) const
+    {
+      return cohesion + kinetic_friction * r_n;
+    }
   };
 
   /** An impulse and what it means. */
@@ -67,29 +48,41 @@ namespace Keyblock
     ContactStatus status;
   };
 
-  /**
-   * By how much @p impulse leaves the strength of an intact point, relative to
-   * the point's scale: positive when violated. The Mohr-Coulomb cone with
-   * tension cut-off: r_n >= -T, |r_t| <= C + mu r_n.
-   */
+  /** What an impulse has beyond a strength [N s]; positive: too much. */
+  struct Excess
+  {
+    double tension, shear;
+  };
+
+  /** What @p impulse has beyond the Mohr-Coulomb cone with tension cut-off:
+   * r_n >= -T, |r_t| <= C + mu_s r_n. */
+  template <int dim>
+  inline Excess
+  excess_over_strength(const Vector<dim> &impulse,
+                       const Vector<dim> &normal,
+                       const PointStrength &strength)
+  {
+    const double r_n = dot<dim>(impulse, normal);
+    const double r_t = norm<dim>(add<dim>(impulse, -r_n, normal));
+    return {-r_n - strength.tension,
+            r_t - strength.cohesion - strength.static_friction * r_n};
+  }
+
+  /** The larger of the two: positive when an intact point breaks. */
   template <int dim>
   inline double
   violation(const Vector<dim> &impulse,
             const Vector<dim> &normal,
             const PointStrength &strength)
   {
-    const double r_n     = dot<dim>(impulse, normal);
-    const double r_t     = norm<dim>(add<dim>(impulse, -r_n, normal));
-    const double tensile = -r_n - strength.tension;
-    const double shear =
-      r_t - strength.cohesion - strength.static_friction * r_n;
-    return tensile > shear ? tensile : shear;
+    const Excess excess = excess_over_strength<dim>(impulse, normal, strength);
+    return excess.tension > excess.shear ? excess.tension : excess.shear;
   }
 
   /**
    * The admissible impulse nearest to the impulse @p stick that would stop the
-   * point: nothing in tension, the friction limit if that is exceeded. This is
-   * the whole friction law; change it here.
+   * point: nothing in tension, the friction limit if that is exceeded. How
+   * strong the point is, its joint's law says (contact/joint_law.h).
    *
    *   r_n < -T opens;  |r_t| <= C + mu_s r_n sticks,
    *   else r_t = (C + mu_k r_n) r_t / |r_t|.
@@ -108,9 +101,9 @@ namespace Keyblock
     const double r_t          = norm<dim>(tangent);
     if (r_n < -strength.tension)
       return {Vector<dim>{}, ContactStatus::open};
-    if (r_t <= strength.cohesion + strength.static_friction * r_n)
+    if (r_t <= strength.sticking_limit(r_n))
       return {stick, ContactStatus::sticking};
-    const double limit = strength.cohesion + strength.kinetic_friction * r_n;
+    const double limit = strength.sliding_limit(r_n);
     Vector<dim> impulse;
     for (int d = 0; d < dim; ++d)
       impulse[d] =

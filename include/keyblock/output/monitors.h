@@ -77,6 +77,9 @@ namespace Keyblock
   private:
     void find_target(const Monitor<dim> &monitor);
 
+    /** The cell that @p location lies in, or none. */
+    unsigned int find_cell_at(const Point<dim> &location) const;
+
     /** Warn of a monitor whose Location is in no cell, or refuse it if the
      * rock is farther away than the model is large; @p distance: of what it
      * follows instead [m]. */

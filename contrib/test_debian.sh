@@ -1,0 +1,39 @@
+#!/bin/sh
+# Builds and tests on another release of Debian, in a folder of its own.
+# usage: contrib/test_debian.sh SUITE [FOLDER] [ctest options]
+#   SUITE    bookworm, trixie, ...
+#   FOLDER   of that system, made if it is not there (/var/tmp/keyblock-SUITE)
+# environment: MIRROR (https://deb.debian.org/debian), JOBS (all cores).
+# Needs root and debootstrap. The system stays for the next call; to be rid of it,
+# remove the folder.
+set -eu
+suite=${1:?"usage: contrib/test_debian.sh SUITE [FOLDER] [ctest options]"}
+shift
+system=/var/tmp/keyblock-$suite
+case ${1:-} in
+  /*) system=$1; shift ;;
+esac
+root=$(cd "$(dirname "$0")/.." && pwd)
+if [ ! -e "$system/etc/debian_version" ]; then
+  debootstrap --variant=minbase "$suite" "$system" \
+    "${MIRROR:-http://deb.debian.org/debian}"
+fi
+
+leave() {
+  umount "$system/proc" "$system/dev/shm" "$system/dev" 2>/dev/null || true
+}
+trap leave EXIT
+mount --bind /dev "$system/dev"
+mount -t tmpfs none "$system/dev/shm"
+mount -t proc none "$system/proc"
+
+# the checkout as it is, without what was built from it
+mkdir -p "$system/keyblock"
+find "$system/keyblock" -mindepth 1 -maxdepth 1 ! -name 'build*' \
+  -exec rm -rf {} +
+tar -C "$root" --exclude='./build*' --exclude='./.git' -c . |
+  tar -C "$system/keyblock" -x
+chroot "$system" env JOBS="${JOBS:-$(nproc)}" HOME=/root LC_ALL=C.UTF-8 \
+  TMPDIR=/tmp sh -c '
+    cd /keyblock && contrib/setup.sh && cd build &&
+    ctest --output-on-failure -j "$JOBS" --timeout 120 "$@"' sh "$@"

@@ -1,0 +1,33 @@
+# Installs a build, runs the program that it put there, and builds and runs a
+# project that uses its library.
+# usage: cmake -DBUILD=FOLDER -DFOLDER=FOLDER -DPROJECT=FOLDER -P install.cmake
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code
+    OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(code)
+    message(FATAL_ERROR "${ARGN}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${FOLDER})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/usr)
+run(${FOLDER}/usr/bin/keyblock --help)
+# every option stands in the manual page
+file(READ ${FOLDER}/usr/share/man/man1/keyblock.1 manual)
+string(REGEX MATCHALL "--[a-z-]+" options "${output}")
+foreach(option ${options})
+  string(REPLACE "-" "\\-" written ${option})
+  string(FIND "${manual}" "${written}" place)
+  if(place LESS 0)
+    message(FATAL_ERROR "${option} is not in keyblock.1")
+  endif()
+endforeach()
+run(${CMAKE_COMMAND} -S ${PROJECT} -B ${FOLDER}/user
+  -DCMAKE_PREFIX_PATH=${FOLDER}/usr -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${FOLDER}/user)
+run(${FOLDER}/user/user
+  ${FOLDER}/usr/share/keyblock/prm/tutorial/sliding_block.prm)
+if(NOT output STREQUAL "dimension 2\n")
+  message(FATAL_ERROR "${output}")
+endif()

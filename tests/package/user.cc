@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Reads a scene by the installed library and prints its dimension.
+#include <keyblock/scene/scene.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::cout << "dimension " << Keyblock::read_dimension(argv[1], {}) << '\n';
+}
