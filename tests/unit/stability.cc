@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 
 using namespace Keyblock;
