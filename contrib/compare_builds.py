@@ -49,7 +49,7 @@ def rows_of(program, scene, ranks, overrides, folder):
 def difference(old, new):
     """Nothing if equal, else a sentence."""
     if old is None or new is None:
-        return None if old is new else "one of the runs failed"
+        return "both runs failed" if old is new else "one of the runs failed"
     if old == new:
         return None
     if [len(row) for row in old] != [len(row) for row in new]:

@@ -3,7 +3,7 @@
 # usage: contrib/test_debian.sh SUITE [FOLDER] [ctest options]
 #   SUITE    bookworm, trixie, ...
 #   FOLDER   of that system, made if it is not there (/var/tmp/keyblock-SUITE)
-# environment: MIRROR (https://deb.debian.org/debian), JOBS (all cores).
+# environment: MIRROR (http://deb.debian.org/debian), JOBS (all cores).
 # Needs root and debootstrap. The system stays for the next call; to be rid of it,
 # remove the folder.
 set -eu
@@ -20,12 +20,13 @@ if [ ! -e "$system/etc/debian_version" ]; then
 fi
 
 leave() {
-  umount "$system/proc" "$system/dev/shm" "$system/dev" 2>/dev/null || true
+  umount "$system/sys" "$system/proc" "$system/dev/shm" "$system/dev" 2>/dev/null || true
 }
 trap leave EXIT
 mount --bind /dev "$system/dev"
 mount -t tmpfs none "$system/dev/shm"
 mount -t proc none "$system/proc"
+mount -t sysfs none "$system/sys"
 
 # the checkout as it is, without what was built from it
 mkdir -p "$system/keyblock"

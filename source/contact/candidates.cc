@@ -104,7 +104,9 @@ namespace Keyblock
         if (speed * step.step * 20. < eighth)
           next_look += 19;
       }
-    const int due = max_over_ranks(is_search_due ? 2 : has_slid ? 1 : 0);
+    int due = is_search_due ? 2 : has_slid ? 1 : 0;
+    if (n_ranks() > 1) // every step: alone, nobody needs to be asked
+      due = max_over_ranks(due);
     if (due == 0)
       return;
 

@@ -2,13 +2,12 @@
 #include <deal.II/base/revision.h>
 #include <deal.II/base/utilities.h>
 
+#include <keyblock/base/digest.h>
 #include <keyblock/base/mpi.h>
 #include <keyblock/output/output.h>
 #include <keyblock/safety/block_theory.h>
 
 #include <keyblock_commit.h>
-
-#include <boost/crc.hpp>
 
 #include <sys/resource.h>
 
@@ -357,10 +356,10 @@ namespace Keyblock
     digest_of(const Scene<dim> &scene)
     {
       const std::string entries = scene.used_entries();
-      boost::crc_optimal<64, 0x42f0e1eba9ea3693, ~0ull, ~0ull, true, true> crc;
-      crc.process_bytes(entries.data(), entries.size());
+      Digest digest;
+      digest.add(entries.data(), entries.size());
       std::ostringstream text;
-      text << std::hex << std::setfill('0') << std::setw(16) << crc.checksum();
+      text << std::hex << std::setfill('0') << std::setw(16) << digest.value();
       return text.str();
     }
 

@@ -2,7 +2,7 @@
 #ifndef keyblock_checkpoint_state_seal_h
 #define keyblock_checkpoint_state_seal_h
 
-#include <boost/crc.hpp>
+#include <keyblock/base/digest.h>
 
 #include <cstdint>
 #include <string>
@@ -20,27 +20,6 @@ namespace Keyblock
   /** Length of the seal: the first place but 0 where HDF5 looks for its own
    * beginning [bytes]. */
   constexpr std::size_t seal_length = 512;
-
-  /** CRC-64/XZ, in pieces: every change of up to 64 bits in a row is seen, any
-   * other with all but a chance of 5e-20. */
-  class Digest
-  {
-  public:
-    void
-    add(const char *bytes, const std::size_t n)
-    {
-      crc.process_bytes(bytes, n);
-    }
-
-    std::uint64_t
-    value() const
-    {
-      return crc.checksum();
-    }
-
-  private:
-    boost::crc_optimal<64, 0x42F0E1EBA9EA3693, ~0ULL, ~0ULL, true, true> crc;
-  };
 
   /** The seal of a file whose other bytes are @p content. */
   std::string make_seal(const std::vector<char> &content);
