@@ -44,6 +44,15 @@ namespace Keyblock
 
 
 
+  template <typename Action>
+  void
+  for_each_number(JointHistory &history, const Action &action)
+  {
+    action(history.slip);
+    action(history.dilation);
+    action(history.damage);
+  }
+
   template <int dim, typename Action>
   void
   for_each_number(PairState<dim> &pair, const Action &action)
@@ -60,6 +69,16 @@ namespace Keyblock
     action(pair.bend_tension);
     action(pair.weld_shear);
     action(pair.weld_tension);
+    for_each_number(pair.history, action);
+  }
+
+  template <typename Action>
+  void
+  for_each_number(NodeHistory &node, const Action &action)
+  {
+    action(node.slot);
+    action(node.joint);
+    for_each_number(node.history, action);
   }
 
   template <int dim, typename Action>
@@ -332,6 +351,7 @@ namespace Keyblock
   {
     exchange_pairs(group + "pairs", memory.state);
     exchange_rows(file, group + "surface_contacts", memory.contacts);
+    exchange_rows(file, group + "node_histories", memory.node_histories);
     std::vector<double> normals;
     for (const Vector<dim> &n : memory.normal)
       normals.insert(normals.end(), n.begin(), n.end());

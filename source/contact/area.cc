@@ -26,7 +26,7 @@ namespace Keyblock
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const Pair<dim> &pair = interface.pairs[p];
-        if (!has_cohesion[pair.joint] || state[p].has_opened ||
+        if (!needs_areas[pair.joint] || state[p].has_opened ||
             state[p].is_removed || state[p].status == ContactStatus::sticking)
           continue;
         const unsigned int minus = numbering.local_node(pair.minus);
@@ -116,7 +116,7 @@ namespace Keyblock
     std::map<Footing, std::array<double, 2>> impulses; // number and sum
     std::vector<std::pair<Footing, double>> impulse_at;
     for (const SurfaceContact<dim> &contact : contacts)
-      if (contact.joint != none && has_cohesion[contact.joint] &&
+      if (contact.joint != none && needs_areas[contact.joint] &&
           !contact.is_ridge)
         {
           near.push_back(

@@ -125,6 +125,8 @@ namespace Keyblock
       {
         if (!is_mobile_group[group_of_pair[p]])
           state[p] = all[p];
+        if (has_memory && converted[p] && !all[p].is_converted)
+          pass_on_history(p);
         state[p].is_converted = converted[p];
       }
     list_candidates(is_moved);
@@ -193,9 +195,9 @@ namespace Keyblock
         return false;
       },
       has_changed);
-    if (is_moved && std::find(has_cohesion.begin(), has_cohesion.end(), true) !=
-                      has_cohesion.end())
-      overlaps = search.list_overlaps(searched_position, has_cohesion);
+    if (is_moved && std::find(needs_areas.begin(), needs_areas.end(), true) !=
+                      needs_areas.end())
+      overlaps = search.list_overlaps(searched_position, needs_areas);
     shared_among = {};
     covered_area.clear();
   }

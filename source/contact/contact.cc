@@ -2,7 +2,8 @@
 // Contact: set-up and the order of the step.
 #include <keyblock/base/mpi.h>
 #include <keyblock/contact/contact.h>
-#include <keyblock/contact/joint_law.h>
+#include <keyblock/law/friction.h>
+#include <keyblock/law/joint_law.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -41,8 +42,10 @@ namespace Keyblock
   {
     for (const auto &joint : scene.joints)
       {
-        has_cohesion.push_back(joint->cohesion_of_sliding() > 0.);
         laws.push_back(make_joint_law(*joint));
+        has_memory = has_memory || laws.back()->has_memory();
+        needs_areas.push_back(joint->cohesion_of_sliding() > 0. ||
+                              laws.back()->has_memory());
       }
     state.resize(interface.pairs.size());
     for (unsigned int p = 0; p < interface.pairs.size(); ++p)
@@ -237,9 +240,14 @@ namespace Keyblock
         const auto sides = blocks_of_pair(pair);
         share            = reduction.share_between(sides[0], sides[1], p.joint);
       }
+    JointPointState point{is_intact, state[pair].has_opened, {}, 0.};
+    if (has_memory)
+      {
+        point.history  = state[pair].history;
+        point.pressure = pressure_of(state[pair].impulse, normal[pair], p.area);
+      }
     PointStrength strength =
-      envelope_of(p.joint, {is_intact, state[pair].has_opened})
-        .of_point(share, p.area, kick);
+      envelope_of(p.joint, point).of_point(share, p.area, kick);
     strength.cohesion +=
       (state[pair].bend_shear + weld_share * state[pair].weld_shear) * kick;
     strength.tension +=
@@ -494,6 +502,8 @@ namespace Keyblock
     last_kick = step.kick;
     note_openings();
     scatter_slots();
+    if (has_memory)
+      advance_histories(step);
     if (step.is_large && !mobile_slots.empty())
       correct_penetration();
     ++n_steps;

@@ -3,7 +3,7 @@
 // ranks alike. Points are numbered through: surface contacts first, then pairs.
 #include <keyblock/base/mpi.h>
 #include <keyblock/contact/contact.h>
-#include <keyblock/contact/joint_law.h>
+#include <keyblock/law/joint_law.h>
 
 #include <algorithm>
 #include <map>
@@ -138,10 +138,18 @@ namespace Keyblock
                               contact.master_block,
                               contact.joint);
     // surfaces lie on each other where pairs have slid
-    const StrengthEnvelope envelope =
-      envelope_of(contact.joint, {false, false});
+    JointPointState state{false, false, {}, 0.};
     const auto area =
       covered_area.find({{contact.slave, contact.joint, contact.master_block}});
+    if (has_memory)
+      {
+        if (const auto *history = find_history(contact.slave, contact.joint))
+          state.history = *history;
+        state.pressure = pressure_of(contact.point.impulse,
+                                     contact.point.normal,
+                                     area_of(contact));
+      }
+    const StrengthEnvelope envelope = envelope_of(contact.joint, state);
     if (area != covered_area.end() && !contact.is_ridge)
       return envelope.of_point(share, area->second, kick);
     PointStrength strength = envelope.of_point(share, 0., kick);

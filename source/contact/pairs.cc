@@ -3,6 +3,7 @@
 #include <keyblock/base/mpi.h>
 #include <keyblock/contact/contact.h>
 #include <keyblock/contact/damping.h>
+#include <keyblock/law/friction.h>
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The contact step as published, for comparison.
 #include <keyblock/contact/solver.h>
+#include <keyblock/law/friction.h>
 
 namespace Keyblock
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/contact/solver.h>
+#include <keyblock/law/friction.h>
 
 #include <algorithm>
 #include <limits>

@@ -11,7 +11,7 @@ namespace Keyblock
   std::vector<PairState<dim>>
   Contact<dim>::gather_pair_states() const
   {
-    constexpr unsigned int n = dim + 4;
+    const unsigned int n = dim + 4 + (has_memory ? 3 : 0);
     std::vector<double> packed(n * state.size(), 0.);
     for (unsigned int p = 0; p < state.size(); ++p)
       if (is_primary(group_of_pair[p]))
@@ -22,6 +22,12 @@ namespace Keyblock
           packed[n * p + dim + 1] = state[p].is_intact;
           packed[n * p + dim + 2] = state[p].is_converted;
           packed[n * p + dim + 3] = state[p].has_opened;
+          if (has_memory)
+            {
+              packed[n * p + dim + 4] = state[p].history.slip;
+              packed[n * p + dim + 5] = state[p].history.dilation;
+              packed[n * p + dim + 6] = state[p].history.damage;
+            }
         }
     sum_lists(packed);
     std::vector<PairState<dim>> result(state.size());
@@ -34,6 +40,10 @@ namespace Keyblock
         result[p].is_intact    = packed[n * p + dim + 1] > 0.5;
         result[p].is_converted = packed[n * p + dim + 2] > 0.5;
         result[p].has_opened   = packed[n * p + dim + 3] > 0.5;
+        if (has_memory)
+          result[p].history = {packed[n * p + dim + 4],
+                               packed[n * p + dim + 5],
+                               packed[n * p + dim + 6]};
         result[p].is_welded    = state[p].is_welded;
         result[p].is_removed   = state[p].is_removed;
         result[p].bend_shear   = state[p].bend_shear;

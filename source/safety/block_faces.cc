@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a block touches, weighs and bears: input of limit equilibrium.
 #include <keyblock/base/expression.h>
-#include <keyblock/contact/joint_law.h>
+#include <keyblock/law/joint_law.h>
 #include <keyblock/safety/block_faces.h>
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
+#include <keyblock/law/joint_law.h>
 #include <keyblock/scene/check.h>
 #include <keyblock/scene/polygon.h>
 #include <keyblock/scene/scene.h>
@@ -311,6 +312,7 @@ namespace Keyblock
               entry + "/Residual cohesion' is " +
                 number(joint.residual_cohesion) + " Pa, above 'Cohesion' = " +
                 number(joint.cohesion) + " Pa; lower it.");
+      make_joint_law(joint, section);
     }
 
     void

@@ -144,13 +144,6 @@ namespace Keyblock
       "there. A box: `2 * (abs(x) < 5) * (abs(y) < 8)`.");
   }
 
-  bool
-  JointStrength::is_weaker_than(const JointStrength &other) const
-  {
-    return std::tie(friction_angle, cohesion) <
-           std::tie(other.friction_angle, other.cohesion);
-  }
-
   template <int dim>
   void
   Excavation<dim>::declare(ParameterHandler &prm)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/errors.h>
+#include <keyblock/law/joint_law.h>
 #include <keyblock/scene/joint_columns.h>
 
 #include <boost/algorithm/string.hpp>
@@ -28,12 +29,12 @@ namespace Keyblock
       std::vector<std::string> names; ///< the first is used in messages
     };
 
-    const std::vector<KnownColumn> &
-    known_columns()
+    std::vector<KnownColumn>
+    list_columns()
     {
-      using C                                     = JointColumn;
-      using Q                                     = Quantity;
-      static const std::vector<KnownColumn> known = {
+      using C                        = JointColumn;
+      using Q                        = Quantity;
+      std::vector<KnownColumn> known = {
         {C::name, Q::words, {"name", "joint", "id", "label"}},
         {C::set, Q::words, {"set", "joint set", "family"}},
         {C::dip, Q::angle, {"dip", "dip angle"}},
@@ -76,9 +77,26 @@ namespace Keyblock
          Q::stress,
          {"residual cohesion", "cohesion residual"}},
         {C::water_pressure, Q::stress, {"water pressure", "water"}},
+        {C::law, Q::words, {"law", "joint law"}},
         {C::comment,
          Q::words,
          {"comment", "comments", "remark", "remarks", "note", "notes"}}};
+      const std::map<std::string, Quantity> quantities = {{"m", Q::length},
+                                                          {"deg", Q::angle},
+                                                          {"Pa", Q::stress},
+                                                          {"", Q::number}};
+      const std::vector<JointLawEntry> &entries        = joint_law_entries();
+      for (unsigned int i = 0; i < entries.size(); ++i)
+        known.push_back({law_entry_column(i),
+                         quantities.at(entries[i].unit),
+                         {boost::to_lower_copy(entries[i].name)}});
+      return known;
+    }
+
+    const std::vector<KnownColumn> &
+    known_columns()
+    {
+      static const std::vector<KnownColumn> known = list_columns();
       return known;
     }
 

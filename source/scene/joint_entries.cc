@@ -14,37 +14,7 @@ namespace Keyblock
 
     const Double not_negative(0.);
     const Double fraction(0., 1.);
-    const Double friction_range(0., 89.9);
   } // namespace
-
-  void
-  JointStrength::declare_strength(ParameterHandler &prm)
-  {
-    prm.add_parameter("Friction angle",
-                      friction_angle,
-                      "Static friction angle [deg].",
-                      friction_range);
-    prm.add_parameter("Kinetic friction angle",
-                      kinetic_friction_angle,
-                      "Friction angle while sliding [deg]; -1: the static one.",
-                      Double(-1., 89.9));
-    prm.add_parameter("Cohesion", cohesion, "Cohesion [Pa].", not_negative);
-    prm.add_parameter("Tensile strength",
-                      tensile_strength,
-                      "Tensile strength [Pa], at most cohesion / tan(friction "
-                      "angle).",
-                      not_negative);
-    prm.add_parameter("Residual cohesion",
-                      residual_cohesion,
-                      "Cohesion left where the joint has slid [Pa]; -1: as "
-                      "'Cohesion'. Below it the joint is brittle. Where it has "
-                      "opened there is none, nor tensile strength.",
-                      Double(-1.));
-    prm.add_parameter("Water pressure",
-                      water_pressure,
-                      "A formula in x, y (z): pressure of water in the joint, "
-                      "which pushes both sides apart [Pa]; empty: none.");
-  }
 
   void
   JointNetwork::declare(ParameterHandler &prm)
@@ -58,7 +28,8 @@ namespace Keyblock
       "the pole, or normal x, y, z; x, y, z; radius or diameter, or extent, or "
       "vertices (`\"x, y, z; ...\"`), in 2D x1, y1, x2, y2; friction angle, "
       "kinetic friction angle, cohesion, tensile strength, residual cohesion, "
-      "water pressure; comment. Units m, deg and Pa, or as the header says, "
+      "water pressure; law and its entries; comment. Units m, deg and Pa, or "
+      "as the header says, "
       "`cohesion (kPa)`. Separated by `,`, `;` or tabs; with the latter two "
       "decimal commas are understood. Rows without a name are J1, J2, ... by "
       "their number; a subsection of that name overrides the row.");

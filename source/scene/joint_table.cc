@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
+#include <keyblock/law/joint_law.h>
 #include <keyblock/scene/joint_columns.h>
 #include <keyblock/scene/joint_table.h>
 
@@ -267,6 +268,33 @@ namespace Keyblock
     }
 
     void
+    read_law(const RowReader &row, JointStrength &strength)
+    {
+      if (row.has(C::law))
+        {
+          strength.law = row.text(C::law);
+          std::string names;
+          bool is_known = false;
+          for (const JointLawKind &kind : joint_law_kinds())
+            {
+              names += (names.empty() ? "" : ", ") + kind.name;
+              is_known = is_known || kind.name == strength.law;
+            }
+          row.require(is_known,
+                      C::law,
+                      "no law is called '" + strength.law +
+                        "'; there are: " + names + ".");
+        }
+      const std::vector<JointLawEntry> &entries = joint_law_entries();
+      for (unsigned int i = 0; i < entries.size(); ++i)
+        row.replace(strength.law_values[i],
+                    law_entry_column(i),
+                    entries[i].lowest,
+                    entries[i].highest,
+                    entries[i].unit);
+    }
+
+    void
     read_strength(const RowReader &row, JointStrength &strength)
     {
       const double all = std::numeric_limits<double>::max();
@@ -282,6 +310,7 @@ namespace Keyblock
         strength.tensile_strength, C::tensile_strength, 0., all, "Pa");
       row.replace(
         strength.residual_cohesion, C::residual_cohesion, -1., all, "Pa");
+      read_law(row, strength);
       if (!row.has(C::water_pressure))
         return;
       const double unit       = row.columns.at(C::water_pressure).unit;

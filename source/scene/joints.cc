@@ -4,6 +4,7 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
+#include <keyblock/law/joint_law.h>
 #include <keyblock/scene/joint_sets.h>
 #include <keyblock/scene/joint_table.h>
 #include <keyblock/scene/joints.h>
@@ -285,6 +286,23 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** The law's name and entries, unless it is the default. */
+    template <typename Add>
+    void
+    add_law(const JointStrength &strength, const Add &add)
+    {
+      if (strength.law == joint_law_kinds().front().name)
+        return;
+      add("Law", strength.law);
+      for (const JointLawEntry &entry : joint_law_kind(strength.law).entries)
+        add(entry.name, exact_text(strength.value_of(entry.name)));
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::string
   print_joints(const std::vector<std::unique_ptr<Joint<dim>>> &joints)
@@ -320,6 +338,7 @@ namespace Keyblock
         add("Cohesion", exact_text(joint->cohesion));
         add("Tensile strength", exact_text(joint->tensile_strength));
         add("Residual cohesion", exact_text(joint->residual_cohesion));
+        add_law(*joint, add);
         add("Water pressure", joint->water_pressure);
         add("Set", joint->set);
         text += "  end\n";

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
+#include <keyblock/law/joint_law.h>
 #include <keyblock/scene/domain_outline.h>
 #include <keyblock/scene/network_output.h>
 
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <set>
 
 namespace Keyblock
 {
@@ -174,6 +176,55 @@ namespace Keyblock
         out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
       }
     };
+
+    /** Entries of those laws, by their indices; none if all joints have the
+     * default. */
+    std::vector<unsigned int>
+    entries_of(const std::set<std::string> &laws)
+    {
+      std::vector<unsigned int> indices;
+      for (unsigned int i = 0; i < joint_law_entries().size(); ++i)
+        for (const std::string &law : laws)
+          for (const JointLawEntry &entry : joint_law_kind(law).entries)
+            if (entry.name == joint_law_entries()[i].name &&
+                (indices.empty() || indices.back() != i))
+              indices.push_back(i);
+      return indices;
+    }
+
+    bool
+    are_default(const std::set<std::string> &laws)
+    {
+      return laws.empty() ||
+             laws == std::set<std::string>{joint_law_kinds().front().name};
+    }
+
+    /** Titles of the columns `law` and its entries, if some joint chose one. */
+    std::string
+    law_titles(const std::set<std::string> &laws)
+    {
+      if (are_default(laws))
+        return "";
+      std::string titles = ",law";
+      for (const unsigned int i : entries_of(laws))
+        {
+          const JointLawEntry &entry = joint_law_entries()[i];
+          titles += "," + entry.name +
+                    (entry.unit.empty() ? "" : " (" + entry.unit + ")");
+        }
+      return titles;
+    }
+
+    std::string
+    law_fields(const JointStrength &strength, const std::set<std::string> &laws)
+    {
+      if (are_default(laws))
+        return "";
+      std::string fields = "," + strength.law;
+      for (const unsigned int i : entries_of(laws))
+        fields += "," + exact_text(strength.law_values[i]);
+      return fields;
+    }
   } // namespace
 
 
@@ -191,12 +242,16 @@ namespace Keyblock
     const std::string axes = dim == 2 ? "x (m),y (m)," : "x (m),y (m),z (m),";
     const std::string normals =
       dim == 2 ? "normal x,normal y," : "normal x,normal y,normal z,";
+    std::set<std::string> laws;
+    for (const auto &joint : scene.joints)
+      laws.insert(joint->law);
     std::ofstream out(file_name);
     out << "name,set,extent," << axes << "dip (deg),dip direction (deg),"
         << (has_normals ? normals : "")
         << "radius (m),vertices (m),friction angle (deg),"
            "kinetic friction angle (deg),cohesion (Pa),tensile strength (Pa),"
-           "residual cohesion (Pa),water pressure (Pa)\n";
+           "residual cohesion (Pa),water pressure (Pa)"
+        << law_titles(laws) << '\n';
     for (const auto &joint : scene.joints)
       out << field(joint->name) << ',' << field(joint->set) << ','
           << geometry_fields(*joint, scene.domain.origin, has_normals) << ','
@@ -205,7 +260,7 @@ namespace Keyblock
           << exact_text(joint->cohesion) << ','
           << exact_text(joint->tensile_strength) << ','
           << exact_text(joint->residual_cohesion) << ','
-          << field(joint->water_pressure) << '\n';
+          << field(joint->water_pressure) << law_fields(*joint, laws) << '\n';
     check_written(out, file_name);
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/partitioner.h>
 
-#include <keyblock/contact/law.h>
+#include <keyblock/base/vector.h>
 #include <keyblock/step/resting_cells.h>
 
 #include <algorithm>

@@ -2,7 +2,8 @@
 // How strong joints are, and that the friction law keeps to it.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/contact/joint_law.h>
+#include <keyblock/law/friction.h>
+#include <keyblock/law/joint_law.h>
 
 #include <random>
 

@@ -80,18 +80,22 @@ BOOST_AUTO_TEST_CASE(table_of_discs)
 // byte order mark, CR LF, comments, decimal commas, units, quotes, empty rows
 BOOST_AUTO_TEST_CASE(table_of_a_spreadsheet)
 {
-  const auto joints = read<3>(
+  JointStrength strength_of_set;
+  strength_of_set.friction_angle    = 25.;
+  strength_of_set.cohesion          = 3e4;
+  strength_of_set.residual_cohesion = 0.;
+  const auto joints                 = read<3>(
     "\xEF\xBB\xBF# mapped in 2019; level 2\r\n"
-    ";;;;;;;;;\r\n"
-    "Name;Set;Strike [\xC2\xB0];Dip (deg);Easting;Northing;Elevation (km);"
-    "Diameter (cm);Cohesion kPa;Friction (static);Remarks;\r\n"
-    "\"fault A\";F1;350;45,5;1000,25;2000,5;0,3;1250;12,5;;wet;\r\n"
-    ";;;;;;;;;;\r\n"
-    " # one more\r\n"
-    ";\"F1\";10;+30;1001;2001;0,301;800;;20;\"a; \"\"b\"\"\nc\";\r\n"
-    "last;;0;9e1;1001;2001;0,301;800;0;20;;",
+                    ";;;;;;;;;\r\n"
+                    "Name;Set;Strike [\xC2\xB0];Dip (deg);Easting;Northing;Elevation (km);"
+                    "Diameter (cm);Cohesion kPa;Friction (static);Remarks;\r\n"
+                    "\"fault A\";F1;350;45,5;1000,25;2000,5;0,3;1250;12,5;;wet;\r\n"
+                    ";;;;;;;;;;\r\n"
+                    " # one more\r\n"
+                    ";\"F1\";10;+30;1001;2001;0,301;800;;20;\"a; \"\"b\"\"\nc\";\r\n"
+                    "last;;0;9e1;1001;2001;0,301;800;0;20;;",
     Point<3>(1000., 2000., 300.),
-    {{"F1", JointStrength{25., -1., 3e4, 0., 0., ""}}});
+    {{"F1", strength_of_set}});
   BOOST_REQUIRE(joints.size() == 3u);
   BOOST_TEST(joints[0]->name == "fault A");
   BOOST_TEST(joints[0]->set == "F1");

@@ -265,6 +265,32 @@ namespace Keyblock
     std::vector<std::vector<unsigned int>>
     group_points(const std::vector<ContactPoint<dim>> &points) const;
 
+    /** What the joints' laws remember: add the slip of the last step. */
+    void advance_histories(const ContactStep &step);
+
+    /** A pair leaves what its joint's law remembers to its nodes. */
+    void pass_on_history(const unsigned int pair);
+
+    /** What a node's law remembers; null if nothing. */
+    const JointHistory *find_history(const unsigned int slot,
+                                     const unsigned int joint) const;
+
+    /** The same, made if it is not there. */
+    JointHistory &history_at(const unsigned int slot, const unsigned int joint);
+
+    /** Effective normal stress of the last step [Pa] of a point of @p area. */
+    double pressure_of(const Vector<dim> &impulse,
+                       const Vector<dim> &normal,
+                       const double area) const;
+
+    /** Area that a surface contact stands for [m^(dim-1)]; 0 if unknown. */
+    double area_of(const SurfaceContact<dim> &contact) const;
+
+    /** Velocity of a pair's plus side from its minus side [m/s]; false if this
+     * rank does not have both. */
+    bool relative_velocity_of(const unsigned int pair,
+                              Vector<dim> &velocity) const;
+
     /** A converted pair shows the surface contact of its nodes. */
     void show_on_converted_pairs();
     void update_mobility(const ContactStep &step);
@@ -335,6 +361,7 @@ namespace Keyblock
     using Memory::mobile_slots;
     using Memory::n_steps;
     using Memory::next_look;
+    using Memory::node_histories;
     using Memory::normal;
     using Memory::searched_position;
     using Memory::state;
@@ -342,6 +369,7 @@ namespace Keyblock
     std::vector<unsigned int> group_of_pair, group_of_slot;
     std::vector<std::shared_ptr<const JointLaw>> laws; ///< by joint
     std::shared_ptr<const JointLaw> law_of_free_faces;
+    bool has_memory         = false; ///< one of the laws
     double override_tangent = -1.;
     double weld_share       = 0.; ///< as in ContactStep
     bool is_tied            = false;
@@ -358,7 +386,7 @@ namespace Keyblock
 
     std::vector<bool> listed_converted; ///< pairs that were at the last search
 
-    std::vector<bool> has_cohesion;         ///< of sliding points, by joint
+    std::vector<bool> needs_areas;          ///< of surface points, by joint
     std::vector<FaceOverlap<dim>> overlaps; ///< of such joints, last search
 
     /** Those within reach, and those that press, sorted. */

@@ -2,7 +2,7 @@
 #ifndef keyblock_contact_damping_h
 #define keyblock_contact_damping_h
 
-#include <keyblock/contact/law.h>
+#include <keyblock/base/vector.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef keyblock_contact_face_foot_h
 #define keyblock_contact_face_foot_h
 
-#include <keyblock/contact/law.h>
+#include <keyblock/base/vector.h>
 #include <keyblock/mesh/mesh.h>
 
 namespace Keyblock

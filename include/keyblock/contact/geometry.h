@@ -2,7 +2,7 @@
 #ifndef keyblock_contact_geometry_h
 #define keyblock_contact_geometry_h
 
-#include <keyblock/contact/law.h>
+#include <keyblock/base/vector.h>
 
 #include <vector>
 

@@ -2,7 +2,8 @@
 #ifndef keyblock_contact_solver_h
 #define keyblock_contact_solver_h
 
-#include <keyblock/contact/law.h>
+#include <keyblock/base/vector.h>
+#include <keyblock/law/point_strength.h>
 
 #include <vector>
 

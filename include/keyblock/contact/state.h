@@ -4,6 +4,7 @@
 #define keyblock_contact_state_h
 
 #include <keyblock/contact/search.h>
+#include <keyblock/law/joint_history.h>
 
 namespace Keyblock
 {
@@ -26,6 +27,16 @@ namespace Keyblock
     // what a weld bore beyond the joint's strength when it was let go [N]
     double weld_shear   = 0.;
     double weld_tension = 0.;
+
+    JointHistory history; ///< kept if the joint's law has a memory
+  };
+
+  /** What a joint's law remembers of a surface node that has met others than
+   * its partners. */
+  struct NodeHistory
+  {
+    unsigned int slot, joint;
+    JointHistory history;
   };
 
   /** Which strengths are divided by a trial's reduction factor. */
@@ -60,6 +71,7 @@ namespace Keyblock
     std::vector<unsigned int> mobile_slots;
     std::vector<unsigned int> mobile_corners;  ///< of the list of corners
     std::vector<SurfaceContact<dim>> contacts; ///< of the last step
+    std::vector<NodeHistory> node_histories;   ///< by slot and joint, sorted
     unsigned int n_steps = 0;
     double last_kick     = 0.; ///< [s]
 

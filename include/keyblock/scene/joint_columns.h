@@ -38,8 +38,18 @@ namespace Keyblock
     tensile_strength,
     residual_cohesion,
     water_pressure,
-    comment
+    law,
+    comment,
+    first_law_entry ///< and on, in the order of joint_law_entries()
   };
+
+  /** The column of entry @p i of joint_law_entries(). */
+  inline JointColumn
+  law_entry_column(const unsigned int i)
+  {
+    return static_cast<JointColumn>(
+      static_cast<unsigned int>(JointColumn::first_law_entry) + i);
+  }
 
   /** Where a quantity stands in each row, and its unit. */
   struct ColumnPlace

@@ -5,6 +5,8 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <keyblock/law/joint_strength.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -86,30 +88,6 @@ namespace Keyblock
     std::string backfill_material;
 
     void declare(ParameterHandler &prm);
-  };
-
-  /** How strong a joint is, and the water in it. */
-  struct JointStrength
-  {
-    double friction_angle         = 30.; ///< static [deg]
-    double kinetic_friction_angle = -1.; ///< [deg]; -1: the static one
-    double cohesion               = 0.;  ///< [Pa]
-    double tensile_strength       = 0.;  ///< [Pa]
-    double residual_cohesion      = -1.; ///< [Pa]; -1: as cohesion
-    std::string water_pressure;          ///< formula [Pa]; empty: none
-
-    /** Cohesion of a joint that slides [Pa]. */
-    double
-    cohesion_of_sliding() const
-    {
-      return residual_cohesion < 0. ? cohesion : residual_cohesion;
-    }
-
-    /** Which of two joints rules where they share faces: that with the lower
-     * friction angle, of equal ones that with the lower cohesion. */
-    bool is_weaker_than(const JointStrength &other) const;
-
-    void declare_strength(ParameterHandler &prm);
   };
 
   /** A plane of weakness: where it is and how strong it is. */

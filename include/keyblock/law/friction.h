@@ -1,45 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef keyblock_contact_law_h
-#define keyblock_contact_law_h
+#ifndef keyblock_law_friction_h
+#define keyblock_law_friction_h
 
 #include <keyblock/base/vector.h>
+#include <keyblock/law/point_strength.h>
 
 namespace Keyblock
 {
-  /** What a contact point did in the last step. */
-  enum class ContactStatus : unsigned char
-  {
-    open,
-    sticking,
-    sliding
-  };
-
-  /**
-   * Strength of one contact point. Limits are impulses: stress times area times
-   * the kick interval [N s]. An intact point resists tension and cohesion; a
-   * frictional one has cohesion = residual cohesion and no tension.
-   */
-  struct PointStrength
-  {
-    double static_friction  = 0.; ///< tan(phi) while it sticks
-    double kinetic_friction = 0.; ///< tan(phi) while it slides
-    double cohesion         = 0.;
-    double tension          = 0.;
-
-    /** Largest shear [N s] under the normal impulse @p r_n: of a point that
-     * sticks, and of one that slides. */
-    double
-    sticking_limit(const double r_n) const
-    {
-      return cohesion + static_friction * r_n;
-    }
-    double
-    sliding_limit(const double r_n) const
-    {
-      return cohesion + kinetic_friction * r_n;
-    }
-  };
-
   /** An impulse and what it means. */
   template <int dim>
   struct PointResponse
@@ -82,7 +49,7 @@ namespace Keyblock
   /**
    * The admissible impulse nearest to the impulse @p stick that would stop the
    * point: nothing in tension, the friction limit if that is exceeded. How
-   * strong the point is, its joint's law says (contact/joint_law.h).
+   * strong the point is, its joint's law says (law/joint_law.h).
    *
    *   r_n < -T opens;  |r_t| <= C + mu_s r_n sticks,
    *   else r_t = (C + mu_k r_n) r_t / |r_t|.
