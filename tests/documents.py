@@ -9,7 +9,7 @@ Links of *.md and doc/*.md to files; files in backticks, as `contact/law.h` or
 `advance`; bare names of documents, as doc/theory.md. In doc/theory.md every
 displayed equation has one number, from 1 on in order, and every number that the
 text, or a comment that names the theory, refers to is that of an equation; the
-same for its sections.
+same for its sections. The maps of the rooms list those of source/CMakeLists.txt.
 """
 import pathlib
 import re
@@ -17,6 +17,7 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
 THEORY = ROOT / "doc" / "theory.md"
+MAPS = (ROOT / "doc" / "main_page.md", ROOT / "doc" / "reading.md")
 # headers and sources are named without these
 SOURCE = (ROOT, ROOT / "source", ROOT / "include" / "keyblock")
 DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "doc").glob("*.md"))]
@@ -100,12 +101,23 @@ def comments_on_theory():
                     yield path, place
 
 
+def faults_of_maps():
+    text = (ROOT / "source" / "CMakeLists.txt").read_text(encoding="utf-8")
+    rooms = re.findall(r"^add_room\((\w+)", text, re.MULTILINE)
+    for path in MAPS:
+        listed = re.findall(r"^\| `(\w+)` \|", path.read_text(encoding="utf-8"),
+                            re.MULTILINE)
+        if listed != rooms:
+            yield f"{path.relative_to(ROOT)}: the rooms are {', '.join(rooms)}"
+
+
 def main():
     faults = [f"{path.relative_to(ROOT)}: {fault}"
               for path in DOCUMENTS
               for fault in files_in(path, path.read_text(encoding="utf-8"))]
     theory = THEORY.read_text(encoding="utf-8")
     faults += [f"doc/theory.md: {fault}" for fault in faults_of_theory(theory)]
+    faults += faults_of_maps()
     equations = equations_of(theory)
     sections = re.findall(r"^## (\d+)\.", theory, re.MULTILINE)
     faults += [f"{path.relative_to(ROOT)}: {fault} in doc/theory.md"
