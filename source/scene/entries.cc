@@ -104,10 +104,10 @@ namespace Keyblock
     prm.add_parameter(
       "Cells across blocks",
       cells_across,
-      "Gmsh: how many cells finite blocks near excavations (all, if nothing is "
-      "dug) are to have across their least width: the scene is meshed again "
-      "with smaller cells where blocks have fewer, at most three times. 0: "
-      "sizes do not depend on blocks.",
+      "Number of cells that finite blocks near excavations (all finite blocks, "
+      "if nothing is excavated) are to have across their least width, in gmsh "
+      "meshes: the scene is meshed again with smaller cells where blocks have "
+      "fewer, at most three times. 0: sizes do not depend on blocks.",
       Double(0., 50.));
     prm.add_parameter("Least size",
                       least_size,
@@ -115,28 +115,32 @@ namespace Keyblock
                       "may ask for [m]; 0 means a quarter of Size at "
                       "excavation.",
                       not_negative);
-    prm.add_parameter("Joint tolerance",
-                      joint_tolerance,
-                      "A cell face lies on a joint if its vertices are within "
-                      "this fraction of the face's size [-].",
-                      Double(0., 0.1));
+    prm.add_parameter(
+      "Joint tolerance",
+      joint_tolerance,
+      "Distance of a cell face's vertices from a joint, as a fraction of the "
+      "face's size, within which the face lies on the joint [-].",
+      Double(0., 0.1));
     prm.add_parameter(
       "Snap",
       snap,
-      "Gmsh: where joints cannot be followed exactly with cells of a good "
-      "shape, they are cut into a mesh of the rest, and vertices nearer to a "
-      "joint than this part of the edges wanted there (2.6 cell sizes in 2D, 3 "
-      "in 3D) are moved onto it. Larger: larger time steps; smaller: joints "
-      "and thin blocks more exact. 0: always exact, or refused.",
+      "Distance, as a fraction of the edge length wanted there (2.6 cell sizes "
+      "in 2D, 3 in 3D), within which vertices are moved onto a joint that is "
+      "cut into a gmsh mesh, where joints cannot be followed exactly with "
+      "cells of a good shape [-]. Larger: larger time steps; smaller: joints "
+      "and thin blocks more exact. 0: joints are always followed exactly, or "
+      "the scene is refused.",
       Double(0., 0.45));
     prm.add_parameter("Refine at excavations",
                       refine_at_excavations,
                       "Distances from outlines of excavations [m], decreasing: "
                       "cells nearer than the first are halved once, nearer "
                       "than the second twice, and so on.");
-    prm.add_parameter("Refine at joints",
-                      refine_at_joints,
-                      "Distances from joints [m], used in the same way.");
+    prm.add_parameter(
+      "Refine at joints",
+      refine_at_joints,
+      "Distances from joints [m], decreasing: cells nearer than the first are "
+      "halved once, nearer than the second twice, and so on.");
     prm.add_parameter(
       "Refinement levels",
       refinement_levels,
@@ -174,8 +178,8 @@ namespace Keyblock
     prm.add_parameter("To", to, "Extrusion: greatest y [m].");
     prm.add_parameter("Stage",
                       stage,
-                      "Name of the stage that digs it; start: it is not there "
-                      "from the beginning.");
+                      "Name of the stage that excavates the region; start: the "
+                      "region is empty from the beginning.");
     prm.add_parameter("Backfill stage",
                       backfill_stage,
                       "Name of a later stage that fills it, unstressed; empty: "
@@ -192,15 +196,15 @@ namespace Keyblock
     prm.add_parameter(
       "Region",
       region,
-      "Where: all; `id N` for cells of a mesh file; or a formula "
-      "in x, y (z) that is positive at the cell centres "
-      "inside; or `band A B` for the rock between the joints A and B. Later "
-      "materials overwrite earlier ones.");
+      "Region that the material fills: all; `id N` for cells of a mesh file; a "
+      "formula in x, y (z), positive at the centres of its cells; or `band A "
+      "B` for the rock between the joints A and B. Later materials overwrite "
+      "earlier ones.");
     prm.add_parameter("Stage",
                       stage,
-                      "The stage from which on it takes the place of what its "
-                      "region was made of; stresses stay as they are. Empty: "
-                      "from the start.");
+                      "Name of the stage from which on the material takes the "
+                      "place of the former one in its region; stresses stay as "
+                      "they are. Empty: from the start.");
     prm.add_parameter(
       "Model",
       model,
@@ -208,12 +212,15 @@ namespace Keyblock
       "fixed (or moved) body without strain, whose cells cost "
       "nothing.",
       Selection("elastic|mohr_coulomb|rigid"));
-    prm.add_parameter("Young modulus", young_modulus, "E [Pa].", positive);
+    prm.add_parameter("Young modulus",
+                      young_modulus,
+                      "Young's modulus E [Pa].",
+                      positive);
     prm.add_parameter("Poisson ratio",
                       poisson_ratio,
-                      "nu [-], below 0.5.",
+                      "Poisson's ratio nu, below 0.5 [-].",
                       Double(-0.999, 0.4999));
-    prm.add_parameter("Density", density, "rho [kg/m3].", positive);
+    prm.add_parameter("Density", density, "Density rho [kg/m3].", positive);
     prm.add_parameter("Cohesion",
                       cohesion,
                       "mohr_coulomb: c [Pa].",
@@ -250,13 +257,14 @@ namespace Keyblock
                       "mohr_coulomb: plastic strain over which strengths fall "
                       "to the residual ones [-]; 0: at once.",
                       not_negative);
-    prm.add_parameter("Integration",
-                      integration,
-                      "full: all Gauss points; mean dilatation: the volume "
-                      "change is averaged over each cell, which keeps plastic "
-                      "flow from locking; automatic: mean dilatation for "
-                      "Poisson ratios above 0.4. mohr_coulomb always has it.",
-                      Selection("automatic|full|mean dilatation"));
+    prm.add_parameter(
+      "Integration",
+      integration,
+      "Integration of elastic cells. full: each Gauss point has its own volume "
+      "change; mean dilatation: the volume change is averaged over each cell, "
+      "which prevents locking; automatic: mean dilatation for Poisson ratios "
+      "above 0.4. mohr_coulomb cells always have mean dilatation.",
+      Selection("automatic|full|mean dilatation"));
     prm.add_parameter("Rigid velocity",
                       rigid_velocity,
                       "Velocity of a rigid body, a formula in t, one component "
@@ -274,13 +282,14 @@ namespace Keyblock
       "all, or `id N`.");
     prm.add_parameter("Region",
                       region,
-                      "Instead: a formula in x, y (z) that is positive at the "
-                      "nodes held.");
-    prm.add_parameter("Directions",
-                      directions,
-                      "all; normal: a roller on each named boundary; or axes, "
-                      "for example x or xz.",
-                      Selection("all|normal|x|y|z|xy|xz|yz"));
+                      "Formula in x, y (z), positive at the nodes to be held; "
+                      "it may stand instead of Boundaries.");
+    prm.add_parameter(
+      "Directions",
+      directions,
+      "Directions that are held. all: all axes; normal: the normal of each "
+      "named boundary, as a roller; or axes, for example x or xz.",
+      Selection("all|normal|x|y|z|xy|xz|yz"));
     prm.add_parameter("Kind",
                       kind,
                       "held: fixed or moved by Velocity; far field: the "
@@ -288,15 +297,16 @@ namespace Keyblock
                       "double forces at Center if the far field encloses it "
                       "(Boundaries only), after the initial state.",
                       Selection("held|far field"));
-    prm.add_parameter("Displacement",
-                      displacement,
-                      "Instead of Velocity: displacement reached at the end of "
-                      "the ramp of the first quasi-static or static stage, a "
-                      "formula in x, y (z) per axis [m].");
+    prm.add_parameter(
+      "Displacement",
+      displacement,
+      "Displacement that the support has reached at the end of the ramp of the "
+      "first quasi-static or static stage, a formula in x, y (z) per axis [m]; "
+      "it may stand instead of Velocity.");
     prm.add_parameter("Center",
                       center,
-                      "Far field: centre of the excavation, from which the "
-                      "distance to the boundary is measured [m].");
+                      "Centre of the excavation, from which a far field "
+                      "measures the distance to the boundary [m].");
     prm.add_parameter("Velocity",
                       velocity,
                       "Prescribed velocity, a formula in x, y (z), t per axis "
@@ -307,12 +317,15 @@ namespace Keyblock
   void
   Traction<dim>::declare(ParameterHandler &prm)
   {
-    prm.add_parameter("Boundaries", boundaries, "As for supports.");
+    prm.add_parameter("Boundaries",
+                      boundaries,
+                      "Outer boundaries that are loaded: left, right, bottom, "
+                      "top, front, back, all, or `id N`.");
     prm.add_parameter(
       "Region",
       region,
-      "Instead: a formula in x, y (z) positive at the centres of "
-      "the loaded outer faces.");
+      "Formula in x, y (z), positive at the centres of the free faces to be "
+      "loaded; it may stand instead of Boundaries.");
     prm.add_parameter("Traction",
                       expression,
                       "Force per area, a formula in x, y (z), t per axis "
@@ -390,47 +403,52 @@ namespace Keyblock
   void
   ContactSettings::declare(ParameterHandler &prm)
   {
+    prm.add_parameter("Method",
+                      method,
+                      "Solution of contact. exact: coupled points, iterated to "
+                      "Tolerance; paper: one pass without coupling, as "
+                      "published, for comparison; none: joints are ignored.",
+                      Selection("exact|paper|none"));
     prm.add_parameter(
-      "Method",
-      method,
-      "exact: coupled, to the tolerance; paper: one uncoupled "
-      "pass, the published variant, as a baseline; none: joints "
-      "are ignored.",
-      Selection("exact|paper|none"));
-    prm.add_parameter("Default friction angle",
-                      default_friction_angle,
-                      "For faces that lie on no joint [deg].",
-                      friction_range);
-    prm.add_parameter("Tolerance",
-                      tolerance,
-                      "Change of a node's momentum per iteration, relative "
-                      "to the largest impulse of its group [-].",
-                      Double(1e-15, 1e-2));
+      "Default friction angle",
+      default_friction_angle,
+      "Friction angle of contact between faces that lie on no joint [deg].",
+      friction_range);
+    prm.add_parameter(
+      "Tolerance",
+      tolerance,
+      "Largest change of a node's momentum per iteration at which the contact "
+      "solution ends, as a fraction of the largest impulse of its group [-].",
+      Double(1e-15, 1e-2));
     prm.add_parameter("Maximum iterations",
                       maximum_iterations,
-                      "Cap of iterations per group and step [-].",
+                      "Largest number of iterations for each group of contact "
+                      "points in each step [-].",
                       Integer(1));
     prm.add_parameter("Slip tolerance",
                       slip_tolerance,
-                      "A pair becomes point-to-surface when it has slipped "
-                      "by this fraction of the face size [-].",
+                      "Slip, as a fraction of the face size, from which on the "
+                      "two nodes of a pair are searched against faces [-].",
                       Double(0., 1.));
-    prm.add_parameter("Weld infinite blocks",
-                      weld_infinite_blocks,
-                      "Joints between infinite blocks stay welded.");
+    prm.add_parameter(
+      "Weld infinite blocks",
+      weld_infinite_blocks,
+      "Whether joints between two infinite blocks stay welded.");
     prm.add_parameter("Tie all joints",
                       tie_all,
-                      "Infinite strength on every joint.");
+                      "Whether all joints have infinite strength.");
   }
 
   void
   TimeStepping::declare(ParameterHandler &prm)
   {
-    prm.add_parameter("Kinematics",
-                      kinematics,
-                      "small: reference geometry; large: current geometry, "
-                      "objective stress rate.",
-                      Selection("small|large"));
+    prm.add_parameter(
+      "Kinematics",
+      kinematics,
+      "Geometry of the strains. small: the reference geometry, for small "
+      "deformations and slip along planes; large: the current geometry with an "
+      "objective stress rate, for blocks that turn.",
+      Selection("small|large"));
     prm.add_parameter("Safety",
                       safety,
                       "Fraction of the stable time step used [-].",
@@ -439,56 +457,61 @@ namespace Keyblock
                       maximum_step,
                       "Upper limit of the time step [s]; 0: none.",
                       not_negative);
-    prm.add_parameter("Least step",
-                      least_step,
-                      "Stable step, without damping and safety, that dynamic "
-                      "stages are to have [s]; 0: any. Cells with a smaller "
-                      "one get inertia, but no weight, from the others of "
-                      "their block.",
-                      not_negative);
-    prm.add_parameter("Largest added mass",
-                      largest_added_mass,
-                      "What such cells get, at most, as a fraction of the "
-                      "block's mass, and what any other cell gives, as a "
-                      "fraction of its own [-].",
-                      Double(0., 0.5));
-    prm.add_parameter("Energy ledger",
-                      ledger,
-                      "Keep every energy term, each step.");
+    prm.add_parameter(
+      "Least step",
+      least_step,
+      "Stable time step of dynamic stages, without damping and Safety, that "
+      "mass scaling aims at [s]; 0: no mass scaling. Cells with a smaller step "
+      "get inertia, but no weight, from the other cells of their block.",
+      not_negative);
+    prm.add_parameter(
+      "Largest added mass",
+      largest_added_mass,
+      "Largest mass that the cells with a time step below Least step get, as a "
+      "fraction of the block's mass, and the largest that any other cell "
+      "gives, as a fraction of its own [-].",
+      Double(0., 0.5));
+    prm.add_parameter(
+      "Energy ledger",
+      ledger,
+      "Whether the work of all forces is summed in each step; without it the "
+      "energy terms and their residual are not known.");
     prm.add_parameter("Skip cells at rest",
                       skips_resting,
-                      "Leave out of the steps the cells that are far from all "
-                      "that moves.");
+                      "Whether cells that are far from all that moves are left "
+                      "out of the steps.");
     prm.add_parameter("Rest speed",
                       rest_speed,
-                      "Speed of nodes at rest, at most, as a share of that of "
-                      "the fastest node [-].",
+                      "Highest speed of nodes that count as at rest, as a "
+                      "fraction of the speed of the fastest node [-].",
                       Double(0., 1.));
   }
 
   void
   Stage::declare(ParameterHandler &prm)
   {
-    prm.add_parameter("Kind",
-                      kind,
-                      "dynamic: Duration of true motion; quasi-static: damped "
-                      "steps with scaled density until forces balance; static: "
-                      "one elastic solve, all joints tied.",
-                      Selection("dynamic|quasi-static|static"));
+    prm.add_parameter(
+      "Kind",
+      kind,
+      "Kind of the stage. dynamic: true motion over Duration; quasi-static: "
+      "damped steps with scaled density until forces balance; static: one "
+      "elastic solve with all joints tied.",
+      Selection("dynamic|quasi-static|static"));
     prm.add_parameter("Duration",
                       duration,
-                      "Simulated time [s].",
+                      "Simulated time of the stage [s].",
                       not_negative);
     prm.add_parameter("Maximum steps",
                       maximum_steps,
-                      "End after so many steps; 0: no limit, quasi-static "
-                      "200,000.",
+                      "Number of steps after which the stage ends; 0: no "
+                      "limit, in quasi-static stages 200,000.",
                       Integer(0));
-    prm.add_parameter("Unbalanced ratio",
-                      unbalanced_ratio,
-                      "End as soon as the unbalanced force over the driving "
-                      "force is below this [-]; 0: never, quasi-static 1e-5.",
-                      not_negative);
+    prm.add_parameter(
+      "Unbalanced ratio",
+      unbalanced_ratio,
+      "Ratio of the unbalanced force to the driving force below which the "
+      "stage ends [-]; 0: it does not end by it, in quasi-static stages 1e-5.",
+      not_negative);
     prm.add_parameter("Damping ratio",
                       damping_ratio,
                       "Stiffness-proportional damping: fraction of critical at "
@@ -507,32 +530,33 @@ namespace Keyblock
                       fraction);
     prm.add_parameter("Damp contact force",
                       damps_contact_force,
-                      "Local damping counts contact forces; without them "
-                      "sliding jams (for comparison only).");
-    prm.add_parameter("Density scaling",
-                      scales_density,
-                      "Quasi-static: masses that let all cells take the same "
-                      "step; gravity keeps the true ones.");
+                      "Whether local damping counts contact forces; without "
+                      "them sliding jams (for comparison only).");
+    prm.add_parameter(
+      "Density scaling",
+      scales_density,
+      "Whether a quasi-static stage scales masses so that all cells take the "
+      "same time step; gravity keeps the true ones.");
     prm.add_parameter(
       "Ramp duration",
       ramp_duration,
-      "Time over which the forces of what is dug are taken away "
-      "[s]; 0: four periods of the lowest mode.",
+      "Time over which the out-of-balance force of excavation, fill and new "
+      "loads is taken away [s]; 0: four periods of the lowest mode in "
+      "quasi-static stages, at once in dynamic ones.",
       not_negative);
     prm.add_parameter("Ramp unbalance",
                       ramp_unbalance,
-                      "The ramp slows down where the unbalanced ratio exceeds "
-                      "this [-].",
+                      "Unbalanced ratio above which the ramp slows down [-].",
                       positive);
     prm.add_parameter("Friction angle override",
                       friction_angle_override,
-                      "Replaces every friction angle in this stage [deg]; -1: "
-                      "no.",
+                      "Friction angle of all joints in this stage, in place of "
+                      "their own [deg]; -1: their own.",
                       Double(-1., 89.9));
     prm.add_parameter("Reset motion",
                       reset_motion,
-                      "Start the stage with zero velocities and count "
-                      "displacements from here.");
+                      "Whether the stage starts with zero velocities and "
+                      "counts displacements from its start.");
   }
 
   template <int dim>
@@ -546,9 +570,10 @@ namespace Keyblock
       "the nodes where Region is positive, by mass; joint: sums over a joint; "
       "support: reaction of a support.",
       Selection("point|block|region|joint|support"));
-    prm.add_parameter("Location",
-                      location,
-                      "Point, or a point in a block [m].");
+    prm.add_parameter(
+      "Location",
+      location,
+      "Place of the monitored point, or a point in the monitored block [m].");
     prm.add_parameter("Region",
                       region,
                       "Region: formula of the reference position, positive "
@@ -570,105 +595,125 @@ namespace Keyblock
                       "or their numbers in the block table.");
     prm.add_parameter("Stages",
                       stages,
-                      "Names of the stages; empty: all of them.");
+                      "Names of the stages at whose end safety factors are "
+                      "computed; empty: all stages.");
     prm.add_parameter("Reduced joints",
                       reduced_joints,
-                      "of the block: only where it touches others; all: of the "
-                      "whole model.",
+                      "Joints whose strength a trial divides by the factor. of "
+                      "the block: those of the tried block, where it touches "
+                      "others; all: those of the whole model.",
                       Selection("of the block|all"));
-    prm.add_parameter("Joints",
-                      joints,
-                      "Reduce only these joints, or sets of joints; empty: no "
-                      "restriction.");
+    prm.add_parameter(
+      "Joints",
+      joints,
+      "Names of the joints, or sets of joints, to which the reduction of "
+      "strength is restricted; empty: no restriction.");
     prm.add_parameter("Reduce rock",
                       reduces_rock,
-                      "Divide the strength of mohr_coulomb rock as well.");
-    prm.add_parameter("Teams",
-                      teams,
-                      "Teams of ranks that look for the factors of different "
-                      "blocks at the same time; all compute the stages. "
-                      "A divisor of the number of ranks. Without a signal, "
-                      "checkpoints wait until all factors of a stage are "
-                      "found.",
-                      Integer(1));
+                      "Whether trials divide the strength of mohr_coulomb rock "
+                      "by the factor as well.");
+    prm.add_parameter(
+      "Teams",
+      teams,
+      "Number of rank groups that look for the safety factors of different "
+      "blocks at the same time; all ranks compute the stages together. It has "
+      "to divide the number of ranks. Unless a signal stops the run, "
+      "checkpoints wait until all factors of a stage are found.",
+      Integer(1));
     prm.add_parameter("Method",
                       method,
-                      "bisection of a bracket, or sweep: from Lowest by Sweep "
-                      "step until it fails (the published way).",
+                      "Search for the factor. bisection: halving of a bracket; "
+                      "sweep: from Lowest upwards by Sweep step until the "
+                      "block fails (the published method).",
                       Selection("bisection|sweep"));
-    prm.add_parameter("Sweep step",
-                      sweep_step,
-                      "Step of a sweep [-].",
-                      positive);
+    prm.add_parameter(
+      "Sweep step",
+      sweep_step,
+      "Increment of the factor from trial to trial of a sweep [-].",
+      positive);
     prm.add_parameter("Bracket",
                       bracket,
                       "Width of the final bracket over its upper end [-].",
                       Double(1e-6, 1.));
-    prm.add_parameter("Lowest",
-                      lowest,
-                      "A block that fails at this factor falls freely [-].",
-                      positive);
-    prm.add_parameter("Highest",
-                      highest,
-                      "A block that holds at this factor is immovable, or held "
-                      "by clamping if limit equilibrium can move it [-].",
-                      positive);
     prm.add_parameter(
-      "Mass damping",
-      mass_damping,
-      "Of the first phase, which looks for an equilibrium, over "
-      "the critical one of the block's lowest mode [-].",
-      Double(0., 10.));
+      "Lowest",
+      lowest,
+      "Lowest factor tried: a block that fails at it falls freely [-].",
+      positive);
+    prm.add_parameter(
+      "Highest",
+      highest,
+      "Highest factor tried: a block that holds at it is immovable, or held by "
+      "clamping if limit equilibrium can move it [-].",
+      positive);
+    prm.add_parameter("Mass damping",
+                      mass_damping,
+                      "Mass-proportional damping in the first phase of a "
+                      "trial, which looks for an equilibrium, as a fraction of "
+                      "the critical damping of the block's lowest mode [-].",
+                      Double(0., 10.));
     prm.add_parameter("Adaptive damping",
                       adaptive_damping,
                       "Whether blocks that creep to rest by one slow mode are "
                       "damped by the frequency of that mode.");
-    prm.add_parameter("Local damping",
-                      local_damping,
-                      "Of the first phase besides [-].",
-                      Double(0., 1.));
-    prm.add_parameter("Damping ratio",
-                      damping_ratio,
-                      "Of the highest mode of each cell, in both phases [-].",
-                      Double(0., 2.));
-    prm.add_parameter("Window",
-                      window,
-                      "Time between two looks at the block, in periods of its "
-                      "lowest mode [-].",
-                      Double(0.1, 100.));
-    prm.add_parameter("Maximum periods",
-                      maximum_periods,
-                      "Length of the first phase, at most; the second ends "
-                      "after 20 besides [-].",
-                      positive);
-    prm.add_parameter("Trial steps",
-                      trial_steps,
-                      "Steps that every trial goes on for, though it is "
-                      "decided (the published way: 5000); 0: none.");
-    prm.add_parameter("Warm start",
-                      warm_start,
-                      "Start a trial from the highest factor at which the "
-                      "block came to rest; else from the end of the stage.");
-    prm.add_parameter("Reach",
-                      reach,
-                      "Trials move the rock within this many sizes of the "
-                      "block and hold the rest; 0: move all. Without effect "
-                      "where all joints or the rock are reduced [-].",
-                      not_negative);
+    prm.add_parameter(
+      "Local damping",
+      local_damping,
+      "Local damping of the first phase of a trial, in addition to Mass "
+      "damping and Damping ratio [-]; 0: none.",
+      Double(0., 1.));
+    prm.add_parameter(
+      "Damping ratio",
+      damping_ratio,
+      "Damping ratio of the highest mode of each cell by "
+      "stiffness-proportional damping, in both phases of a trial [-].",
+      Double(0., 2.));
+    prm.add_parameter(
+      "Window",
+      window,
+      "Check interval of a trial, in periods of the block's lowest mode [-].",
+      Double(0.1, 100.));
+    prm.add_parameter(
+      "Maximum periods",
+      maximum_periods,
+      "Length of the first phase of a trial, at most, in periods of the "
+      "block's lowest mode [-]. The second phase ends after 20 such periods, "
+      "each later round after 20 more, or after this length if that is less.",
+      positive);
+    prm.add_parameter(
+      "Trial steps",
+      trial_steps,
+      "Number of steps that each trial computes at least, even if it is "
+      "decided before (5000 in the published method); 0: none.");
+    prm.add_parameter(
+      "Warm start",
+      warm_start,
+      "Whether a trial starts from the highest factor at which the block came "
+      "to rest; else it starts from the end of the stage.");
+    prm.add_parameter(
+      "Reach",
+      reach,
+      "Distance from the block up to which rock moves in trials, in sizes of "
+      "the block; rock farther away is held [-]. 0: all rock moves. Without "
+      "effect where all joints or the rock are reduced.",
+      not_negative);
     prm.add_parameter("True masses",
                       true_masses,
-                      "In the second phase; else those of the first, which "
-                      "give all cells one time step.");
-    prm.add_parameter("Seismic coefficient",
-                      seismic_coefficient,
-                      "Acceleration per axis over 9.81 m/s2 that limit "
-                      "equilibrium adds to gravity, and nothing else does; "
-                      "empty: none [-].");
-    prm.add_parameter("Removal slip",
-                      removal_slip,
-                      "In quasi-static stages a block that has slid this share "
-                      "of its size, and goes on, is taken away; 0: never [-].",
-                      not_negative);
+                      "Whether the second phase of a trial uses the true "
+                      "masses; else it keeps the scaled ones of the first "
+                      "phase, which give all cells the same time step.");
+    prm.add_parameter(
+      "Seismic coefficient",
+      seismic_coefficient,
+      "Seismic acceleration per axis over 9.81 m/s2 [-]. Limit equilibrium "
+      "alone adds it to gravity; steps and trials do not. Empty: none.");
+    prm.add_parameter(
+      "Removal slip",
+      removal_slip,
+      "Slip of a block, as a fraction of its size, at which a quasi-static "
+      "stage takes the block away as failed [-]. A block that slides steadily "
+      "is taken away earlier. 0: no block is taken away.",
+      not_negative);
   }
 
 
@@ -692,7 +737,8 @@ namespace Keyblock
       not_negative);
     prm.add_parameter("Roof axis",
                       roof_axis,
-                      "Azimuth of the axis across which it is measured [deg].");
+                      "Azimuth of the axis of the opening; Roof span is "
+                      "measured across it [deg].");
   }
 
 
@@ -702,20 +748,25 @@ namespace Keyblock
   {
     prm.add_parameter("Closed form",
                       closed_form,
-                      "What the last stage is compared with.",
+                      "Closed form, or other reference, with which the results "
+                      "of the last stage are compared; none: no comparison.",
                       Selection(
                         "none|resting|incline|bar_impact|oblique_impact|"
                         "bond_break|newmark|gravity_column|kirsch|salencon|"
                         "spherical_cavity|footing|value|"
                         "toppling|rotation"));
-    prm.add_parameter("Joint", joint, "The joint it is measured on.");
+    prm.add_parameter(
+      "Joint",
+      joint,
+      "Name of the joint on which the checked quantities are measured.");
     prm.add_parameter("Quantity",
                       quantity,
-                      "value: column of history.csv whose last entry is "
-                      "compared, without its unit.");
+                      "Column of history.csv, without its unit, whose last "
+                      "value is compared, for the closed form value.");
     prm.add_parameter("Reference",
                       reference,
-                      "value: what it is compared with.");
+                      "Reference value with which Quantity is compared, for "
+                      "the closed form value.");
     prm.add_parameter("Reference time",
                       reference_time,
                       "Time since the start of the last stage at which "
@@ -723,15 +774,15 @@ namespace Keyblock
                       not_negative);
     prm.add_parameter("Window start",
                       window_start,
-                      "Begin of the window of means and fits, as a fraction of "
-                      "the last stage [-].",
+                      "Start of the time window over which means and fits are "
+                      "taken, as a fraction of the last stage [-].",
                       fraction);
     prm.add_parameter(
       "Length",
       length,
-      "bar_impact, bond_break: length of the bar; footing: loaded "
-      "width, half a cell past the last held node; spherical_cavity: its "
-      "radius, about the origin [m].",
+      "Length that the closed form needs [m]. bar_impact, bond_break: length "
+      "of the bar; footing: loaded width, to half a cell past the last held "
+      "node; spherical_cavity: radius of the cavity about the origin.",
       not_negative);
   }
 

@@ -33,11 +33,11 @@ namespace Keyblock
       "`cohesion (kPa)`. Separated by `,`, `;` or tabs; with the latter two "
       "decimal commas are understood. Rows without a name are J1, J2, ... by "
       "their number; a subsection of that name overrides the row.");
-    prm.add_parameter("Resolved",
-                      is_resolved,
-                      "Names lists all joints already, those of File and of "
-                      "Joint sets included, and neither is used again. So it "
-                      "stands in used.prm.");
+    prm.add_parameter(
+      "Resolved",
+      is_resolved,
+      "Whether Names already lists all joints, those of File and of the sets "
+      "included, so that neither is used again; true in used.prm.");
   }
 
   template <int dim>
@@ -82,14 +82,15 @@ namespace Keyblock
   void
   JointSet<dim>::declare(ParameterHandler &prm)
   {
-    prm.add_parameter("Dip",
-                      dip,
-                      "Of the mean pole: angle below the horizontal [deg].",
-                      Double(0., 90.));
+    prm.add_parameter(
+      "Dip",
+      dip,
+      "Dip of the mean plane of the set, below the horizontal [deg].",
+      Double(0., 90.));
     prm.add_parameter("Dip direction",
                       dip_direction,
-                      "Of the mean pole: azimuth clockwise from north (+y) "
-                      "[deg]; in 2D 90 (+x) or 270 (-x).",
+                      "Dip direction of the mean plane of the set, clockwise "
+                      "from north (+y) [deg]; in 2D 90 (+x) or 270 (-x).",
                       Double(0., 360.));
     prm.add_parameter("Concentration",
                       concentration,
@@ -110,33 +111,34 @@ namespace Keyblock
                       Selection("exponential|constant"));
     prm.add_parameter("Jitter",
                       jitter,
-                      "Constant spacing: each joint is moved at random by up "
-                      "to half this share of the spacing to either side [-].",
+                      "Largest random shift of a joint of constant spacing to "
+                      "either side, over half the spacing [-].",
                       fraction);
-    prm.add_parameter("Persistence",
-                      persistence,
-                      "Spacing of planes that are not jointed all over: the "
-                      "share of their area that is [-]. P32 (P21) is then "
-                      "Persistence over the spacing; for finite joints.",
-                      Double(1e-6, 1.));
-    prm.add_parameter(dim == 2 ? "P21" : "P32",
-                      intensity,
-                      "Instead of Spacing: mean area of joints per volume "
-                      "[m2/m3]; in 2D P21, length per area [m/m2].",
-                      not_negative);
+    prm.add_parameter(
+      "Persistence",
+      persistence,
+      "Jointed fraction of the area of planes at the given Spacing, for finite "
+      "joints [-]; P32 (P21) is then Persistence over Spacing.",
+      Double(1e-6, 1.));
+    prm.add_parameter(
+      dim == 2 ? "P21" : "P32",
+      intensity,
+      "Mean area of joints per volume, P32 [m2/m3], in 2D length per area, P21 "
+      "[m/m2]; it may stand instead of Spacing.",
+      not_negative);
     prm.add_parameter("P10",
                       frequency,
-                      "Instead of Spacing: mean number of joints per length "
-                      "along the mean normal [1/m].",
+                      "Mean number of joints per length along the mean normal "
+                      "[1/m]; it may stand instead of Spacing.",
                       not_negative);
     prm.add_parameter(
       "Radius law",
       radius_law,
-      "Of the radii of discs (2D: half lengths): constant: Radius mean; "
-      "uniform: from Radius minimum to maximum; exponential, lognormal: of "
-      "Radius mean (and deviation) before they are cut off at minimum and "
-      "maximum; power law: density r^-exponent; infinite: no discs but "
-      "planes.",
+      "Law of the radii of discs (in 2D of half lengths). constant: Radius "
+      "mean; uniform: from Radius minimum to Radius maximum; exponential, "
+      "lognormal: of Radius mean (and Radius deviation) before the cut at "
+      "minimum and maximum; power law: density r^-exponent; infinite: planes "
+      "without a rim.",
       Selection("infinite|constant|uniform|exponential|lognormal|power law"));
     prm.add_parameter("Radius mean",
                       radius_mean,
@@ -165,13 +167,15 @@ namespace Keyblock
                       "centres of discs lie [m]; empty: the domain and a "
                       "margin of the greatest radius, so that the density is "
                       "the same up to its edge.");
-    prm.add_parameter("Region size",
-                      region_size,
-                      "Lengths of that box along the axes [m].");
+    prm.add_parameter(
+      "Region size",
+      region_size,
+      "Lengths, along the axes, of the box in which centres of discs lie [m].");
     prm.add_parameter("Seed",
                       seed,
-                      "Of the random numbers, together with the set's name: "
-                      "the same seed gives the same joints everywhere.");
+                      "Seed of the random numbers, which also depend on the "
+                      "name of the set; the same seed gives the same joints on "
+                      "any machine and any number of ranks.");
     strength.declare_strength(prm);
   }
 

@@ -329,7 +329,9 @@ namespace Keyblock
                       "2",
                       dealii::Patterns::Integer(2, 3),
                       "2 (plane strain, unit thickness) or 3.");
-    prm.add_parameter("Title", title, "One line for people.");
+    prm.add_parameter("Title",
+                      title,
+                      "Title of the scene, one line for readers.");
     declare_section(prm, "Domain", domain);
     declare_section(prm, "Mesh", meshing);
     declare_section(prm, "Initial state", initial_state);
@@ -432,7 +434,10 @@ namespace Keyblock
                  const std::vector<std::string> &overrides)
   {
     ParameterHandler prm;
-    prm.declare_entry("Dimension", "2", dealii::Patterns::Integer(2, 3));
+    prm.declare_entry(
+      "Dimension",
+      "Number of dimensions: 2 (plane strain, unit thickness) or 3.",
+      dealii::Patterns::Integer(2, 3));
     SceneText(file_name, overrides).parse(prm, true);
     return prm.get_integer("Dimension");
   }

@@ -157,7 +157,7 @@ namespace Keyblock
     const double stored = elastic_energy<dim>(cells, positions()) +
                           fields.far_field.stored_energy(fields.displacement);
     Energies mine = sums;
-    // discrete energy of the leapfrog between n and n + 1 (theory, eq. 12)
+    // discrete energy of the leapfrog between n and n + 1 (theory, eq. 14)
     mine.elastic = stored + 0.5 * dt * internal;
     mine.kinetic = kinetic;
     if (is_first)

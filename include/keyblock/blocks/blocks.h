@@ -104,8 +104,8 @@ namespace Keyblock
 
     unsigned int n_stages = 0; ///< of excavation
 
-    /** Sign codes (equation 4) among the rock that is left: what the sign test
-     * alone would take for blocks. */
+    /** Sign codes (Chen, Xiao and Chen 2020, equation 4) among the rock that is
+     * left: what the sign test alone would take for blocks. */
     unsigned int n_sign_codes = 0;
 
     /** Whether the nodes on a face are to be duplicated. */
@@ -116,8 +116,8 @@ namespace Keyblock
   };
 
   /**
-   * Sign code of each cell against each joint (equations 2-4), +1 or -1; cells
-   * by rows, joints by columns.
+   * Sign code of each cell against each joint (Chen, Xiao and Chen 2020,
+   * equations 2 to 4), +1 or -1; cells by rows, joints by columns.
    */
   template <int dim>
   std::vector<std::vector<signed char>> sign_code(const Mesh<dim> &mesh,

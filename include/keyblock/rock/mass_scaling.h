@@ -17,7 +17,7 @@ namespace Keyblock
    * max(floor, omega^2) / square with the cell's highest frequency omega. Its
    * frequency is sqrt(square) then, or below. What stiff cells get is taken
    * from the others, by one factor: the mass of the block stays, and with it
-   * the acceleration under any force (doc/theory.md, equation 7a).
+   * the acceleration under any force (doc/theory.md, equation 8).
    */
   struct MassScaling
   {
