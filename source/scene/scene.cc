@@ -328,7 +328,7 @@ namespace Keyblock
     prm.declare_entry("Dimension",
                       "2",
                       dealii::Patterns::Integer(2, 3),
-                      "2 (plane strain, unit thickness) or 3.");
+                      "Number of dimensions: 2 (plane strain, unit thickness) or 3.");
     prm.add_parameter("Title",
                       title,
                       "Title of the scene, one line for readers.");
@@ -434,10 +434,7 @@ namespace Keyblock
                  const std::vector<std::string> &overrides)
   {
     ParameterHandler prm;
-    prm.declare_entry(
-      "Dimension",
-      "Number of dimensions: 2 (plane strain, unit thickness) or 3.",
-      dealii::Patterns::Integer(2, 3));
+    prm.declare_entry("Dimension", "2", dealii::Patterns::Integer(2, 3));
     SceneText(file_name, overrides).parse(prm, true);
     return prm.get_integer("Dimension");
   }
