@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Which part of a joint each point of surface contact stands for, and where
-// its cohesion is gone.
-#include <keyblock/contact/contact.h>
+#include <keyblock/contact/area.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace Keyblock
 {
@@ -15,40 +14,94 @@ namespace Keyblock
     /** Impulse over the joint's mean from which on a point bears cohesion: one
      * that hovers would take it and let go in turns [-]. */
     constexpr double least_share = 0.1;
+
+    /** Joint, and two blocks in order. */
+    std::array<unsigned int, 3>
+    between(const unsigned int joint,
+            const unsigned int a,
+            const unsigned int b)
+    {
+      return {{joint, std::min(a, b), std::max(a, b)}};
+    }
   } // namespace
 
 
 
   template <int dim>
+  ContactAreas<dim>::ContactAreas(const PairTopology<dim> &topology,
+                                  const ContactStrength<dim> &strength,
+                                  const SurfaceNodes<dim> &nodes,
+                                  const Fields<dim> &fields,
+                                  ContactMemory<dim> &memory)
+    : topology(topology)
+    , interface(topology.interface)
+    , search(topology.search)
+    , strength(strength)
+    , nodes(nodes)
+    , fields(fields)
+    , memory(memory)
+  {}
+
+
+
+  template <int dim>
   void
-  Contact<dim>::note_openings()
+  ContactAreas<dim>::find_overlaps(const bool is_moved)
   {
-    for (unsigned int p = 0; p < state.size(); ++p)
+    const std::vector<bool> &joints = strength.needs_areas;
+    if (is_moved &&
+        std::find(joints.begin(), joints.end(), true) != joints.end())
+      overlaps = search.list_overlaps(memory.searched_position, joints);
+    shared_among = {};
+    covered_area.clear();
+  }
+
+
+
+  template <int dim>
+  double
+  ContactAreas<dim>::of(const SurfaceContact<dim> &contact) const
+  {
+    const auto area =
+      covered_area.find({{contact.slave, contact.joint, contact.master_block}});
+    return area == covered_area.end() ? std::numeric_limits<double>::quiet_NaN()
+                                      : area->second;
+  }
+
+
+  template <int dim>
+  void
+  ContactAreas<dim>::note_openings()
+  {
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
       {
         const Pair<dim> &pair = interface.pairs[p];
-        if (!needs_areas[pair.joint] || state[p].has_opened ||
-            state[p].is_removed || state[p].status == ContactStatus::sticking)
+        if (!strength.needs_areas[pair.joint] || memory.state[p].has_opened ||
+            memory.state[p].is_removed ||
+            memory.state[p].status == ContactStatus::sticking)
           continue;
-        const unsigned int minus = numbering.local_node(pair.minus);
-        const unsigned int plus  = numbering.local_node(pair.plus);
+        const unsigned int minus = topology.numbering.local_node(pair.minus);
+        const unsigned int plus  = topology.numbering.local_node(pair.plus);
         // mobile nodes are known on all ranks
-        const bool is_mobile = is_mobile_group[group_of_pair[p]];
+        const bool is_mobile =
+          memory.is_mobile_group[topology.group_of_pair[p]];
         if (!is_mobile && (minus == none || plus == none))
           continue;
         const double *at_minus =
           is_mobile
-            ? &slot_displacement[dim * search.slot_of_vertex[pair.minus]]
+            ? &nodes.displacement[dim * search.slot_of_vertex[pair.minus]]
             : &fields.displacement[dim * minus];
         const double *at_plus =
-          is_mobile ? &slot_displacement[dim * search.slot_of_vertex[pair.plus]]
-                    : &fields.displacement[dim * plus];
+          is_mobile
+            ? &nodes.displacement[dim * search.slot_of_vertex[pair.plus]]
+            : &fields.displacement[dim * plus];
         double gap = 0.;
         for (int d = 0; d < dim; ++d)
-          gap += normal[p][d] * (at_plus[d] - at_minus[d]);
+          gap += memory.normal[p][d] * (at_plus[d] - at_minus[d]);
         if (gap > least_opening * pair.face_size)
           {
-            state[p].has_opened = true;
-            shared_among        = {};
+            memory.state[p].has_opened = true;
+            shared_among               = {};
           }
       }
   }
@@ -57,17 +110,17 @@ namespace Keyblock
 
   template <int dim>
   bool
-  Contact<dim>::has_opened(const unsigned int slot,
-                           const unsigned int joint) const
+  ContactAreas<dim>::has_opened(const unsigned int slot,
+                                const unsigned int joint) const
   {
-    const unsigned int g = group_of_slot[slot];
+    const unsigned int g = topology.group_of_node[slot];
     if (g == none)
       return false;
     const unsigned int v = search.vertex_of_slot[slot];
     for (unsigned int p = interface.group_pairs_begin[g];
          p < interface.group_pairs_begin[g + 1];
          ++p)
-      if (state[p].has_opened && interface.pairs[p].joint == joint &&
+      if (memory.state[p].has_opened && interface.pairs[p].joint == joint &&
           (interface.pairs[p].minus == v || interface.pairs[p].plus == v))
         return true;
     return false;
@@ -77,11 +130,11 @@ namespace Keyblock
 
   template <int dim>
   bool
-  Contact<dim>::has_pair(const unsigned int slot,
-                         const unsigned int joint,
-                         const unsigned int block) const
+  ContactAreas<dim>::has_pair(const unsigned int slot,
+                              const unsigned int joint,
+                              const unsigned int block) const
   {
-    const unsigned int g = group_of_slot[slot];
+    const unsigned int g = topology.group_of_node[slot];
     if (g == none)
       return false;
     const unsigned int v = search.vertex_of_slot[slot];
@@ -90,8 +143,9 @@ namespace Keyblock
          ++p)
       {
         const Pair<dim> &pair = interface.pairs[p];
-        if (pair.joint != joint || state[p].is_converted ||
-            state[p].is_removed || state[p].status == ContactStatus::open ||
+        if (pair.joint != joint || memory.state[p].is_converted ||
+            memory.state[p].is_removed ||
+            memory.state[p].status == ContactStatus::open ||
             (pair.minus != v && pair.plus != v))
           continue;
         const unsigned int partner = pair.minus == v ? pair.plus : pair.minus;
@@ -104,19 +158,15 @@ namespace Keyblock
 
 
   template <int dim>
-  void
-  Contact<dim>::share_areas()
+  auto
+  ContactAreas<dim>::list_footings() const
+    -> std::array<std::vector<Footing>, 2>
   {
-    // areas and impulses between two blocks on a joint
-    const auto between =
-      [](const unsigned int joint, const unsigned int a, const unsigned int b) {
-        return Footing{{joint, std::min(a, b), std::max(a, b)}};
-      };
     std::vector<Footing> near, pressed;
     std::map<Footing, std::array<double, 2>> impulses; // number and sum
     std::vector<std::pair<Footing, double>> impulse_at;
-    for (const SurfaceContact<dim> &contact : contacts)
-      if (contact.joint != none && needs_areas[contact.joint] &&
+    for (const SurfaceContact<dim> &contact : memory.contacts)
+      if (contact.joint != none && strength.needs_areas[contact.joint] &&
           !contact.is_ridge)
         {
           near.push_back(
@@ -139,33 +189,57 @@ namespace Keyblock
       }
     std::sort(near.begin(), near.end());
     std::sort(pressed.begin(), pressed.end());
-    if (near == shared_among[0] && pressed == shared_among[1])
+    return {{near, pressed}};
+  }
+
+
+
+  template <int dim>
+  auto
+  ContactAreas<dim>::key_of(const FaceOverlap<dim> &overlap) const -> Footing
+  {
+    const SurfaceFace<dim> &slave  = interface.surface[overlap.slave_face];
+    const SurfaceFace<dim> &master = interface.surface[overlap.master_face];
+    return between(slave.joint, slave.block, master.block);
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactAreas<dim>::share_between(const FaceOverlap<dim> &overlap,
+                                   const double area,
+                                   const std::vector<Footing> &bearing,
+                                   std::vector<AreaShare> &shares) const
+  {
+    return share_overlap(area,
+                         overlap.slave_face,
+                         interface.surface[overlap.master_face].block,
+                         overlap.slave_weight,
+                         bearing,
+                         shares) ||
+           share_overlap(area,
+                         overlap.master_face,
+                         interface.surface[overlap.slave_face].block,
+                         overlap.master_weight,
+                         bearing,
+                         shares);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactAreas<dim>::share()
+  {
+    const auto footings = list_footings();
+    if (footings == shared_among)
       return;
-    shared_among = {{near, pressed}};
+    const auto &[near, pressed] = footings;
+    shared_among                = footings;
     covered_area.clear();
     std::vector<AreaShare> shares;
     std::map<Footing, std::array<double, 2>> areas; // with points, and without
-    const auto key_of = [&](const FaceOverlap<dim> &overlap) {
-      const SurfaceFace<dim> &slave  = interface.surface[overlap.slave_face];
-      const SurfaceFace<dim> &master = interface.surface[overlap.master_face];
-      return between(slave.joint, slave.block, master.block);
-    };
-    const auto share = [&](const FaceOverlap<dim> &overlap,
-                           const double area,
-                           const std::vector<Footing> &bearing) {
-      return share_overlap(area,
-                           overlap.slave_face,
-                           interface.surface[overlap.master_face].block,
-                           overlap.slave_weight,
-                           bearing,
-                           shares) ||
-             share_overlap(area,
-                           overlap.master_face,
-                           interface.surface[overlap.slave_face].block,
-                           overlap.master_weight,
-                           bearing,
-                           shares);
-    };
     // to nodes that press
     std::vector<std::pair<unsigned int, double>> lone;
     for (unsigned int i = 0; i < overlaps.size(); ++i)
@@ -173,7 +247,7 @@ namespace Keyblock
         const FaceOverlap<dim> &overlap = overlaps[i];
         const double area = overlap.area * (1. - share_of_pairs(overlap));
         const std::size_t n_before = shares.size();
-        const bool is_shared       = share(overlap, area, pressed);
+        const bool is_shared = share_between(overlap, area, pressed, shares);
         areas[key_of(overlap)][is_shared ? 0 : 1] += area;
         if (!is_shared)
           lone.emplace_back(i, area);
@@ -191,7 +265,7 @@ namespace Keyblock
     shares.clear();
     for (const auto &[i, area] : lone)
       if (areas[key_of(overlaps[i])][0] <= 0.)
-        share(overlaps[i], area, near);
+        share_between(overlaps[i], area, near, shares);
     for (const AreaShare &part : shares)
       covered_area[part.footing] += part.area;
   }
@@ -200,7 +274,7 @@ namespace Keyblock
 
   template <int dim>
   double
-  Contact<dim>::share_of_pairs(const FaceOverlap<dim> &overlap) const
+  ContactAreas<dim>::share_of_pairs(const FaceOverlap<dim> &overlap) const
   {
     // what pairs stand for is theirs, and what has opened is nobody's
     const auto &slots        = search.face_slots[overlap.slave_face];
@@ -217,7 +291,7 @@ namespace Keyblock
 
   template <int dim>
   bool
-  Contact<dim>::share_overlap(
+  ContactAreas<dim>::share_overlap(
     const double area,
     const unsigned int face,
     const unsigned int block,
@@ -247,14 +321,6 @@ namespace Keyblock
     return true;
   }
 
-  template void Contact<2>::note_openings();
-  template void Contact<3>::note_openings();
-  template bool Contact<2>::has_pair(const unsigned int,
-                                     const unsigned int,
-                                     const unsigned int) const;
-  template bool Contact<3>::has_pair(const unsigned int,
-                                     const unsigned int,
-                                     const unsigned int) const;
-  template void Contact<2>::share_areas();
-  template void Contact<3>::share_areas();
+  template class ContactAreas<2>;
+  template class ContactAreas<3>;
 } // namespace Keyblock

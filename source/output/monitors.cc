@@ -364,7 +364,7 @@ namespace Keyblock
       is_all ? std::vector<unsigned int>() : scene.joints_called(monitor.joint);
     JointSums<dim> sums;
     if (contact && (is_all || !joints.empty()))
-      sums = contact->sum_over_joints(joints);
+      sums = contact->report().sum_over_joints(joints);
     row.push_back(sums.normal);
     row.push_back(sums.shear);
     row.insert(row.end(), sums.force.begin(), sums.force.end());

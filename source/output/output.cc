@@ -230,7 +230,7 @@ namespace Keyblock
       "status", "is_intact", "gap", "slip", "pressure", "shear", "joint"};
     if (contact)
       {
-        const auto states = contact->gather_pair_states();
+        const auto states = contact->gather_pairs();
         const double kick = contact->present_kick();
         std::map<std::array<unsigned int, 3>, unsigned int> pair_at;
         for (unsigned int p = 0; p < states.size(); ++p)

@@ -216,13 +216,13 @@ namespace Keyblock
     file.exchange_shares("run/skipped_steps", {&step->n_skipped});
     if (!contact)
       return;
-    double n_capped = contact->n_capped;
+    double n_capped = contact->tally.n_capped;
     file.exchange_shares("run/contact_work",
-                         {&contact->work.friction,
-                          &contact->work.closure,
-                          &contact->work.penetration,
+                         {&contact->tally.work.friction,
+                          &contact->tally.work.closure,
+                          &contact->tally.work.penetration,
                           &n_capped});
-    contact->n_capped = n_capped;
+    contact->tally.n_capped = n_capped;
   }
 
 

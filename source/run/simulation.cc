@@ -398,7 +398,7 @@ namespace Keyblock
     last_progress = time;
     JointSums<dim> points;
     if (contact)
-      points = contact->count_points();
+      points = contact->report().count_points();
     if (!is_root())
       return;
     const double elapsed = time - wall_start;
@@ -439,8 +439,10 @@ namespace Keyblock
     report.force_time     = step->force_seconds;
     report.mass_scaling   = conditions->mass_scaling;
     report.skipped_steps  = sum_over_ranks(step->n_skipped);
-    report.capped_groups  = sum_over_ranks(contact ? contact->n_capped : 0);
-    report.solved_groups  = sum_over_ranks(contact ? contact->n_solved : 0.);
+    report.capped_groups =
+      sum_over_ranks(contact ? contact->tally.n_capped : 0);
+    report.solved_groups =
+      sum_over_ranks(contact ? contact->tally.n_solved : 0.);
     monitors->write_csv(folder + "history.csv");
     output->write_summary(quality,
                           mesh_report,

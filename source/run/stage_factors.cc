@@ -38,7 +38,7 @@ namespace Keyblock
     };
     for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
       if (can_fail(b))
-        slip[b] = norm<dim>(contact->mean_slip(b));
+        slip[b] = norm<dim>(contact->report().mean_slip(b));
     if (conditions->is_ramping())
       progress.slips.restart(progress.n_done);
     const bool is_recorded = progress.slips.offer(progress.n_done, slip);

@@ -100,7 +100,7 @@ namespace Keyblock
                    "is excavated or shaken"
                 << std::endl;
     step->settle_contact();
-    const JointSums<dim> points = contact->count_pairs();
+    const JointSums<dim> points = contact->report().count_pairs();
     if (is_root() && points.n_open + points.n_sliding > 0)
       std::cout << "Joints  " << points.n_open + points.n_sliding
                 << " points cannot bear the initial stress: " << points.n_open
@@ -378,9 +378,8 @@ namespace Keyblock
         const auto motion =
           contact == nullptr
             ? SlipRecord::Motion{0., 0}
-            : progress.slips.motion_since(b,
-                                          progress.n_done,
-                                          norm<dim>(contact->mean_slip(b)));
+            : progress.slips.motion_since(
+                b, progress.n_done, norm<dim>(contact->report().mean_slip(b)));
         const bool creeps = !is_converged && motion.way > least_creep * size;
         const double speed =
           creeps ? motion.way / (motion.n_steps * step->dt) : 0.;
@@ -416,7 +415,7 @@ namespace Keyblock
   {
     if (!contact)
       return;
-    const Overlap<dim> overlap = contact->largest_overlap();
+    const Overlap<dim> overlap = contact->report().largest_overlap();
     if (overlap.depth > progress.overlap.depth)
       progress.overlap = overlap;
   }
@@ -440,12 +439,12 @@ namespace Keyblock
     result.yielding_points = sum_over_ranks(cells.n_yielding);
     if (contact)
       {
-        const JointSums<dim> points = contact->count_points();
+        const JointSums<dim> points = contact->report().count_points();
         result.points               = {points.n_open,
                                        points.n_sliding,
                                        points.n_sticking,
                                        points.n_intact};
-        result.through_rock         = contact->count_through_rock();
+        result.through_rock         = contact->report().count_through_rock();
         look_for_overlap(present);
         result.largest_overlap = present.overlap.depth;
         std::copy_n(present.overlap.place.begin(),

@@ -72,7 +72,7 @@ namespace Keyblock
           StateFile state(image);
           team_copy->restore(state);
         }
-        result.n_capped = team_copy->contact->n_capped;
+        result.n_capped = team_copy->contact->tally.n_capped;
         team_copy->find_remaining_factors();
       }
     catch (const StopRequest &request)
@@ -85,7 +85,7 @@ namespace Keyblock
       }
     if (team_copy == nullptr)
       return result;
-    result.n_capped = team_copy->contact->n_capped - result.n_capped;
+    result.n_capped = team_copy->contact->tally.n_capped - result.n_capped;
     if (team_copy->safety_factors.size() > n_known)
       result.factors.assign(team_copy->safety_factors.begin() + n_known,
                             team_copy->safety_factors.end());
@@ -102,7 +102,7 @@ namespace Keyblock
       return;
     std::vector<char> image = state_image();
     const TeamResult mine   = find_factors_of_team(image);
-    contact->n_capped += mine.n_capped;
+    contact->tally.n_capped += mine.n_capped;
 
     // what one team found is not lost where another was stopped
     wait_for_all_teams();

@@ -50,7 +50,7 @@ namespace Keyblock
       , block(block)
       , number(number)
       , start(known.start)
-      , first_slip(owner.run.contact->mean_slip(block))
+      , first_slip(owner.run.contact->report().mean_slip(block))
       , before(take_snapshot(owner.run))
       , state(owner.freeze_beyond_reach(block) ? take_snapshot(owner.run)
                                                : before)
@@ -448,10 +448,11 @@ namespace Keyblock
     result.limit_mode   = statics.mode();
     result.limit_remark = statics.remark();
     result.limit_factor = statics.limit.factor;
-    result.stress_ratio = stress_ratio<dim>(scene,
-                                            statics.around.faces,
-                                            statics.limit.faces,
-                                            run.contact->sum_over_block(block));
+    result.stress_ratio =
+      stress_ratio<dim>(scene,
+                        statics.around.faces,
+                        statics.limit.faces,
+                        run.contact->report().sum_over_block(block));
   }
 
   template class StrengthReductionSearch<2>;

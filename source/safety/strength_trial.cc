@@ -146,7 +146,7 @@ namespace Keyblock
         weight += sums[dim + d] * sums[dim + d];
       }
     Motion motion;
-    motion.slip = run.contact->mean_slip(block);
+    motion.slip = run.contact->report().mean_slip(block);
     motion.load = std::max(std::sqrt(weight), 1e-3 * sums[2 * dim]);
     motion.unbalanced =
       motion.load > 0. ? std::sqrt(resultant) / motion.load : 0.;
@@ -244,7 +244,8 @@ namespace Keyblock
   StrengthTrials<dim>::n_intact(const unsigned int block) const
   {
     unsigned int n = 0;
-    for (const JointSums<dim> &sums : run.contact->sum_over_block(block))
+    for (const JointSums<dim> &sums :
+         run.contact->report().sum_over_block(block))
       n += sums.n_intact;
     return n;
   }
@@ -305,7 +306,7 @@ namespace Keyblock
     const unsigned int period = period_of(block);
     const unsigned int window =
       std::max(1., std::round(scene.safety.window * period));
-    Vector<dim> before   = run.contact->mean_slip(block);
+    Vector<dim> before   = run.contact->report().mean_slip(block);
     double least         = std::numeric_limits<double>::max();
     unsigned int n_stuck = 0;
     SlowMode<dim> creep(run.fields, nodes_of_block[block]);
@@ -374,7 +375,7 @@ namespace Keyblock
       std::max(n_steady + 1.,
                std::min(periods, scene.safety.maximum_periods) /
                  scene.safety.window);
-    const Vector<dim> at_rest = run.contact->mean_slip(block);
+    const Vector<dim> at_rest = run.contact->report().mean_slip(block);
     const double mass         = mass_in_use(block);
     displacement_before       = run.fields.displacement;
     joint_force.assign(scene.joints.size() + 1, 0.);
@@ -388,7 +389,7 @@ namespace Keyblock
           run.step.advance(false);
         trial.n_steps += window;
         const Motion now = measure(block);
-        const auto sums  = run.contact->sum_over_block(block);
+        const auto sums  = run.contact->report().sum_over_block(block);
         for (unsigned int j = 0; j < sums.size(); ++j)
           joint_force[j] += sums[j].normal;
         const Vector<dim> way   = add<dim>(now.slip, -1., at_rest);

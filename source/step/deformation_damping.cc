@@ -229,7 +229,7 @@ namespace Keyblock
                                      const double *position)
   {
     std::vector<unsigned int> sliding;
-    std::vector<double> is_sliding = contact.list_sliding_blocks();
+    std::vector<double> is_sliding = contact.report().list_sliding_blocks();
     for (unsigned int b = 0; b < members.size(); ++b)
       if (is_sliding[b] > 0.)
         sliding.push_back(b);

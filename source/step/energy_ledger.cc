@@ -169,11 +169,12 @@ namespace Keyblock
     mine.start = sums.start;
     if (contact)
       {
-        mine.friction = contact->work.friction - contact_work_at_start.friction;
+        mine.friction =
+          contact->tally.work.friction - contact_work_at_start.friction;
         mine.contact_closure =
-          contact->work.closure - contact_work_at_start.closure;
+          contact->tally.work.closure - contact_work_at_start.closure;
         mine.penetration =
-          contact->work.penetration - contact_work_at_start.penetration;
+          contact->tally.work.penetration - contact_work_at_start.penetration;
       }
     std::array<double, n_energy_terms> values = mine.as_array();
     sum_lists(values);

@@ -56,7 +56,7 @@ namespace Keyblock
     is_first = true;
     sums     = Energies();
     if (contact)
-      contact_work_at_start = contact->work;
+      contact_work_at_start = contact->tally.work;
     apply_settings(new_stage);
     if (stage.reset_motion || stage.is_quasi_static())
       stop_motion();
@@ -90,7 +90,7 @@ namespace Keyblock
       contact->begin_stage(number);
     resting.forget();
     deformation_damping.begin_stage();
-    n_searches_seen = contact ? contact->n_searches : 0;
+    n_searches_seen = contact ? contact->tally.n_searches : 0;
   }
 
 
@@ -265,7 +265,7 @@ namespace Keyblock
         sample_unbalanced_force();
       }
     move_nodes(sample);
-    n_searches_seen   = contact ? contact->n_searches : 0;
+    n_searches_seen   = contact ? contact->tally.n_searches : 0;
     starts_at_rest    = false;
     is_first          = false;
     is_stress_current = false;
@@ -300,7 +300,7 @@ namespace Keyblock
   ExplicitStep<dim>::may_rest() const
   {
     return skips_resting && !conditions.is_load_changing() &&
-           (contact == nullptr || contact->n_searches == n_searches_seen);
+           (contact == nullptr || contact->tally.n_searches == n_searches_seen);
   }
 
 

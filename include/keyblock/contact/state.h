@@ -79,6 +79,13 @@ namespace Keyblock
     std::vector<double> searched_position;
     bool is_search_due     = true;
     unsigned int next_look = 0; ///< step at which motion is measured
+
+    /** Kick interval of the last step [s]. */
+    double
+    present_kick() const
+    {
+      return last_kick > 0. ? last_kick : 1.;
+    }
   };
 
   /** Sums over the contact points of one joint. */
@@ -98,6 +105,16 @@ namespace Keyblock
     double friction    = 0.;
     double closure     = 0.;
     double penetration = 0.;
+  };
+
+  /** What contact has done since the start, on this rank. */
+  struct ContactTally
+  {
+    ContactWork work;
+    unsigned int n_capped     = 0; ///< groups that reached the cap
+    double n_solved           = 0; ///< groups solved by iteration
+    unsigned int n_iterations = 0; ///< largest of the last step
+    unsigned int n_searches   = 0;
   };
 
   /** What the contact solver needs to know of the present step. */

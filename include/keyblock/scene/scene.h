@@ -312,6 +312,12 @@ namespace Keyblock
     bool weld_infinite_blocks       = true;
     bool tie_all                    = false;
 
+    bool
+    is_published_variant() const
+    {
+      return method == "paper";
+    }
+
     void declare(ParameterHandler &prm);
   };
 

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_contact_area_h
+#define keyblock_contact_area_h
+
+#include <keyblock/contact/strength.h>
+#include <keyblock/contact/surface_nodes.h>
+
+#include <map>
+
+namespace Keyblock
+{
+
+  /**
+   * Which part of a joint each surface contact stands for, and where pairs have
+   * opened. Areas where joints' faces lie on each other are given to the points
+   * that touch there: the sum over a joint is the area of contact, whatever
+   * touches what. Only for joints whose strength needs it.
+   */
+  template <int dim>
+  class ContactAreas
+  {
+  public:
+    ContactAreas(const PairTopology<dim> &topology,
+                 const ContactStrength<dim> &strength,
+                 const SurfaceNodes<dim> &nodes,
+                 const Fields<dim> &fields,
+                 ContactMemory<dim> &memory);
+
+    /** Where faces lie on each other, after a search.
+     * @param is_moved whether nodes have, since the one before */
+    void find_overlaps(const bool is_moved);
+
+    /** Share them out among the present surface contacts. */
+    void share();
+
+    /** Area that a surface contact stands for [m^(dim-1)]; NaN: unknown. */
+    double of(const SurfaceContact<dim> &contact) const;
+
+    /** Mark the pairs of such joints whose sides have come apart. */
+    void note_openings();
+
+  private:
+    /** Node, joint and the other side's block of a surface contact. */
+    using Footing = std::array<unsigned int, 3>;
+
+    /** A part of where two blocks' faces lie on each other. */
+    struct AreaShare
+    {
+      Footing footing; ///< of the point that stands for it
+      Footing between; ///< joint and blocks
+      double area;     ///< [m^(dim-1)]
+    };
+
+    /** List the contacts that are near and those that press, sorted. */
+    std::array<std::vector<Footing>, 2> list_footings() const;
+
+    /** Joint and blocks of an overlap. */
+    Footing key_of(const FaceOverlap<dim> &overlap) const;
+
+    /** Give an area to the nodes of the slave face, else of the master face. */
+    bool share_between(const FaceOverlap<dim> &overlap,
+                       const double area,
+                       const std::vector<Footing> &bearing,
+                       std::vector<AreaShare> &shares) const;
+
+    /** Give the nodes of a face that are in @p bearing their parts of an area
+     * that it shares with @p block; false if there is none of them. */
+    bool
+    share_overlap(const double area,
+                  const unsigned int face,
+                  const unsigned int block,
+                  const std::array<double, Mesh<dim>::n_face_vertices> &weight,
+                  const std::vector<Footing> &bearing,
+                  std::vector<AreaShare> &shares) const;
+
+    /** Share of an overlap for which no surface point can stand: that of nodes
+     * with a pair, or whose pair has opened. */
+    double share_of_pairs(const FaceOverlap<dim> &overlap) const;
+
+    /** Whether the pair of a surface node on @p joint has opened. */
+    bool has_opened(const unsigned int slot, const unsigned int joint) const;
+
+    /** Whether a closed unconverted pair of a surface node on @p joint joins it
+     * to a block. */
+    bool has_pair(const unsigned int slot,
+                  const unsigned int joint,
+                  const unsigned int block) const;
+
+    const PairTopology<dim> &topology;
+    const Interface<dim> &interface;
+    const ContactSearch<dim> &search;
+    const ContactStrength<dim> &strength;
+    const SurfaceNodes<dim> &nodes;
+    const Fields<dim> &fields;
+    ContactMemory<dim> &memory;
+    std::vector<FaceOverlap<dim>> overlaps; ///< of the last search
+
+    /** As list_footings() was when areas were shared. */
+    std::array<std::vector<Footing>, 2> shared_among;
+    std::map<Footing, double> covered_area; ///< [m^(dim-1)]
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_contact_pair_cluster_h
+#define keyblock_contact_pair_cluster_h
+
+#include <keyblock/contact/state.h>
+#include <keyblock/contact/surface_nodes.h>
+
+namespace Keyblock
+{
+  /** A group of pairs that share nodes, moving as one body: its velocity, and
+   * the forces between its nodes that this takes. */
+  template <int dim>
+  class PairCluster
+  {
+  public:
+    /** Which nodes are free, with present masses, supports and pairs. */
+    void set_up(const PairTopology<dim> &topology,
+                const SurfaceNodes<dim> &nodes,
+                const std::vector<PairState<dim>> &state);
+
+    /** The one velocity of all nodes [m/s].
+     * @return whether nothing holds it */
+    bool find_common_velocity(const SurfaceNodes<dim> &nodes,
+                              Vector<dim> &common) const;
+
+    /**
+     * Of the impulses that add up to @p needed at the nodes, those nearest to
+     * what the pairs have, by area; where nodes are held, the support takes its
+     * share.
+     * @param needed dim values for each of slots [N s] */
+    void recover_impulses(const PairTopology<dim> &topology,
+                          const double *needed,
+                          std::vector<PairState<dim>> &state) const;
+
+    /** Whether node @p i of slots moves along an axis. */
+    bool
+    is_free(const unsigned int i, const unsigned int axis) const
+    {
+      return free_index[axis][i] >= 0;
+    }
+
+    unsigned int group;
+    std::vector<unsigned int> slots; ///< its surface nodes
+
+    /** Held in directions that are no axes: it is no cluster then. */
+    bool is_oblique = false;
+
+  private:
+    /** Inverse of the area-weighted Laplacian of the free nodes, one per axis
+     * (they differ where nodes are held along an axis). */
+    std::array<std::vector<double>, dim> inverse;
+    std::array<std::vector<int>, dim> free_index;
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_contact_pair_exchange_h
+#define keyblock_contact_pair_exchange_h
+
+#include <keyblock/contact/state.h>
+#include <keyblock/contact/topology.h>
+
+namespace Keyblock
+{
+
+  /** Pair states of all ranks, by index of the pair (collective).
+   * @param has_history whether laws remember what has happened to pairs */
+  template <int dim>
+  std::vector<PairState<dim>>
+  gather_pair_states(const PairTopology<dim> &topology,
+                     const ContactMemory<dim> &memory,
+                     const bool has_history);
+} // namespace Keyblock
+
+#endif

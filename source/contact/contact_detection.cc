@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/mpi.h>
+#include <keyblock/contact/contact_detection.h>
+#include <keyblock/contact/pair_exchange.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace Keyblock
+{
+  template <int dim>
+  ContactDetection<dim>::ContactDetection(ContactSearch<dim> &search,
+                                          const PairTopology<dim> &topology,
+                                          const ContactStrength<dim> &strength,
+                                          const SurfaceNodes<dim> &nodes,
+                                          ContactAreas<dim> &areas,
+                                          ContactHistory<dim> &history,
+                                          MultiPairContact<dim> &multi_pairs,
+                                          Fields<dim> &fields,
+                                          ContactMemory<dim> &memory)
+    : search(search)
+    , topology(topology)
+    , scene(topology.scene)
+    , split(topology.split)
+    , interface(topology.interface)
+    , numbering(topology.numbering)
+    , strength(strength)
+    , nodes(nodes)
+    , areas(areas)
+    , history(history)
+    , multi_pairs(multi_pairs)
+    , fields(fields)
+    , memory(memory)
+  {}
+
+
+  template <int dim>
+  void
+  ContactDetection<dim>::refresh_normals()
+  {
+    const std::vector<double> position = nodes.gather_positions();
+    for (Vector<dim> &n : memory.normal)
+      n.fill(0.);
+    std::map<std::array<unsigned int, 2>, unsigned int> face_at;
+    for (unsigned int f = 0; f < interface.surface.size(); ++f)
+      face_at[{{interface.surface[f].cell, interface.surface[f].face}}] = f;
+    std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> faces_of;
+    for (const JointFace &face : interface.joint_faces)
+      for (const unsigned int v :
+           split.mesh.face_vertices(face.minus_cell, face.minus_face))
+        faces_of[{{v, face.joint}}].push_back(
+          face_at[{{face.minus_cell, face.minus_face}}]);
+    for (unsigned int p = 0; p < memory.normal.size(); ++p)
+      {
+        Vector<dim> sum{};
+        for (const unsigned int f :
+             faces_of[{{interface.pairs[p].minus, interface.pairs[p].joint}}])
+          sum = add<dim>(sum, 1., search.face_normal(position, f));
+        memory.normal[p] = add<dim>(Vector<dim>{}, 1. / norm<dim>(sum), sum);
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactDetection<dim>::convert_slid_pairs()
+  {
+    bool has_slid = false;
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      {
+        if (memory.state[p].is_removed || memory.state[p].is_converted ||
+            memory.state[p].status == ContactStatus::sticking)
+          continue;
+        const unsigned int minus =
+          numbering.local_node(interface.pairs[p].minus);
+        const unsigned int plus = numbering.local_node(interface.pairs[p].plus);
+        if (minus == none || plus == none)
+          continue;
+        Vector<dim> slip;
+        for (int d = 0; d < dim; ++d)
+          slip[d] = fields.displacement[dim * plus + d] -
+                    fields.displacement[dim * minus + d];
+        slip =
+          add<dim>(slip, -dot<dim>(slip, memory.normal[p]), memory.normal[p]);
+        if (norm<dim>(slip) >
+            scene.contact.slip_tolerance * interface.pairs[p].face_size)
+          {
+            memory.state[p].is_converted = true;
+            has_slid                     = true;
+          }
+      }
+    return has_slid;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactDetection<dim>::measure_motion(const double step)
+  {
+    if (!memory.searched_position.empty() && memory.n_steps >= memory.next_look)
+      {
+        double square = 0., speed = 0.;
+        for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+          if (nodes.local_node[slot] < numbering.n_owned())
+            {
+              double moved = 0., fast = 0.;
+              for (int d = 0; d < dim; ++d)
+                {
+                  const unsigned int dof = dim * nodes.local_node[slot] + d;
+                  const double way       = fields.reference[dof] +
+                                     fields.displacement[dof] -
+                                     memory.searched_position[dim * slot + d];
+                  moved += way * way;
+                  fast += fields.velocity[dof] * fields.velocity[dof];
+                }
+              square = std::max(square, moved);
+              speed  = std::max(speed, fast);
+            }
+        square = max_over_ranks(square);
+        speed  = std::sqrt(max_over_ranks(speed));
+        memory.is_search_due =
+          memory.is_search_due || square > 0.25 * search.skin() * search.skin();
+        const double eighth = 0.125 * search.skin();
+        memory.next_look    = memory.n_steps + 1;
+        if (speed * step * 20. < eighth)
+          memory.next_look += 19;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ContactDetection<dim>::share_pair_states()
+  {
+    std::vector<int> converted(memory.state.size(), 0);
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      converted[p] = memory.state[p].is_converted;
+    std::vector<PairState<dim>> all =
+      gather_pair_states<dim>(topology, memory, strength.has_memory);
+    max_lists(converted);
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      {
+        if (!memory.is_mobile_group[topology.group_of_pair[p]])
+          memory.state[p] = all[p];
+        if (strength.has_memory && converted[p] && !all[p].is_converted)
+          history.pass_on(p);
+        memory.state[p].is_converted = converted[p];
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactDetection<dim>::update(const double step)
+  {
+    const bool has_slid = convert_slid_pairs();
+    measure_motion(step);
+    int due = memory.is_search_due ? 2 : has_slid ? 1 : 0;
+    if (n_ranks() > 1) // every step: alone, nobody needs to be asked
+      due = max_over_ranks(due);
+    if (due == 0)
+      return false;
+
+    const bool is_moved  = due == 2;
+    memory.is_search_due = false;
+    if (is_moved)
+      memory.searched_position = nodes.gather_positions();
+    share_pair_states();
+    list_candidates(is_moved);
+    mark_mobile();
+    return true;
+  }
+
+
+
+  template <int dim>
+  void
+  ContactDetection<dim>::search_again()
+  {
+    if (!memory.searched_position.empty())
+      list_candidates(true);
+  }
+
+
+  template <int dim>
+  std::vector<bool>
+  ContactDetection<dim>::list_converted_groups() const
+  {
+    std::vector<bool> has_converted(interface.n_groups(), false);
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      if (memory.state[p].is_converted)
+        has_converted[topology.group_of_pair[p]] = true;
+    return has_converted;
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactDetection<dim>::is_paired(const unsigned int slot,
+                                   const unsigned int face,
+                                   const std::vector<bool> &has_converted) const
+  {
+    const unsigned int g = topology.group_of_node[slot];
+    if (g == none)
+      return false;
+    if (!has_converted[g])
+      for (const unsigned int other : search.face_slots[face])
+        if (topology.group_of_node[other] == g)
+          return true;
+    for (unsigned int p = interface.group_pairs_begin[g];
+         p < interface.group_pairs_begin[g + 1];
+         ++p)
+      {
+        const Pair<dim> &pair = interface.pairs[p];
+        const unsigned int v  = search.vertex_of_slot[slot];
+        if (memory.state[p].is_converted || (pair.minus != v && pair.plus != v))
+          continue;
+        const unsigned int partner =
+          search.slot_of_vertex[pair.minus == v ? pair.plus : pair.minus];
+        const SurfaceFace<dim> &surface = interface.surface[face];
+        if (search.is_on_block(partner, surface.block) &&
+            (pair.joint == surface.joint ||
+             (surface.joint == none && !has_converted[g])))
+          return true;
+      }
+    return false;
+  }
+
+
+  template <int dim>
+  void
+  ContactDetection<dim>::list_candidates(const bool is_moved)
+  {
+    const std::vector<bool> has_converted = list_converted_groups();
+    std::vector<bool> converted(memory.state.size()), has_changed;
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      converted[p] = memory.state[p].is_converted;
+    if (!is_moved)
+      {
+        std::vector<bool> changes(interface.n_groups(), false);
+        for (unsigned int p = 0; p < memory.state.size(); ++p)
+          if (converted[p] != listed_converted[p])
+            changes[topology.group_of_pair[p]] = true;
+        for (const unsigned int g : topology.group_of_node)
+          has_changed.push_back(g != none && changes[g]);
+      }
+    listed_converted = converted;
+    search.search(
+      memory.searched_position,
+      [&](const unsigned int slot, const unsigned int face) {
+        return is_paired(slot, face, has_converted);
+      },
+      has_changed);
+    areas.find_overlaps(is_moved);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactDetection<dim>::mark_mobile()
+  {
+    std::fill(memory.is_mobile_slot.begin(),
+              memory.is_mobile_slot.end(),
+              false);
+    memory.is_mobile_group = list_converted_groups();
+    for (const unsigned int slot : search.candidate_slots())
+      {
+        memory.is_mobile_slot[slot] = true;
+        if (topology.group_of_node[slot] != none)
+          memory.is_mobile_group[topology.group_of_node[slot]] = true;
+      }
+    for (const HangingVertex &hanging : split.hanging)
+      if (search.slot_of_vertex[hanging.vertex] != none &&
+          memory.is_mobile_slot[search.slot_of_vertex[hanging.vertex]])
+        for (const auto &[master, weight] : hanging.masters)
+          {
+            const unsigned int slot     = search.slot_of_vertex[master];
+            memory.is_mobile_slot[slot] = true;
+            if (topology.group_of_node[slot] != none)
+              memory.is_mobile_group[topology.group_of_node[slot]] = true;
+          }
+    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+      if (topology.group_of_node[slot] != none &&
+          memory.is_mobile_group[topology.group_of_node[slot]])
+        memory.is_mobile_slot[slot] = true;
+    memory.mobile_slots.clear();
+    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+      if (memory.is_mobile_slot[slot])
+        {
+          memory.mobile_slots.push_back(slot);
+          if (nodes.local_node[slot] != none)
+            fields.is_in_cluster[nodes.local_node[slot]] = false;
+        }
+    multi_pairs.list_mobile_groups();
+    multi_pairs.activate_nodes();
+  }
+
+  template class ContactDetection<2>;
+  template class ContactDetection<3>;
+} // namespace Keyblock

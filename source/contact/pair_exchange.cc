@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/mpi.h>
+#include <keyblock/contact/pair_exchange.h>
+
+#include <cmath>
+
+namespace Keyblock
+{
+  template <int dim>
+  std::vector<PairState<dim>>
+  gather_pair_states(const PairTopology<dim> &topology,
+                     const ContactMemory<dim> &memory,
+                     const bool has_history)
+  {
+    const std::vector<PairState<dim>> &state = memory.state;
+    const unsigned int n                     = dim + 4 + (has_history ? 3 : 0);
+    std::vector<double> packed(n * state.size(), 0.);
+    for (unsigned int p = 0; p < state.size(); ++p)
+      if (topology.is_primary(topology.group_of_pair[p]))
+        {
+          for (int d = 0; d < dim; ++d)
+            packed[n * p + d] = state[p].impulse[d];
+          packed[n * p + dim]     = static_cast<int>(state[p].status);
+          packed[n * p + dim + 1] = state[p].is_intact;
+          packed[n * p + dim + 2] = state[p].is_converted;
+          packed[n * p + dim + 3] = state[p].has_opened;
+          if (has_history)
+            {
+              packed[n * p + dim + 4] = state[p].history.slip;
+              packed[n * p + dim + 5] = state[p].history.dilation;
+              packed[n * p + dim + 6] = state[p].history.damage;
+            }
+        }
+    sum_lists(packed);
+    std::vector<PairState<dim>> result(state.size());
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        for (int d = 0; d < dim; ++d)
+          result[p].impulse[d] = packed[n * p + d];
+        result[p].status =
+          static_cast<ContactStatus>(std::lround(packed[n * p + dim]));
+        result[p].is_intact    = packed[n * p + dim + 1] > 0.5;
+        result[p].is_converted = packed[n * p + dim + 2] > 0.5;
+        result[p].has_opened   = packed[n * p + dim + 3] > 0.5;
+        if (has_history)
+          result[p].history = {packed[n * p + dim + 4],
+                               packed[n * p + dim + 5],
+                               packed[n * p + dim + 6]};
+        result[p].is_welded    = state[p].is_welded;
+        result[p].is_removed   = state[p].is_removed;
+        result[p].bend_shear   = state[p].bend_shear;
+        result[p].bend_tension = state[p].bend_tension;
+        result[p].weld_shear   = state[p].weld_shear;
+        result[p].weld_tension = state[p].weld_tension;
+      }
+    return result;
+  }
+
+  template std::vector<PairState<2>>
+  gather_pair_states(const PairTopology<2> &,
+                     const ContactMemory<2> &,
+                     const bool);
+  template std::vector<PairState<3>>
+  gather_pair_states(const PairTopology<3> &,
+                     const ContactMemory<3> &,
+                     const bool);
+} // namespace Keyblock

@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/mpi.h>
+#include <keyblock/contact/report.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    template <int dim>
+    void
+    add_point(JointSums<dim> &sums,
+              Vector<dim> &moment,
+              const Vector<dim> &impulse,
+              const Vector<dim> &normal,
+              const ContactStatus status,
+              const Vector<dim> &place,
+              const double kick)
+    {
+      const double pressure = dot<dim>(impulse, normal) / kick;
+      sums.normal += pressure;
+      for (int d = 0; d < dim; ++d)
+        {
+          sums.force[d] += impulse[d] / kick;
+          moment[d] += pressure * place[d];
+        }
+      sums.n_open += status == ContactStatus::open;
+      sums.n_sliding += status == ContactStatus::sliding;
+      sums.n_sticking += status == ContactStatus::sticking;
+    }
+
+    template <int dim>
+    JointSums<dim>
+    finish_sums(const JointSums<dim> &sums, const Vector<dim> &moment)
+    {
+      std::vector<double> values = {sums.normal,
+                                    double(sums.n_open),
+                                    double(sums.n_sliding),
+                                    double(sums.n_sticking),
+                                    double(sums.n_intact)};
+      values.insert(values.end(), sums.force.begin(), sums.force.end());
+      values.insert(values.end(), moment.begin(), moment.end());
+      sum_lists(values);
+      JointSums<dim> total;
+      total.normal     = values[0];
+      total.n_open     = std::lround(values[1]);
+      total.n_sliding  = std::lround(values[2]);
+      total.n_sticking = std::lround(values[3]);
+      total.n_intact   = std::lround(values[4]);
+      for (int d = 0; d < dim; ++d)
+        {
+          total.force[d] = values[5 + d];
+          if (total.normal != 0.)
+            total.center[d] = values[5 + dim + d] / total.normal;
+        }
+      return total;
+    }
+
+    /** Size of the part of @p force across @p normal [N]. */
+    template <int dim>
+    double
+    shear_of(const Vector<dim> &force, const Tensor<1, dim> &normal)
+    {
+      Vector<dim> n;
+      for (int d = 0; d < dim; ++d)
+        n[d] = normal[d];
+      return norm<dim>(add<dim>(force, -dot<dim>(force, n), n));
+    }
+
+    /** Sums over several joints; the centre is weighted by pressure. */
+    template <int dim>
+    JointSums<dim>
+    add_up(const std::vector<JointSums<dim>> &sums)
+    {
+      JointSums<dim> total;
+      Vector<dim> moment{};
+      for (const JointSums<dim> &sum : sums)
+        {
+          total.normal += sum.normal;
+          total.shear += sum.shear;
+          total.force = add<dim>(total.force, 1., sum.force);
+          moment      = add<dim>(moment, sum.normal, sum.center);
+          total.n_open += sum.n_open;
+          total.n_sliding += sum.n_sliding;
+          total.n_sticking += sum.n_sticking;
+          total.n_intact += sum.n_intact;
+        }
+      if (total.normal != 0.)
+        for (int d = 0; d < dim; ++d)
+          total.center[d] = moment[d] / total.normal;
+      return total;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  ContactReport<dim>::ContactReport(const PairTopology<dim> &topology,
+                                    const SurfaceNodes<dim> &nodes,
+                                    const Fields<dim> &fields,
+                                    const ContactMemory<dim> &memory)
+    : topology(topology)
+    , scene(topology.scene)
+    , interface(topology.interface)
+    , search(topology.search)
+    , nodes(nodes)
+    , fields(fields)
+    , memory(memory)
+  {}
+
+
+
+  template <int dim>
+  void
+  ContactReport<dim>::add_pairs(const std::vector<unsigned int> &sum_of_joint,
+                                std::vector<JointSums<dim>> &sums,
+                                std::vector<Vector<dim>> &moment) const
+  {
+    const double kick = memory.present_kick();
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      {
+        const unsigned int i = sum_of_joint[interface.pairs[p].joint];
+        if (i == none || memory.state[p].is_converted ||
+            memory.state[p].is_removed ||
+            !topology.is_primary(topology.group_of_pair[p]))
+          continue;
+        const unsigned int node =
+          topology.numbering.local_node(interface.pairs[p].plus);
+        Vector<dim> place;
+        for (int d = 0; d < dim; ++d)
+          place[d] = fields.reference[dim * node + d] +
+                     fields.displacement[dim * node + d];
+        add_point<dim>(sums[i],
+                       moment[i],
+                       memory.state[p].impulse,
+                       memory.normal[p],
+                       memory.state[p].status,
+                       place,
+                       kick);
+        sums[i].n_intact += memory.state[p].is_intact;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ContactReport<dim>::add_surface_contacts(
+    const std::vector<unsigned int> &sum_of_joint,
+    std::vector<JointSums<dim>> &sums,
+    std::vector<Vector<dim>> &moment) const
+  {
+    if (!is_root())
+      return;
+    const double kick = memory.present_kick();
+    for (const SurfaceContact<dim> &contact : memory.contacts)
+      {
+        const unsigned int i = contact.joint == none
+                                 ? sum_of_joint.back()
+                                 : sum_of_joint[contact.joint];
+        if (i == none)
+          continue;
+        // the slave's side has the positive weights
+        const ContactPoint<dim> &point = contact.point;
+        // forces are those on the joint's plus side
+        double side = 1.;
+        if (contact.joint != none)
+          {
+            const Tensor<1, dim> n = scene.joints[contact.joint]->normal();
+            double cosine          = 0.;
+            for (int d = 0; d < dim; ++d)
+              cosine += n[d] * point.normal[d];
+            side = cosine < 0. ? -1. : 1.;
+          }
+        Vector<dim> place{};
+        for (int k = 0; k < point.n_nodes; ++k)
+          for (int d = 0; d < dim; ++d)
+            place[d] += std::max(0., point.weight[k]) *
+                        nodes.position[dim * point.node[k] + d];
+        add_point<dim>(sums[i],
+                       moment[i],
+                       add<dim>(Vector<dim>{}, side, point.impulse),
+                       add<dim>(Vector<dim>{}, side, point.normal),
+                       point.status,
+                       place,
+                       kick);
+      }
+  }
+
+
+  template <int dim>
+  JointSums<dim>
+  ContactReport<dim>::sum_over_joints(
+    const std::vector<unsigned int> &joints) const
+  {
+    // one sum for each joint, or one for all points
+    std::vector<JointSums<dim>> sums(std::max<std::size_t>(joints.size(), 1));
+    std::vector<Vector<dim>> moment(sums.size());
+    // the last is that of faces on no joint
+    std::vector<unsigned int> sum_of_joint(scene.joints.size() + 1,
+                                           joints.empty() ? 0 : none);
+    for (unsigned int i = 0; i < joints.size(); ++i)
+      sum_of_joint[joints[i]] = i;
+    add_pairs(sum_of_joint, sums, moment);
+    add_surface_contacts(sum_of_joint, sums, moment);
+    for (unsigned int i = 0; i < sums.size(); ++i)
+      {
+        sums[i] = finish_sums<dim>(sums[i], moment[i]);
+        if (!joints.empty())
+          sums[i].shear =
+            shear_of<dim>(sums[i].force, scene.joints[joints[i]]->normal());
+      }
+    return sums.size() == 1 ? sums[0] : add_up<dim>(sums);
+  }
+
+
+
+  template <int dim>
+  Overlap<dim>
+  ContactReport<dim>::largest_overlap() const
+  {
+    return search.find_largest_overlap(nodes.gather_positions(),
+                                       memory.is_removed_block);
+  }
+
+
+  template <int dim>
+  std::vector<JointSums<dim>>
+  ContactReport<dim>::sum_over_block(const unsigned int block) const
+  {
+    // pressure and force on the block, by joint; the last is for no joint
+    const double kick = memory.present_kick();
+    std::vector<JointSums<dim>> sums(scene.joints.size() + 1);
+    std::vector<Vector<dim>> moment(sums.size());
+    const auto add = [&](const unsigned int joint,
+                         const Vector<dim> &impulse,
+                         const Vector<dim> &outward,
+                         const ContactStatus status) {
+      const unsigned int j = joint == none ? scene.joints.size() : joint;
+      add_point<dim>(
+        sums[j], moment[j], impulse, outward, status, Vector<dim>{}, kick);
+    };
+    const auto reversed = [](const Vector<dim> &v) {
+      return Keyblock::add<dim>(Vector<dim>{}, -1., v);
+    };
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      {
+        const auto sides = topology.blocks_of_pair(p);
+        if (sides[0] == sides[1] || memory.state[p].is_converted ||
+            memory.state[p].is_removed ||
+            !topology.is_primary(topology.group_of_pair[p]))
+          continue;
+        if (sides[0] == block || sides[1] == block)
+          sums[interface.pairs[p].joint].n_intact += memory.state[p].is_intact;
+        if (sides[1] == block)
+          add(interface.pairs[p].joint,
+              memory.state[p].impulse,
+              memory.normal[p],
+              memory.state[p].status);
+        else if (sides[0] == block)
+          add(interface.pairs[p].joint,
+              reversed(memory.state[p].impulse),
+              reversed(memory.normal[p]),
+              memory.state[p].status);
+      }
+    if (is_root())
+      for (const SurfaceContact<dim> &contact : memory.contacts)
+        {
+          const unsigned int slave       = search.block_of_slot[contact.slave];
+          const ContactPoint<dim> &point = contact.point;
+          if (slave == contact.master_block)
+            continue;
+          if (slave == block)
+            add(contact.joint, point.impulse, point.normal, point.status);
+          else if (contact.master_block == block)
+            add(contact.joint,
+                reversed(point.impulse),
+                reversed(point.normal),
+                point.status);
+        }
+    for (unsigned int j = 0; j < sums.size(); ++j)
+      sums[j] = finish_sums<dim>(sums[j], moment[j]);
+    return sums;
+  }
+
+
+
+  template <int dim>
+  Vector<dim>
+  ContactReport<dim>::mean_slip(const unsigned int block) const
+  {
+    std::vector<double> sums(dim + 1, 0.);
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      {
+        const auto sides = topology.blocks_of_pair(p);
+        if (sides[0] == sides[1] || memory.state[p].is_removed ||
+            !topology.is_primary(topology.group_of_pair[p]) ||
+            (sides[0] != block && sides[1] != block))
+          continue;
+        const unsigned int plus =
+          topology.numbering.local_node(interface.pairs[p].plus);
+        const unsigned int minus =
+          topology.numbering.local_node(interface.pairs[p].minus);
+        const double area =
+          (sides[1] == block ? 1. : -1.) * interface.pairs[p].area;
+        for (int d = 0; d < dim; ++d)
+          sums[d] += area * (fields.displacement[dim * plus + d] -
+                             fields.displacement[dim * minus + d]);
+        sums[dim] += interface.pairs[p].area;
+      }
+    sum_lists(sums);
+    Vector<dim> slip{};
+    if (sums[dim] > 0.)
+      for (int d = 0; d < dim; ++d)
+        slip[d] = sums[d] / sums[dim];
+    return slip;
+  }
+
+
+
+  template <int dim>
+  JointSums<dim>
+  ContactReport<dim>::count_points() const
+  {
+    return sum_over_joints({});
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  ContactReport<dim>::count_through_rock() const
+  {
+    // share of the skin that is no depth
+    constexpr double shallow = 0.02;
+    return std::count_if(memory.contacts.begin(),
+                         memory.contacts.end(),
+                         [&](const SurfaceContact<dim> &contact) {
+                           const unsigned int block =
+                             search.block_of_slot[contact.slave];
+                           return !contact.is_ridge &&
+                                  block == contact.master_block &&
+                                  search.start_distance(contact.slave,
+                                                        contact.face) <
+                                    -shallow * search.skin();
+                         });
+  }
+
+
+
+  template <int dim>
+  JointSums<dim>
+  ContactReport<dim>::count_pairs() const
+  {
+    std::vector<double> n(2, 0.);
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      if (topology.is_primary(topology.group_of_pair[p]) &&
+          !memory.state[p].is_converted && !memory.state[p].is_removed)
+        {
+          n[0] += memory.state[p].status == ContactStatus::open;
+          n[1] += memory.state[p].status == ContactStatus::sliding;
+        }
+    sum_lists(n);
+    JointSums<dim> sums;
+    sums.n_open    = n[0];
+    sums.n_sliding = n[1];
+    return sums;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  ContactReport<dim>::list_sliding_blocks() const
+  {
+    std::vector<double> is_sliding(memory.is_removed_block.size(), 0.);
+    const auto mark = [&](const unsigned int block) {
+      if (block != none && !memory.is_removed_block[block])
+        is_sliding[block] = 1.;
+    };
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      if (memory.state[p].status == ContactStatus::sliding)
+        for (const unsigned int block : topology.blocks_of_pair(p))
+          mark(block);
+    for (const SurfaceContact<dim> &contact : memory.contacts)
+      if (contact.point.status == ContactStatus::sliding)
+        {
+          mark(contact.master_block);
+          mark(search.block_of_slot[contact.slave]);
+        }
+    max_lists(is_sliding);
+    return is_sliding;
+  }
+
+  template class ContactReport<2>;
+  template class ContactReport<3>;
+} // namespace Keyblock

@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/disjoint_sets.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/base/mpi.h>
+#include <keyblock/contact/surface_contacts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace Keyblock
+{
+  template <int dim>
+  SurfaceContacts<dim>::SurfaceContacts(const PairTopology<dim> &topology,
+                                        const ContactStrength<dim> &strength,
+                                        ContactAreas<dim> &areas,
+                                        const ContactHistory<dim> &history,
+                                        MultiPairContact<dim> &pairs_on_nodes,
+                                        SurfaceNodes<dim> &nodes,
+                                        PointSolver<dim> &solver,
+                                        ContactMemory<dim> &memory)
+    : topology(topology)
+    , split(topology.split)
+    , interface(topology.interface)
+    , search(topology.search)
+    , strength(strength)
+    , areas(areas)
+    , history(history)
+    , pairs_on_nodes(pairs_on_nodes)
+    , nodes(nodes)
+    , solver(solver)
+    , memory(memory)
+  {}
+
+
+  template <int dim>
+  void
+  SurfaceContacts<dim>::put_masters_into(ContactPoint<dim> &point) const
+  {
+    const auto hangs = [&](const unsigned int slot) {
+      return split.is_hanging(search.vertex_of_slot[slot]);
+    };
+    if (std::none_of(point.node.begin(),
+                     point.node.begin() + point.n_nodes,
+                     hangs))
+      return;
+    std::map<unsigned int, double> shares;
+    for (int k = 0; k < point.n_nodes; ++k)
+      split.for_each_carrier(search.vertex_of_slot[point.node[k]],
+                             [&](const unsigned int vertex,
+                                 const double share) {
+                               shares[search.slot_of_vertex[vertex]] +=
+                                 share * point.weight[k];
+                             });
+    AssertThrow(shares.size() <= point.node.size(),
+                ComputationError(
+                  "A contact point has more nodes than there is room for; "
+                  "refine the faces on both sides of the joint alike."));
+    point.n_nodes = 0;
+    for (const auto &[slot, weight] : shares)
+      {
+        point.node[point.n_nodes]     = slot;
+        point.weight[point.n_nodes++] = weight;
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  SurfaceContacts<dim>::find_reach(const double step) const
+  {
+    double speed = 0.;
+    for (const unsigned int slot : memory.mobile_slots)
+      for (int d = 0; d < dim; ++d)
+        speed = std::max(speed, std::abs(nodes.velocity[dim * slot + d]));
+    return 2. * dim * speed * step + 1e-6 * search.skin();
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceContacts<dim>::drop_removed_blocks()
+  {
+    if (std::find(memory.is_removed_block.begin(),
+                  memory.is_removed_block.end(),
+                  true) != memory.is_removed_block.end())
+      memory.contacts.erase(
+        std::remove_if(
+          memory.contacts.begin(),
+          memory.contacts.end(),
+          [&](const SurfaceContact<dim> &contact) {
+            return memory.is_removed_block[contact.master_block] ||
+                   memory.is_removed_block[search.block_of_slot[contact.slave]];
+          }),
+        memory.contacts.end());
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceContacts<dim>::take_over_impulses(
+    const std::vector<SurfaceContact<dim>> &previous,
+    const double scale)
+  {
+    const auto before = [](const SurfaceContact<dim> *a,
+                           const SurfaceContact<dim> *b) {
+      return a->slave < b->slave;
+    };
+    std::vector<const SurfaceContact<dim> *> by_slave;
+    for (const SurfaceContact<dim> &contact : previous)
+      by_slave.push_back(&contact);
+    std::stable_sort(by_slave.begin(), by_slave.end(), before);
+    for (SurfaceContact<dim> &contact : memory.contacts)
+      {
+        if (!split.hanging.empty())
+          put_masters_into(contact.point);
+        const auto range =
+          std::equal_range(by_slave.begin(), by_slave.end(), &contact, before);
+        if (range.first == range.second && !contact.is_ridge)
+          contact.point.impulse = impulse_of_slid_pair(contact, scale);
+        for (auto it = range.first; it != range.second; ++it)
+          if ((*it)->is_ridge == contact.is_ridge &&
+              dot<dim>((*it)->point.normal, contact.point.normal) > 0.99)
+            contact.point.impulse =
+              add<dim>(Vector<dim>{}, scale, (*it)->point.impulse);
+      }
+  }
+
+
+  template <int dim>
+  void
+  SurfaceContacts<dim>::find_contacts(const ContactStep &step,
+                                      const double reach)
+  {
+    const std::vector<SurfaceContact<dim>> previous = memory.contacts;
+    double square                                   = 0.;
+    for (const unsigned int slot : memory.mobile_slots)
+      {
+        double way = 0.;
+        for (unsigned int i = dim * slot; i < dim * (slot + 1); ++i)
+          way += (nodes.position[i] - memory.searched_position[i]) *
+                 (nodes.position[i] - memory.searched_position[i]);
+        square = std::max(square, way);
+      }
+    search.evaluate(nodes.position, reach, std::sqrt(square), memory.contacts);
+    drop_removed_blocks();
+    take_over_impulses(previous, step.kick / memory.last_kick);
+    areas.share();
+    for (SurfaceContact<dim> &contact : memory.contacts)
+      contact.point.strength =
+        strength.of_surface(contact,
+                            areas.of(contact),
+                            strength.has_memory ? history.of(contact) : nullptr,
+                            step.kick);
+  }
+
+
+  template <int dim>
+  Vector<dim>
+  SurfaceContacts<dim>::impulse_of_slid_pair(const SurfaceContact<dim> &contact,
+                                             const double scale) const
+  {
+    const unsigned int g = topology.group_of_node[contact.slave];
+    if (g == none)
+      return {};
+    const unsigned int v = search.vertex_of_slot[contact.slave];
+    for (unsigned int p = interface.group_pairs_begin[g];
+         p < interface.group_pairs_begin[g + 1];
+         ++p)
+      {
+        const Pair<dim> &pair = interface.pairs[p];
+        if (!memory.state[p].is_converted || pair.joint != contact.joint ||
+            (pair.minus != v && pair.plus != v))
+          continue;
+        const double side = pair.plus == v ? 1. : -1.;
+        if (side * dot<dim>(memory.normal[p], contact.point.normal) > 0.99)
+          return add<dim>(Vector<dim>{}, side * scale, memory.state[p].impulse);
+      }
+    return {};
+  }
+
+
+
+  template <int dim>
+  bool
+  SurfaceContacts<dim>::can_move(const ContactPoint<dim> &point,
+                                 const int k) const
+  {
+    return point.weight[k] != 0. && nodes.inverse_mass[point.node[k]] > 0.;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  SurfaceContacts<dim>::list_pairs(const ContactStep &step)
+  {
+    std::vector<bool> is_touched(search.n_slots(), false);
+    for (const SurfaceContact<dim> &contact : memory.contacts)
+      for (int k = 0; k < contact.point.n_nodes; ++k)
+        if (can_move(contact.point, k))
+          is_touched[contact.point.node[k]] = true;
+    std::vector<unsigned int> pairs =
+      pairs_on_nodes.solve_untouched(is_touched, step);
+    for (unsigned int g = 0; g < interface.n_groups(); ++g)
+      {
+        const unsigned int p = interface.group_pairs_begin[g];
+        if (memory.is_mobile_group[g] &&
+            interface.group_pairs_begin[g + 1] == p + 1 &&
+            !memory.state[p].is_converted && !memory.state[p].is_removed &&
+            nodes.projection[search.slot_of_vertex[interface.pairs[p].minus]] ==
+              nullptr &&
+            nodes.projection[search.slot_of_vertex[interface.pairs[p].plus]] ==
+              nullptr)
+          pairs.push_back(p);
+      }
+    return pairs;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::vector<unsigned int>>
+  SurfaceContacts<dim>::group_points(
+    const std::vector<ContactPoint<dim>> &points) const
+  {
+    DisjointSets sets(search.n_slots());
+    std::vector<unsigned int> first(points.size(), none);
+    for (unsigned int i = 0; i < points.size(); ++i)
+      for (int k = 0; k < points[i].n_nodes; ++k)
+        if (can_move(points[i], k))
+          {
+            if (first[i] == none)
+              first[i] = points[i].node[k];
+            else
+              sets.join(first[i], points[i].node[k]);
+          }
+    std::vector<std::vector<unsigned int>> groups;
+    std::vector<unsigned int> group_of_root(search.n_slots(), none);
+    for (unsigned int i = 0; i < points.size(); ++i)
+      if (first[i] != none)
+        {
+          unsigned int &group = group_of_root[sets.root(first[i])];
+          if (group == none)
+            {
+              group = groups.size();
+              groups.emplace_back();
+            }
+          groups[group].push_back(i);
+        }
+    return groups;
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceContacts<dim>::show_on_converted_pairs()
+  {
+    for (PairState<dim> &pair : memory.state)
+      if (pair.is_converted)
+        {
+          pair.impulse = Vector<dim>{};
+          pair.status  = ContactStatus::open;
+        }
+    for (const SurfaceContact<dim> &contact : memory.contacts)
+      {
+        const unsigned int g = topology.group_of_node[contact.slave];
+        if (g == none || contact.is_ridge ||
+            contact.point.status == ContactStatus::open)
+          continue;
+        for (unsigned int p = interface.group_pairs_begin[g];
+             p < interface.group_pairs_begin[g + 1];
+             ++p)
+          {
+            const Pair<dim> &pair = interface.pairs[p];
+            const bool is_plus =
+              contact.slave == search.slot_of_vertex[pair.plus];
+            const bool is_minus =
+              contact.slave == search.slot_of_vertex[pair.minus];
+            if (!memory.state[p].is_converted || (!is_plus && !is_minus) ||
+                contact.joint != pair.joint)
+              continue;
+            memory.state[p].status  = contact.point.status;
+            memory.state[p].impulse = add<dim>(Vector<dim>{},
+                                               is_plus ? 1. : -1.,
+                                               contact.point.impulse);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceContacts<dim>::solve_groups(std::vector<ContactPoint<dim>> &points,
+                                     const std::vector<unsigned int> &pairs,
+                                     const ContactStep &step)
+  {
+    std::vector<ContactPoint<dim>> group;
+    std::vector<PointStrength> broken;
+    for (const std::vector<unsigned int> &members : group_points(points))
+      {
+        group.clear();
+        broken.clear();
+        for (const unsigned int i : members)
+          {
+            group.push_back(points[i]);
+            broken.push_back(
+              i < memory.contacts.size()
+                ? points[i].strength
+                : strength.of_pair(pairs[i - memory.contacts.size()],
+                                   false,
+                                   step.kick));
+          }
+        solver.solve(group, broken, nodes.view, step.step, !strength.is_tied);
+        for (unsigned int i = 0; i < members.size(); ++i)
+          points[members[i]] = group[i];
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceContacts<dim>::take_up(const std::vector<ContactPoint<dim>> &points,
+                                const std::vector<unsigned int> &pairs,
+                                const ContactStep &step)
+  {
+    for (unsigned int i = 0; i < points.size(); ++i)
+      {
+        const ContactPoint<dim> &point = points[i];
+        if (i < memory.contacts.size())
+          memory.contacts[i].point = point;
+        else
+          {
+            PairState<dim> &s = memory.state[pairs[i - memory.contacts.size()]];
+            s.impulse         = point.impulse;
+            s.status          = point.status;
+            s.is_intact       = point.is_intact;
+          }
+        for (int k = 0; k < point.n_nodes; ++k)
+          for (int d = 0; d < dim; ++d)
+            nodes.impulse[dim * point.node[k] + d] +=
+              point.weight[k] * point.impulse[d];
+        if (step.keeps_ledger && is_root())
+          solver.book(point, nodes.old_velocity.data(), nodes.velocity.data());
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceContacts<dim>::solve(const ContactStep &step)
+  {
+    const double reach = find_reach(step.step);
+    // what is tied is the rock before it was cut, where no surface meets
+    // another
+    if (strength.is_tied)
+      memory.contacts.clear();
+    else
+      find_contacts(step, reach);
+    std::vector<ContactPoint<dim>> points;
+    for (const SurfaceContact<dim> &contact : memory.contacts)
+      points.push_back(contact.point);
+    std::vector<unsigned int> pairs;
+    for (const unsigned int p : list_pairs(step))
+      {
+        const ContactPoint<dim> point = pairs_on_nodes.as_point(p, step.kick);
+        if (point.gap > reach ||
+            point_inverse_mass<dim>(point, nodes.view) == 0.)
+          {
+            memory.state[p].impulse = Vector<dim>{};
+            if (point.gap > reach)
+              memory.state[p].status = ContactStatus::open;
+            continue;
+          }
+        points.push_back(point);
+        pairs.push_back(p);
+      }
+
+    solve_groups(points, pairs, step);
+    take_up(points, pairs, step);
+    show_on_converted_pairs();
+  }
+
+
+  template <int dim>
+  void
+  SurfaceContacts<dim>::correct_penetration(Fields<dim> &fields,
+                                            ContactTally &tally) const
+  {
+    // a tenth of the overlap a step, shared like an impulse: a_k / m_k
+    std::vector<double> shift(nodes.velocity.size(), 0.);
+    bool is_needed = false;
+    for (const SurfaceContact<dim> &contact : memory.contacts)
+      {
+        const ContactPoint<dim> &point = contact.point;
+        const double w = point_inverse_mass<dim>(point, nodes.view);
+        if (point.gap >= 0. || point.status == ContactStatus::open || w == 0.)
+          continue;
+        is_needed = true;
+        for (int k = 0; k < point.n_nodes; ++k)
+          for (int d = 0; d < dim; ++d)
+            shift[dim * point.node[k] + d] +=
+              -0.1 * point.gap * point.weight[k] *
+              nodes.inverse_mass[point.node[k]] / w * point.normal[d];
+      }
+    if (!is_needed)
+      return;
+    for (const unsigned int slot : memory.mobile_slots)
+      if (nodes.local_node[slot] != none && nodes.projection[slot] == nullptr)
+        for (int d = 0; d < dim; ++d)
+          {
+            const double length    = shift[dim * slot + d];
+            const unsigned int dof = dim * nodes.local_node[slot] + d;
+            if (length == 0.)
+              continue;
+            fields.shifts.emplace_back(dof, length);
+            // what the shift puts into the elastic energy
+            if (nodes.local_node[slot] < topology.numbering.n_owned())
+              tally.work.penetration -= fields.internal_force[dof] * length;
+          }
+  }
+
+  template class SurfaceContacts<2>;
+  template class SurfaceContacts<3>;
+} // namespace Keyblock

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/mpi.h>
+#include <keyblock/contact/surface_nodes.h>
+
+namespace Keyblock
+{
+  template <int dim>
+  SurfaceNodes<dim>::SurfaceNodes(const PairTopology<dim> &topology,
+                                  Fields<dim> &fields)
+    : search(topology.search)
+    , numbering(topology.numbering)
+    , fields(fields)
+  {
+    for (auto *values :
+         {&velocity, &old_velocity, &displacement, &position, &impulse})
+      values->assign(dim * search.n_slots(), 0.);
+    measure();
+  }
+
+
+  template <int dim>
+  void
+  SurfaceNodes<dim>::measure()
+  {
+    local_node.resize(search.n_slots());
+    projection.assign(search.n_slots(), nullptr);
+    inverse_mass.assign(search.n_slots(), 0.);
+    std::vector<double> held(search.n_slots() * dim * dim, 0.);
+    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+      {
+        const unsigned int node =
+          numbering.local_node(search.vertex_of_slot[slot]);
+        local_node[slot] = node;
+        if (node >= numbering.n_owned())
+          continue;
+        inverse_mass[slot] = fields.inverse_mass[node];
+        const int support  = fields.support_of_node[node];
+        if (support >= 0 && !fields.supports[support].is_fixed())
+          for (unsigned int k = 0; k < fields.supports[support].n_directions;
+               ++k)
+            for (int d = 0; d < dim; ++d)
+              for (int e = 0; e < dim; ++e)
+                held[(slot * dim + d) * dim + e] +=
+                  fields.supports[support].directions[k][d] *
+                  fields.supports[support].directions[k][e];
+      }
+    sum_lists(inverse_mass);
+    sum_lists(held);
+
+    projection_storage.resize(search.n_slots());
+    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+      {
+        bool is_held = false;
+        for (int i = 0; i < dim * dim; ++i)
+          {
+            const double h              = held[slot * dim * dim + i];
+            is_held                     = is_held || h != 0.;
+            projection_storage[slot][i] = (i % (dim + 1) == 0 ? 1. : 0.) - h;
+          }
+        if (is_held)
+          projection[slot] = projection_storage[slot].data();
+      }
+    view = {velocity.data(), inverse_mass.data(), &projection};
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceNodes<dim>::activate(const std::vector<bool> &is_active)
+  {
+    active.clear();
+    for (unsigned int slot = 0; slot < is_active.size(); ++slot)
+      if (is_active[slot])
+        active.push_back(slot);
+  }
+
+
+  template <int dim>
+  void
+  SurfaceNodes<dim>::gather(const std::vector<unsigned int> &shared)
+  {
+    const auto copy = [&](const std::vector<double> &from,
+                          std::vector<double> &to) {
+      for (const unsigned int slot : active)
+        if (local_node[slot] != none)
+          for (int d = 0; d < dim; ++d)
+            to[dim * slot + d] = from[dim * local_node[slot] + d];
+      if (n_ranks() == 1 || shared.empty())
+        return;
+      std::vector<double> buffer(dim * shared.size(), 0.);
+      for (unsigned int i = 0; i < shared.size(); ++i)
+        if (local_node[shared[i]] < numbering.n_owned())
+          for (int d = 0; d < dim; ++d)
+            buffer[dim * i + d] = from[dim * local_node[shared[i]] + d];
+      sum_lists(buffer);
+      for (unsigned int i = 0; i < shared.size(); ++i)
+        for (int d = 0; d < dim; ++d)
+          to[dim * shared[i] + d] = buffer[dim * i + d];
+    };
+    if (active.empty())
+      return;
+    copy(fields.velocity, velocity);
+    copy(fields.old_velocity, old_velocity);
+    copy(fields.displacement, displacement);
+    for (const unsigned int slot : active)
+      {
+        const Point<dim> &x = search.place_of_slot[slot];
+        for (int d = 0; d < dim; ++d)
+          position[dim * slot + d] = x[d] + displacement[dim * slot + d];
+      }
+    for (const unsigned int slot : active)
+      for (int d = 0; d < dim; ++d)
+        impulse[dim * slot + d] = 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  SurfaceNodes<dim>::scatter(const double kick)
+  {
+    for (const unsigned int slot : active)
+      if (local_node[slot] != none)
+        for (int d = 0; d < dim; ++d)
+          {
+            const unsigned int dof    = dim * local_node[slot] + d;
+            fields.velocity[dof]      = velocity[dim * slot + d];
+            fields.contact_force[dof] = impulse[dim * slot + d] / kick;
+          }
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  SurfaceNodes<dim>::gather_positions() const
+  {
+    std::vector<double> position(dim * search.n_slots(), 0.);
+    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+      if (local_node[slot] < numbering.n_owned())
+        for (int d = 0; d < dim; ++d)
+          position[dim * slot + d] =
+            search.place_of_slot[slot][d] +
+            fields.displacement[dim * local_node[slot] + d];
+    if (n_ranks() > 1)
+      sum_lists(position);
+    return position;
+  }
+
+  template class SurfaceNodes<2>;
+  template class SurfaceNodes<3>;
+} // namespace Keyblock

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/contact/topology.h>
+
+namespace Keyblock
+{
+  template <int dim>
+  PairTopology<dim>::PairTopology(const Scene<dim> &scene,
+                                  const SplitMesh<dim> &split,
+                                  const Numbering<dim> &numbering,
+                                  const ContactSearch<dim> &search)
+    : scene(scene)
+    , split(split)
+    , interface(split.interface)
+    , numbering(numbering)
+    , search(search)
+    , group_of_pair(interface.pairs.size())
+    , group_of_node(search.n_slots(), none)
+  {
+    for (unsigned int g = 0; g < interface.n_groups(); ++g)
+      {
+        for (unsigned int i = interface.group_begin[g];
+             i < interface.group_begin[g + 1];
+             ++i)
+          group_of_node[search.slot_of_vertex[interface.group_vertices[i]]] = g;
+        for (unsigned int p = interface.group_pairs_begin[g];
+             p < interface.group_pairs_begin[g + 1];
+             ++p)
+          group_of_pair[p] = g;
+      }
+  }
+
+
+  template <int dim>
+  bool
+  PairTopology<dim>::is_single(
+    const unsigned int group,
+    const std::vector<const double *> &projection) const
+  {
+    const auto [begin, end] = pairs_of_group(group);
+    if (end - begin != 1)
+      return false;
+    for (unsigned int i = interface.group_begin[group];
+         i < interface.group_begin[group + 1];
+         ++i)
+      if (projection[search.slot_of_vertex[interface.group_vertices[i]]])
+        return false;
+    return true;
+  }
+
+
+
+  template <int dim>
+  std::array<unsigned int, 2>
+  PairTopology<dim>::blocks_of_pair(const unsigned int pair) const
+  {
+    return {
+      {search.block_of_slot[search.slot_of_vertex[interface.pairs[pair].minus]],
+       search
+         .block_of_slot[search.slot_of_vertex[interface.pairs[pair].plus]]}};
+  }
+
+
+
+  template <int dim>
+  bool
+  PairTopology<dim>::is_primary(const unsigned int group) const
+  {
+    return numbering.is_owned(
+      interface.group_vertices[interface.group_begin[group]]);
+  }
+
+  template class PairTopology<2>;
+  template class PairTopology<3>;
+} // namespace Keyblock
