@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Gravity, tractions, and ramps of what is out of balance.
-#include <keyblock/base/mpi.h>
+#include <keyblock/base/errors.h>
 #include <keyblock/step/loads.h>
 
-#include <algorithm>
-#include <cmath>
 #include <regex>
 
 namespace Keyblock

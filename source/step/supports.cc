@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/supports.h>
 
-#include <keyblock/base/mpi.h>
+#include <keyblock/base/errors.h>
 
 #include <algorithm>
 #include <cmath>

@@ -107,8 +107,8 @@ namespace Keyblock
       std::function<void(const std::vector<unsigned int> &dofs,
                          const dealii::FullMatrix<double> &stiffness)>;
 
-    /** Call @p add for each piece of the stiffness, for static solutions; what
-     * other ranks see may be given by one of them. */
+    /** Call @p add for each piece of the stiffness, for static solutions: on
+     * one rank, where all of its degrees of freedom are local. */
     virtual void
     for_each_stiffness(const AddStiffness &) const
     {}
