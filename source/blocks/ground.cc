@@ -20,7 +20,7 @@ namespace Keyblock
 
   template <int dim>
   bool
-  Ground<dim>::is_dug(const unsigned int cell) const
+  Ground<dim>::is_excavated(const unsigned int cell) const
   {
     const unsigned int block = split.block_of_cell[cell];
     if (block != none && is_removed != nullptr && !is_removed->empty() &&
@@ -91,16 +91,18 @@ namespace Keyblock
     for (auto &faces : is_covered)
       faces.fill(false);
     for (const JointFace &face : ground.split.interface.joint_faces)
-      if (!ground.is_dug(face.minus_cell) && !ground.is_dug(face.plus_cell))
+      if (!ground.is_excavated(face.minus_cell) &&
+          !ground.is_excavated(face.plus_cell))
         is_covered[face.minus_cell][face.minus_face] =
           is_covered[face.plus_cell][face.plus_face] = true;
     std::vector<CellFace> free;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-      if (!ground.is_dug(c))
+      if (!ground.is_excavated(c))
         for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
           {
             const unsigned int other = mesh.neighbor[c][f];
-            if (!is_covered[c][f] && (other == none || ground.is_dug(other)))
+            if (!is_covered[c][f] &&
+                (other == none || ground.is_excavated(other)))
               free.push_back({c, f});
           }
     return free;

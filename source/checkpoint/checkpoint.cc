@@ -142,7 +142,7 @@ namespace Keyblock
   StateExchange<dim>::restore(const std::string &group,
                               const RunParts<dim> &run)
   {
-    StageState stage;
+    StageState stage = run.conditions.remember(); // with the elements' names
     exchange(group, stage);
     exchange(group, run.fields);
     run.conditions.resume(stage);
@@ -230,20 +230,23 @@ namespace Keyblock
   void
   StateExchange<dim>::exchange(const std::string &group, StageState &state)
   {
-    file.exchange(group + "stage_number", state.stage_number);
-    file.exchange(group + "is_removed", state.is_removed);
-    file.exchange(group + "ramp_duration", state.ramp_duration);
-    file.exchange(group + "ramp_progress", state.ramp_progress);
-    file.exchange(group + "ramp_pace", state.ramp_pace);
-    file.exchange(group + "is_far_field_free", state.is_far_field_free);
+    file.exchange(group + "stage_number", state.cells.stage_number);
+    file.exchange(group + "is_removed", state.cells.is_removed);
+    file.exchange(group + "ramp_duration", state.loads.ramp.duration);
+    file.exchange(group + "ramp_progress", state.loads.ramp.progress);
+    file.exchange(group + "ramp_pace", state.loads.ramp.pace);
     exchange_nodes(group + "carried_force",
-                   state.carried_force,
+                   state.loads.carried_force,
                    dim,
                    numbering.n_owned());
-    exchange_nodes(group + "far_field_force",
-                   state.far_field_force,
-                   dim,
-                   numbering.n_owned());
+    for (ForceElementState &element : state.elements)
+      {
+        file.exchange(group + element.name + "/numbers", element.numbers);
+        exchange_nodes(group + element.name + "/nodal",
+                       element.nodal,
+                       dim,
+                       numbering.n_owned());
+      }
   }
 
 

@@ -6,6 +6,7 @@
 
 #include <deal.II/numerics/rtree.h>
 
+#include <keyblock/base/expression.h>
 #include <keyblock/base/mpi.h>
 #include <keyblock/step/equilibrium.h>
 
@@ -196,8 +197,13 @@ namespace Keyblock
         const bool is_gravity = name == "gravity";
         auto &solver          = is_gravity ? roller_solver : clamp_solver;
         if (!solver)
-          solver = std::make_unique<StaticSolver<dim>>(
-            split, numbering, cells, fields, is_gravity ? rollers : clamps);
+          solver =
+            std::make_unique<StaticSolver<dim>>(split,
+                                                numbering,
+                                                cells,
+                                                fields,
+                                                is_gravity ? rollers : clamps,
+                                                ForceElements<dim>());
         std::vector<double> force(fields.load.size(), 0.);
         if (is_gravity)
           {

@@ -9,6 +9,7 @@
 #include <keyblock/scene/network_output.h>
 #include <keyblock/scene/step_count.h>
 #include <keyblock/step/initial_tension.h>
+#include <keyblock/step/step_spread.h>
 
 #include <unistd.h>
 
@@ -109,7 +110,9 @@ namespace Keyblock
       place << (d ? ", " : "") << conditions->stable_step.place[d];
     report.stable_step_place = place.str();
     const StepSpread<dim> spread =
-      measure_step_spread(conditions->frequency, cells.mesh_cell, split.mesh);
+      measure_step_spread(conditions->active_cells.frequency,
+                          cells.mesh_cell,
+                          split.mesh);
     report.step_ratio         = spread.ratio();
     report.stable_step_joints = names_of_joints_at(split.mesh, spread.cell);
   }
@@ -235,7 +238,7 @@ namespace Keyblock
   Simulation<dim>::print_mass_scaling(std::ostream &out)
   {
     const std::string text =
-      describe_mass_scaling(conditions->mass_scaling,
+      describe_mass_scaling(conditions->active_cells.mass_scaling,
                             blocks,
                             scene.time_stepping.least_step);
     if (text != mass_scaling_text)
@@ -437,7 +440,7 @@ namespace Keyblock
     report.wall_time      = MPI_Wtime() - wall_start;
     report.contact_time   = step->contact_seconds;
     report.force_time     = step->force_seconds;
-    report.mass_scaling   = conditions->mass_scaling;
+    report.mass_scaling   = conditions->active_cells.mass_scaling;
     report.skipped_steps  = sum_over_ranks(step->n_skipped);
     report.capped_groups =
       sum_over_ranks(contact ? contact->tally.n_capped : 0);

@@ -34,12 +34,13 @@ namespace Keyblock
     std::vector<unsigned int> failed;
     std::vector<double> slip(blocks.blocks.size(), 0.);
     const auto can_fail = [&](const unsigned int b) {
-      return !blocks.blocks[b].is_infinite && !conditions->is_removed_block(b);
+      return !blocks.blocks[b].is_infinite &&
+             !conditions->active_cells.is_removed_block(b);
     };
     for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
       if (can_fail(b))
         slip[b] = norm<dim>(contact->report().mean_slip(b));
-    if (conditions->is_ramping())
+    if (conditions->loads.is_ramping())
       progress.slips.restart(progress.n_done);
     const bool is_recorded = progress.slips.offer(progress.n_done, slip);
     for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
@@ -54,7 +55,7 @@ namespace Keyblock
     const unsigned int number = index + 2;
     for (const unsigned int b : failed)
       {
-        conditions->remove_block(b);
+        conditions->active_cells.remove_block(b);
         contact->remove_block(b);
         removal_stage[b] = number;
       }
@@ -62,7 +63,8 @@ namespace Keyblock
     step->begin_stage(stage, number);
     // a block that has come off carries nothing that a ramp would take away
     const bool is_free = step->share_of_dug(carried) < stage.unbalanced_ratio;
-    conditions->start_ramp(carried, is_free ? 0. : ramp_duration_of(stage));
+    conditions->loads.start_ramp(carried,
+                                 is_free ? 0. : ramp_duration_of(stage));
     count_cells();
     return true;
   }

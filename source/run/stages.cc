@@ -187,10 +187,10 @@ namespace Keyblock
       is_ramped = is_ramped || (!support->displacement.empty() && number == 2);
     if (!is_ramped || stage.is_static())
       {
-        conditions->start_ramp({}, 0.);
+        conditions->loads.start_ramp({}, 0.);
         return;
       }
-    conditions->start_ramp(carried, ramp_duration_of(stage));
+    conditions->loads.start_ramp(carried, ramp_duration_of(stage));
   }
 
 
@@ -201,7 +201,8 @@ namespace Keyblock
   {
     if (stage.ramp_duration > 0. || !stage.is_quasi_static())
       return stage.ramp_duration;
-    StaticSolver<dim> solver(split, *numbering, cells, fields, fields.supports);
+    StaticSolver<dim> solver(
+      split, *numbering, cells, fields, fields.supports, conditions->elements);
     return 4. * solver.lowest_period();
   }
 
@@ -211,7 +212,8 @@ namespace Keyblock
   void
   Simulation<dim>::solve_stage()
   {
-    StaticSolver<dim> solver(split, *numbering, cells, fields, fields.supports);
+    StaticSolver<dim> solver(
+      split, *numbering, cells, fields, fields.supports, conditions->elements);
     double share = 1.;
     for (unsigned int i = 0; i < maximum_refinements; ++i)
       {
@@ -225,7 +227,8 @@ namespace Keyblock
           break;
         step->add_displacement(
           solver.solve(force, [&](const NodeSupport<dim> &support) {
-            return share * conditions->prescribed_displacement(support);
+            return share *
+                   conditions->supports.prescribed_displacement(support);
           }));
         share = 0.;
       }
@@ -283,7 +286,7 @@ namespace Keyblock
                                i % removal_interval == 0 &&
                                remove_failed_blocks(stage, progress);
         if (stage.is_quasi_static() && i % pace_interval == 0 &&
-            conditions->is_ramping())
+            conditions->loads.is_ramping())
           pace_ramp(stage);
         if (i % finite_check_interval == 0 || is_last)
           check_finite();
@@ -293,7 +296,7 @@ namespace Keyblock
         if (!is_trial)
           report_progress(index, double(i) / n_steps);
         if (is_sample && i > 10 && stage.unbalanced_ratio > 0. &&
-            !conditions->is_ramping() &&
+            !conditions->loads.is_ramping() &&
             step->unbalanced_ratio < stage.unbalanced_ratio)
           {
             is_converged = true;
@@ -319,7 +322,7 @@ namespace Keyblock
     // plastic rock answers more slowly than its lowest elastic mode; a ramp
     // that outruns it overshoots for good
     step->sample_unbalanced_force();
-    conditions->set_ramp_pace(
+    conditions->loads.set_ramp_pace(
       std::min(1., stage.ramp_unbalance / step->unbalanced_ratio));
   }
 

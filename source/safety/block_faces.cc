@@ -61,7 +61,8 @@ namespace Keyblock
         const auto &block_of_cell = ground.split.block_of_cell;
         const bool is_plus        = block_of_cell[face.plus_cell] == index;
         if ((block_of_cell[face.minus_cell] == index) == is_plus ||
-            ground.is_dug(face.minus_cell) || ground.is_dug(face.plus_cell))
+            ground.is_excavated(face.minus_cell) ||
+            ground.is_excavated(face.plus_cell))
           return;
         const Joint<dim> &joint  = *ground.scene.joints[face.joint];
         const CellFace own       = is_plus
@@ -119,7 +120,7 @@ namespace Keyblock
           for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
             if (const unsigned int other = mesh.neighbor[c][f];
                 other != none && ground.split.block_of_cell[other] != index &&
-                !ground.is_dug(other))
+                !ground.is_excavated(other))
               (ground.is_filled(other) ? result.is_on_fill
                                        : result.is_attached) = true;
         for (const unsigned int i : free.of_block(index))

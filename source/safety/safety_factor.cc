@@ -442,7 +442,7 @@ namespace Keyblock
   StrengthReductionSearch<dim>::add_cheap_answers(const unsigned int block,
                                                   SafetyFactor &result) const
   {
-    const Ground<dim> ground        = run.conditions.ground();
+    const Ground<dim> ground        = run.conditions.active_cells.ground();
     const BlockStatics<dim> statics = judge_block<dim>(
       ground, FreeFaces<dim>(ground), blocks, block, run.step.time);
     result.limit_mode   = statics.mode();

@@ -114,7 +114,7 @@ namespace Keyblock
     reduction.share = 1. / factor;
     run.contact->reduce_strength(reduction);
     if (scene.safety.reduces_rock)
-      run.conditions.reduce_strength(1. / factor);
+      run.conditions.active_cells.reduce_strength(1. / factor);
   }
 
 

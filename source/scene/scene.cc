@@ -325,10 +325,11 @@ namespace Keyblock
   void
   Scene<dim>::declare(ParameterHandler &prm)
   {
-    prm.declare_entry("Dimension",
-                      "2",
-                      dealii::Patterns::Integer(2, 3),
-                      "Number of dimensions: 2 (plane strain, unit thickness) or 3.");
+    prm.declare_entry(
+      "Dimension",
+      "2",
+      dealii::Patterns::Integer(2, 3),
+      "Number of dimensions: 2 (plane strain, unit thickness) or 3.");
     prm.add_parameter("Title",
                       title,
                       "Title of the scene, one line for readers.");

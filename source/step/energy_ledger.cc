@@ -101,7 +101,7 @@ namespace Keyblock
     const double half_kick   = 0.5 * kick;
     const unsigned int begin = dim * run.begin, end = dim * run.end;
     sums.external += half_kick * work_of<dim>(fields.load, fields, begin, end);
-    if (stage.damping_ratio > 0.)
+    if (has_damping_force())
       sums.stiffness_damping +=
         half_kick * work_of<dim>(fields.damping_force, fields, begin, end);
     if (stage.local_damping > 0.)
@@ -120,7 +120,7 @@ namespace Keyblock
   void
   ExplicitStep<dim>::book_supports()
   {
-    const bool has_viscous = stage.damping_ratio > 0.;
+    const bool has_viscous = has_damping_force();
     // the force that a support must have given: what the others left missing
     for (const NodeSupport<dim> &support : fields.supports)
       if (support.motion >= 0 && support.node < numbering.n_owned())
@@ -141,6 +141,30 @@ namespace Keyblock
 
 
   template <int dim>
+  double
+  ExplicitStep<dim>::stored_energy() const
+  {
+    double stored = elastic_energy<dim>(cells, positions());
+    for (const auto &element : conditions.elements)
+      stored += element->stored_energy(fields.displacement);
+    return stored;
+  }
+
+
+
+  template <int dim>
+  double
+  ExplicitStep<dim>::plastic_work() const
+  {
+    double work = cells.plastic_work;
+    for (const auto &element : conditions.elements)
+      work += element->plastic_work();
+    return work;
+  }
+
+
+
+  template <int dim>
   void
   ExplicitStep<dim>::sample_energies()
   {
@@ -154,15 +178,13 @@ namespace Keyblock
           internal += fields.internal_force[i] * v;
           before += fields.internal_force[i] * (v + w);
         }
-    const double stored = elastic_energy<dim>(cells, positions()) +
-                          fields.far_field.stored_energy(fields.displacement);
     Energies mine = sums;
     // discrete energy of the leapfrog between n and n + 1 (theory, eq. 14)
-    mine.elastic = stored + 0.5 * dt * internal;
+    mine.elastic = stored_energy() + 0.5 * dt * internal;
     mine.kinetic = kinetic;
     if (is_first)
-      plastic_work_at_start = cells.plastic_work;
-    mine.plastic   = cells.plastic_work - plastic_work_at_start;
+      plastic_work_at_start = plastic_work();
+    mine.plastic   = plastic_work() - plastic_work_at_start;
     mine.excavated = excavated_energy;
     if (is_first)
       sums.start = kinetic_before + mine.elastic - 0.5 * kick * before;
@@ -192,8 +214,7 @@ namespace Keyblock
       for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
         mine.kinetic +=
           0.5 * fields.mass[node] * fields.velocity[i] * fields.velocity[i];
-    mine.elastic = elastic_energy<dim>(cells, positions()) +
-                   fields.far_field.stored_energy(fields.displacement);
+    mine.elastic                              = stored_energy();
     mine.start                                = mine.kinetic + mine.elastic;
     std::array<double, n_energy_terms> values = mine.as_array();
     sum_lists(values);

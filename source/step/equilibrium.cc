@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace Keyblock
 {
@@ -21,7 +20,8 @@ namespace Keyblock
                                   const Numbering<dim> &numbering,
                                   const CellArrays<dim> &cells,
                                   const Fields<dim> &fields,
-                                  const std::vector<NodeSupport<dim>> &supports)
+                                  const std::vector<NodeSupport<dim>> &supports,
+                                  const ForceElements<dim> &elements)
     : split(split)
     , numbering(numbering)
     , cells(cells)
@@ -33,161 +33,82 @@ namespace Keyblock
     relevant.add_indices(numbering.partitioner->ghost_indices());
     make_constraints([](const NodeSupport<dim> &) { return Tensor<1, dim>(); },
                      homogeneous);
-    assemble();
+    assemble(elements);
   }
 
 
 
   template <int dim>
-  void
-  StaticSolver<dim>::make_constraints(
-    const Prescribed &prescribed,
-    dealii::AffineConstraints<double> &lines) const
+  std::array<double,
+             StaticSolver<dim>::n_cell_dofs * StaticSolver<dim>::n_cell_dofs>
+  StaticSolver<dim>::stiffness_of(const unsigned int cell) const
   {
-    lines.reinit(relevant);
-    const auto &partitioner = *numbering.partitioner;
-    const auto global = [&](const unsigned int node, const unsigned int d) {
-      return partitioner.local_to_global(dim * node + d);
-    };
-
-    for (unsigned int h = 0; h < numbering.hanging_nodes.size(); ++h)
+    Corners<dim, double> corners;
+    for (unsigned int v = 0; v < (1 << dim); ++v)
       for (unsigned int d = 0; d < dim; ++d)
-        {
-          const auto line = global(numbering.hanging_nodes[h], d);
-          lines.add_line(line);
-          for (unsigned int m = numbering.masters_begin[h];
-               m < numbering.masters_begin[h + 1];
-               ++m)
-            lines.add_entry(line,
-                            global(numbering.masters[m].node, d),
-                            numbering.masters[m].weight);
-        }
-
-    // nodes that one vertex had before the split move together: the one with
-    // the least number leads, and takes the supports of all
-    std::map<unsigned int, unsigned int> leader;
-    const Interface<dim> &interface = split.interface;
-    for (unsigned int g = 0; g < interface.n_groups(); ++g)
-      {
-        unsigned int first = none;
-        bool is_complete   = true;
-        for (unsigned int i = interface.group_begin[g];
-             i < interface.group_begin[g + 1];
-             ++i)
-          {
-            const unsigned int node =
-              numbering.local_node(interface.group_vertices[i]);
-            is_complete = is_complete && node != none;
-            if (node != none &&
-                (first == none || global(node, 0) < global(first, 0)))
-              first = node;
-          }
-        if (is_complete)
-          for (unsigned int i = interface.group_begin[g];
-               i < interface.group_begin[g + 1];
-               ++i)
-            leader[numbering.local_node(interface.group_vertices[i])] = first;
-      }
-    std::map<unsigned int, NodeSupport<dim>> held;
-    for (const NodeSupport<dim> &support : supports)
-      {
-        const auto found = leader.find(support.node);
-        const unsigned int node =
-          found == leader.end() ? support.node : found->second;
-        auto &entry = held.emplace(node, support).first->second;
-        if (support.n_directions > entry.n_directions)
-          entry = support;
-      }
-    for (const auto &[node, first] : leader)
-      if (node != first)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lines.add_line(global(node, d));
-            lines.add_entry(global(node, d), global(first, d), 1.);
-          }
-    for (const auto &[node, support] : held)
-      {
-        const Tensor<1, dim> u = prescribed(support);
-        Tensor<1, dim> free;
-        if (support.n_directions == 1)
-          {
-            // n . (v - u) = 0, solved for the component where n is largest
-            const auto &n  = support.directions[0];
-            unsigned int k = 0;
-            double value   = 0.;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                k = std::abs(n[d]) > std::abs(n[k]) ? d : k;
-                value += n[d] * u[d];
-              }
-            lines.add_line(global(node, k));
-            for (unsigned int d = 0; d < dim; ++d)
-              if (d != k && std::abs(n[d]) > 1e-14)
-                lines.add_entry(global(node, k), global(node, d), -n[d] / n[k]);
-            lines.set_inhomogeneity(global(node, k), value / n[k]);
-            continue;
-          }
-        if (support.n_directions + 1 == dim)
-          {
-            // free along one direction in 3D
-            const auto &a = support.directions[0], &b = support.directions[1];
-            for (unsigned int d = 0; d < dim; ++d)
-              free[d] = a[(d + 1) % dim] * b[(d + 2) % dim] -
-                        a[(d + 2) % dim] * b[(d + 1) % dim];
-            unsigned int k = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              k = std::abs(free[d]) > std::abs(free[k]) ? d : k;
-            for (unsigned int d = 0; d < dim; ++d)
-              if (d != k)
-                {
-                  lines.add_line(global(node, d));
-                  if (std::abs(free[d]) > 1e-14)
-                    lines.add_entry(global(node, d),
-                                    global(node, k),
-                                    free[d] / free[k]);
-                  lines.set_inhomogeneity(global(node, d),
-                                          u[d] - free[d] / free[k] * u[k]);
-                }
-            continue;
-          }
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lines.add_line(global(node, d));
-            lines.set_inhomogeneity(global(node, d), u[d]);
-          }
-      }
-    // nodes without any cell
-    for (unsigned int node = 0; node < numbering.n_local(); ++node)
-      if (fields.mass[node] == 0. && leader.count(node) == 0)
-        for (unsigned int d = 0; d < dim; ++d)
-          if (!lines.is_constrained(global(node, d)))
-            lines.add_line(global(node, d));
-    lines.close();
+        corners[v][d] = fields.reference[dim * cells.nodes[cell][v] + d];
+    return cell_stiffness<dim>(corners,
+                               cell >= cells.kind_begin[1],
+                               cells.lambda[cell],
+                               cells.mu[cell]);
   }
 
 
 
   template <int dim>
   void
-  StaticSolver<dim>::assemble()
+  StaticSolver<dim>::assemble(const ForceElements<dim> &elements)
   {
-    constexpr unsigned int n = dim * (1 << dim);
-    std::vector<dealii::types::global_dof_index> dofs(n);
-    const auto list_dofs = [&](const unsigned int c) {
-      for (unsigned int v = 0; v < (1 << dim); ++v)
-        for (unsigned int d = 0; d < dim; ++d)
-          dofs[dim * v + d] =
-            numbering.partitioner->local_to_global(dim * cells.nodes[c][v] + d);
-    };
+    set_up_matrix(elements);
+    add_cells();
+    add_elements(elements);
+    matrix.compress(dealii::VectorOperation::add);
+    fill_diagonal();
+    set_up_preconditioner();
+    for (const auto &element : elements)
+      {
+        const CoupledStiffness stiffness = element->coupled_stiffness();
+        if (stiffness.columns.empty())
+          continue;
+        couplings.push_back({{}, stiffness.coupling});
+        for (const std::vector<double> &column : stiffness.columns)
+          couplings.back().columns.push_back(condense(column));
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<typename StaticSolver<dim>::GlobalDof>
+  StaticSolver<dim>::dofs_of(const unsigned int cell) const
+  {
+    std::vector<GlobalDof> dofs;
+    dofs.reserve(n_cell_dofs);
+    for (const unsigned int node : cells.nodes[cell])
+      for (unsigned int d = 0; d < dim; ++d)
+        dofs.push_back(global_dof(node, d));
+    return dofs;
+  }
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::set_up_matrix(const ForceElements<dim> &elements)
+  {
     dealii::TrilinosWrappers::SparsityPattern pattern(owned,
                                                       owned,
                                                       relevant,
                                                       world());
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
-      {
-        list_dofs(c);
-        homogeneous.add_entries_local_to_global(dofs, pattern, true);
-      }
+      homogeneous.add_entries_local_to_global(dofs_of(c), pattern, true);
+    for (const auto &element : elements)
+      element->for_each_stiffness([&](const std::vector<unsigned int> &dofs,
+                                      const dealii::FullMatrix<double> &) {
+        homogeneous.add_entries_local_to_global(global_dofs(dofs),
+                                                pattern,
+                                                true);
+      });
     for (unsigned int i = 0; i < dim * numbering.n_owned(); ++i)
       {
         const auto dof = numbering.partitioner->local_to_global(i);
@@ -195,38 +116,48 @@ namespace Keyblock
       }
     pattern.compress();
     matrix.reinit(pattern);
+  }
 
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::add_cells()
+  {
+    constexpr unsigned int n = n_cell_dofs;
     dealii::FullMatrix<double> stiffness(n, n);
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       {
-        list_dofs(c);
-        Corners<dim, double> corners;
-        for (unsigned int v = 0; v < (1 << dim); ++v)
-          for (unsigned int d = 0; d < dim; ++d)
-            corners[v][d] = fields.reference[dim * cells.nodes[c][v] + d];
-        const auto k = cell_stiffness<dim>(corners,
-                                           c >= cells.kind_begin[1],
-                                           cells.lambda[c],
-                                           cells.mu[c]);
+        const auto k = stiffness_of(c);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
             stiffness(i, j) = k[i * n + j];
-        homogeneous.distribute_local_to_global(stiffness, dofs, matrix);
+        homogeneous.distribute_local_to_global(stiffness, dofs_of(c), matrix);
       }
-    dealii::FullMatrix<double> spring_stiffness(1, 1);
-    dofs.resize(1);
-    for (const auto &spring : fields.far_field.springs)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          dofs[0] =
-            numbering.partitioner->local_to_global(dim * spring.node + d);
-          spring_stiffness(0, 0) = spring.stiffness;
-          homogeneous.distribute_local_to_global(spring_stiffness,
-                                                 dofs,
+  }
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::add_elements(const ForceElements<dim> &elements)
+  {
+    for (const auto &element : elements)
+      element->for_each_stiffness(
+        [&](const std::vector<unsigned int> &dofs,
+            const dealii::FullMatrix<double> &stiffness) {
+          homogeneous.distribute_local_to_global(stiffness,
+                                                 global_dofs(dofs),
                                                  matrix);
-        }
-    matrix.compress(dealii::VectorOperation::add);
-    // rows of nodes without cells
+        });
+  }
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::fill_diagonal()
+  {
     double diagonal = 0.;
     for (const auto i : owned)
       diagonal = std::max(diagonal, std::abs(matrix.diag_element(i)));
@@ -235,7 +166,14 @@ namespace Keyblock
       if (matrix.diag_element(i) == 0.)
         matrix.set(i, i, diagonal);
     matrix.compress(dealii::VectorOperation::insert);
+  }
 
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::set_up_preconditioner()
+  {
     dealii::TrilinosWrappers::PreconditionAMG::AdditionalData settings;
     dealii::DoFTools::extract_constant_modes(*numbering.dof_handler,
                                              dealii::ComponentMask(),
@@ -244,51 +182,34 @@ namespace Keyblock
     settings.smoother_sweeps       = 2;
     settings.aggregation_threshold = 0.02;
     preconditioner.initialize(matrix, settings);
-    condense_far_field();
-  }
-
-
-
-  template <int dim>
-  void
-  StaticSolver<dim>::condense_far_field()
-  {
-    const FarField<dim> &far_field = fields.far_field;
-    const unsigned int n           = far_field.n_columns();
-    std::vector<double> column(dim * numbering.n_owned());
-    for (unsigned int m = 0; m < n; ++m)
-      {
-        std::fill(column.begin(), column.end(), 0.);
-        for (unsigned int i = 0; i < dim * far_field.springs.size(); ++i)
-          column[dim * far_field.springs[i / dim].node + i % dim] =
-            far_field.columns[i * n + m];
-        far_columns.push_back(condense(column));
-      }
   }
 
 
 
   namespace
   {
-    /** Sparse matrix plus the coupling of the far field. */
-    template <typename VectorType>
+    /** Sparse matrix plus what couples many nodes. */
+    template <typename VectorType, typename Coupling>
     struct CoupledMatrix
     {
       const dealii::TrilinosWrappers::SparseMatrix &matrix;
-      const std::vector<VectorType> &columns;
-      const dealii::FullMatrix<double> *coupling; ///< null: no columns
+      const std::vector<Coupling> &couplings;
 
       void
       vmult(VectorType &result, const VectorType &x) const
       {
         matrix.vmult(result, x);
-        dealii::Vector<double> work(columns.size()), strength(columns.size());
-        for (unsigned int m = 0; m < columns.size(); ++m)
-          work[m] = columns[m] * x;
-        if (!columns.empty())
-          coupling->vmult(strength, work);
-        for (unsigned int m = 0; m < columns.size(); ++m)
-          result.add(strength[m], columns[m]);
+        for (const Coupling &coupling : couplings)
+          {
+            const std::vector<VectorType> &columns = coupling.columns;
+            dealii::Vector<double> work(columns.size()),
+              strength(columns.size());
+            for (unsigned int m = 0; m < columns.size(); ++m)
+              work[m] = columns[m] * x;
+            coupling.matrix->vmult(strength, work);
+            for (unsigned int m = 0; m < columns.size(); ++m)
+              result.add(strength[m], columns[m]);
+          }
       }
     };
   } // namespace
@@ -311,8 +232,8 @@ namespace Keyblock
         dealii::SolverCG<TrilinosVector> solver(control);
         try
           {
-            const CoupledMatrix<TrilinosVector> coupled{
-              matrix, far_columns, fields.far_field.coupling.get()};
+            const CoupledMatrix<TrilinosVector, Coupling> coupled{matrix,
+                                                                  couplings};
             solver.solve(coupled, solution, right_side, preconditioner);
           }
         catch (const dealii::SolverControl::NoConvergence &failure)
@@ -344,7 +265,6 @@ namespace Keyblock
   {
     dealii::AffineConstraints<double> lines;
     make_constraints(prescribed, lines);
-    constexpr unsigned int n = dim * (1 << dim);
 
     // lifting of prescribed displacements: their forces on free neighbours
     std::vector<double> lift(dim * numbering.n_local(), 0.);
@@ -364,32 +284,7 @@ namespace Keyblock
     std::fill(total.begin() + dim * numbering.n_owned(), total.end(), 0.);
     if (on_any_rank(has_lift))
       {
-        std::vector<double> lifted(lift.size(), 0.);
-        for (unsigned int c = 0; c < cells.nodes.size(); ++c)
-          {
-            Corners<dim, double> corners;
-            for (unsigned int v = 0; v < (1 << dim); ++v)
-              for (unsigned int d = 0; d < dim; ++d)
-                corners[v][d] = fields.reference[dim * cells.nodes[c][v] + d];
-            std::array<double, n> u;
-            bool is_touched = false;
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                u[i]       = lift[dim * cells.nodes[c][i / dim] + i % dim];
-                is_touched = is_touched || u[i] != 0.;
-              }
-            if (!is_touched)
-              continue;
-            const auto k = cell_stiffness<dim>(corners,
-                                               c >= cells.kind_begin[1],
-                                               cells.lambda[c],
-                                               cells.mu[c]);
-            for (unsigned int i = 0; i < n; ++i)
-              for (unsigned int j = 0; j < n; ++j)
-                lifted[dim * cells.nodes[c][i / dim] + i % dim] +=
-                  k[i * n + j] * u[j];
-          }
-        numbering.add_ghosts_to_owners(lifted);
+        const std::vector<double> lifted = force_of_lift(lift);
         for (unsigned int i = 0; i < dim * numbering.n_owned(); ++i)
           total[i] -= lifted[i];
       }

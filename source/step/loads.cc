@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Gravity, tractions, and ramps of what is out of balance.
-#include <keyblock/base/mpi.h>
-#include <keyblock/step/set_up.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/step/loads.h>
 
-#include <algorithm>
-#include <cmath>
 #include <regex>
 
 namespace Keyblock
@@ -21,23 +19,48 @@ namespace Keyblock
 
 
   template <int dim>
+  Loads<dim>::Loads(const Scene<dim> &scene,
+                    const SplitMesh<dim> &split,
+                    const Numbering<dim> &numbering,
+                    Fields<dim> &fields)
+    : scene(scene)
+    , split(split)
+    , numbering(numbering)
+    , fields(fields)
+  {
+    read_formulas();
+  }
+
+
+
+  template <int dim>
   void
-  Conditions<dim>::read_formulas()
+  Loads<dim>::set_up(const Ground<dim> &ground)
+  {
+    set_up_water(ground);
+    set_up_tractions(ground);
+    forget_load();
+  }
+
+
+
+  template <int dim>
+  void
+  Loads<dim>::read_formulas()
   {
     for (const auto &traction : scene.tractions)
       {
         tractions.push_back(std::make_unique<Expression<dim>>(
           traction->expression, dim, "Tractions/*/Traction"));
-        is_load_constant =
-          is_load_constant && !depends_on_time(traction->expression);
+        is_constant = is_constant && !depends_on_time(traction->expression);
       }
     if (!scene.initial_state.gravity.empty())
       {
         gravity = std::make_unique<Expression<dim>>(scene.initial_state.gravity,
                                                     dim,
                                                     "Initial state/Gravity");
-        is_load_constant =
-          is_load_constant && !depends_on_time(scene.initial_state.gravity);
+        is_constant =
+          is_constant && !depends_on_time(scene.initial_state.gravity);
       }
   }
 
@@ -45,22 +68,20 @@ namespace Keyblock
 
   template <int dim>
   void
-  Conditions<dim>::set_up_tractions()
+  Loads<dim>::set_up_tractions(const Ground<dim> &ground)
   {
     const Mesh<dim> &mesh = split.mesh;
-    set_up_water();
     nodal_tractions.clear();
-    is_load_set = false;
     std::vector<CellFace> free;
     if (!scene.tractions.empty())
-      free = list_free_faces(ground());
+      free = list_free_faces(ground);
     for (unsigned int t = 0; t < scene.tractions.size(); ++t)
       {
         const Traction<dim> &traction = *scene.tractions[t];
-        if (scene.stage_number(traction.stage) > stage_number)
+        if (scene.stage_number(traction.stage) > ground.stage_number)
           continue;
         const std::vector<CellFace> loaded =
-          list_loaded_faces(ground(), free, traction);
+          list_loaded_faces(ground, free, traction);
         for (const CellFace &face : loaded)
           {
             const Point<dim> center = mesh.face_center(face.cell, face.face);
@@ -78,7 +99,7 @@ namespace Keyblock
                                                center});
                 });
           }
-        AssertThrow(!loaded.empty() || stage_number > 1,
+        AssertThrow(!loaded.empty() || ground.stage_number > 1,
                     InputError("The traction '" + traction.name +
                                "' loads no face; check 'Tractions/" +
                                traction.name +
@@ -90,7 +111,7 @@ namespace Keyblock
 
   template <int dim>
   void
-  Conditions<dim>::set_up_water()
+  Loads<dim>::set_up_water(const Ground<dim> &ground)
   {
     water_forces.clear();
     const Interface<dim> &interface = split.interface;
@@ -103,8 +124,8 @@ namespace Keyblock
                                             "Joints/*/Water pressure");
     for (const JointFace &face : interface.joint_faces)
       {
-        if (!pressure[face.joint] || is_dug(face.minus_cell) ||
-            is_dug(face.plus_cell))
+        if (!pressure[face.joint] || ground.is_excavated(face.minus_cell) ||
+            ground.is_excavated(face.plus_cell))
           continue;
         const Tensor<1, dim> area =
           split.mesh.face_area_vector(face.minus_cell, face.minus_face);
@@ -131,14 +152,14 @@ namespace Keyblock
 
 
   template <int dim>
-  void
-  Conditions<dim>::set_load(const double time)
+  bool
+  Loads<dim>::set_load(const double time)
   {
-    const double left = share_left_at(ramp_progress);
-    if (is_load_set && is_load_constant && left == share_carried)
-      return;
-    is_load_set   = true;
-    share_carried = left;
+    const double left = ramp.share_left();
+    if (is_set && is_constant && left == share_set)
+      return false;
+    is_set    = true;
+    share_set = left;
     Tensor<1, dim> g;
     if (gravity)
       g = gravity->vector(Point<dim>(), time);
@@ -156,68 +177,21 @@ namespace Keyblock
       }
     for (unsigned int i = 0; i < carried_force.size(); ++i)
       fields.load[i] += left * carried_force[i];
-    for (unsigned int i = 0; i < far_field_force.size(); ++i)
-      fields.load[i] += far_field_force[i];
-  }
-
-
-
-  template <int dim>
-  double
-  Conditions<dim>::share_left_at(const double progress) const
-  {
-    return 0.5 * (1. + std::cos(dealii::numbers::PI * progress));
+    return true;
   }
 
 
 
   template <int dim>
   void
-  Conditions<dim>::start_ramp(const std::vector<double> &force,
-                              const double duration)
+  Loads<dim>::start_ramp(const std::vector<double> &force,
+                         const double duration)
   {
     carried_force = force;
-    ramp_duration = duration;
-    ramp_progress = duration > 0. ? 0. : 1.;
-    ramp_pace     = 1.;
-    is_load_set   = false;
+    ramp          = Ramp::over(duration);
+    forget_load();
   }
 
-
-
-  template <int dim>
-  void
-  Conditions<dim>::advance_ramp(const double step)
-  {
-    if (is_ramping())
-      ramp_progress = std::min(1., ramp_progress + next_progress(step));
-  }
-
-
-
-  template <int dim>
-  double
-  Conditions<dim>::next_progress(const double step) const
-  {
-    return is_ramping() ? ramp_pace * step / ramp_duration : 0.;
-  }
-
-
-
-  template void Conditions<2>::read_formulas();
-  template void Conditions<3>::read_formulas();
-  template void Conditions<2>::set_up_tractions();
-  template void Conditions<3>::set_up_tractions();
-  template void Conditions<2>::set_load(const double);
-  template void Conditions<3>::set_load(const double);
-  template double Conditions<2>::share_left_at(const double) const;
-  template double Conditions<3>::share_left_at(const double) const;
-  template double Conditions<2>::next_progress(const double) const;
-  template double Conditions<3>::next_progress(const double) const;
-  template void Conditions<2>::advance_ramp(const double);
-  template void Conditions<3>::advance_ramp(const double);
-  template void Conditions<2>::start_ramp(const std::vector<double> &,
-                                          const double);
-  template void Conditions<3>::start_ramp(const std::vector<double> &,
-                                          const double);
+  template class Loads<2>;
+  template class Loads<3>;
 } // namespace Keyblock

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Masses of nodes: true, of equal steps, or shared out anew within blocks.
 #include <keyblock/base/mpi.h>
-#include <keyblock/step/set_up.h>
+#include <keyblock/step/active_cells.h>
+#include <keyblock/step/step_spread.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +11,8 @@
 namespace Keyblock
 {
   template <int dim>
-  double
-  Conditions<dim>::density_of(const unsigned int mesh_cell) const
-  {
-    return scene.materials[material_of(mesh_cell)]->density;
-  }
-
-
-
-  template <int dim>
   const MassScaling *
-  Conditions<dim>::scaling_of(const unsigned int cell) const
+  ActiveCells<dim>::scaling_of(const unsigned int cell) const
   {
     if (mass_scaling.empty())
       return nullptr;
@@ -32,7 +24,7 @@ namespace Keyblock
 
   template <int dim>
   void
-  Conditions<dim>::set_up_mass_scaling()
+  ActiveCells<dim>::set_up_mass_scaling()
   {
     mass_scaling.clear();
     std::vector<double> scaled = frequency;
@@ -52,7 +44,7 @@ namespace Keyblock
 
   template <int dim>
   void
-  Conditions<dim>::share_out_masses()
+  ActiveCells<dim>::share_out_masses()
   {
     unsigned int n_blocks = 0;
     for (const unsigned int b : split.block_of_cell)
@@ -62,8 +54,8 @@ namespace Keyblock
     std::vector<unsigned int> block;
     for (const unsigned int mesh_cell : cells.mesh_cell)
       {
-        const auto shares =
-          lumped_mass<dim>(corners_of(mesh_cell), density_of(mesh_cell));
+        const auto shares = lumped_mass<dim>(corners_of(mesh_cell),
+                                             material_of(mesh_cell).density);
         mass.push_back(std::accumulate(shares.begin(), shares.end(), 0.));
         block.push_back(std::min(split.block_of_cell[mesh_cell], n_blocks));
       }
@@ -80,14 +72,15 @@ namespace Keyblock
   template <int dim>
   template <typename Density>
   std::vector<double>
-  Conditions<dim>::sum_masses(const Density &density) const
+  ActiveCells<dim>::sum_masses(const Density &density) const
   {
     std::vector<double> mass(dim * numbering.n_local(), 0.);
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       {
         const unsigned int mesh_cell = cells.mesh_cell[c];
-        const auto share             = lumped_mass<dim>(corners_of(mesh_cell),
-                                            density(c, density_of(mesh_cell)));
+        const auto share =
+          lumped_mass<dim>(corners_of(mesh_cell),
+                           density(c, material_of(mesh_cell).density));
         for (int v = 0; v < (1 << dim); ++v)
           for (int d = 0; d < dim; ++d)
             mass[dim * cells.nodes[c][v] + d] += share[v];
@@ -105,18 +98,17 @@ namespace Keyblock
 
   template <int dim>
   void
-  Conditions<dim>::set_up_mass()
+  ActiveCells<dim>::set_up_weighing_mass()
   {
     fields.weighing_mass = sum_masses(
       [](const unsigned int, const double density) { return density; });
-    scale_density(false);
   }
 
 
 
   template <int dim>
   void
-  Conditions<dim>::scale_density(const bool is_scaled)
+  ActiveCells<dim>::scale_density(const bool is_scaled)
   {
     if (is_scaled)
       fields.mass =
@@ -134,26 +126,41 @@ namespace Keyblock
     fields.inverse_mass.resize(fields.mass.size());
     for (unsigned int node = 0; node < fields.mass.size(); ++node)
       {
-        const int support =
-          fields.support_of_node.empty() ? -1 : fields.support_of_node[node];
+        const int support = fields.support_of_node[node];
         const bool is_free =
           support < 0 || !fields.supports[support].is_fixed();
         fields.inverse_mass[node] =
           is_free && fields.mass[node] > 0. ? 1. / fields.mass[node] : 0.;
       }
     hold_frozen_nodes();
-    list_moving_nodes();
     stable_step = unscaled_step;
     if (is_scaled)
       stable_step.frequency = lowest_frequency;
-    bound_step_by_far_field();
   }
 
 
 
   template <int dim>
   void
-  Conditions<dim>::set_damping(const double damping_ratio)
+  ActiveCells<dim>::hold_frozen_nodes()
+  {
+    if (is_frozen.empty())
+      return;
+    const Ground<dim> ground = this->ground();
+    // of all ranks' cells: those at the rim belong to several
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      if (is_frozen[c] && !ground.is_excavated(c))
+        for (const unsigned int vertex : split.mesh.cells[c])
+          if (const unsigned int node = numbering.local_node(vertex);
+              node != none)
+            fields.inverse_mass[node] = 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  ActiveCells<dim>::set_damping(const double damping_ratio)
   {
     cells.beta.clear();
     if (damping_ratio == 0.)
@@ -167,14 +174,13 @@ namespace Keyblock
             : std::max(frequency[c], scaling_of(c)->scaled(frequency[c]));
         cells.beta.push_back(2. * damping_ratio / highest);
       }
-    fields.damping_force.assign(fields.velocity.size(), 0.);
   }
 
 #define INSTANTIATE(dim)                                                       \
-  template void Conditions<dim>::set_up_mass_scaling();                        \
-  template void Conditions<dim>::set_up_mass();                                \
-  template void Conditions<dim>::scale_density(const bool);                    \
-  template void Conditions<dim>::set_damping(const double);
+  template void ActiveCells<dim>::set_up_mass_scaling();                       \
+  template void ActiveCells<dim>::set_up_weighing_mass();                      \
+  template void ActiveCells<dim>::scale_density(const bool);                   \
+  template void ActiveCells<dim>::set_damping(const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -244,8 +244,8 @@ namespace Keyblock
       return stage.local_damping > 0. ? with_drag(viscous, std::true_type())
                                       : with_drag(viscous, std::false_type());
     };
-    return stage.damping_ratio > 0. ? with_local(std::true_type())
-                                    : with_local(std::false_type());
+    return pass.has_damping ? with_local(std::true_type())
+                            : with_local(std::false_type());
   }
 
   template NodeWork predict(const Stage &, const NodePass &, Fields<2> &);

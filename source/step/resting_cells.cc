@@ -13,11 +13,13 @@ namespace Keyblock
   RestingCells<dim>::RestingCells(const SplitMesh<dim> &split,
                                   const Numbering<dim> &numbering,
                                   const CellArrays<dim> &cells,
-                                  Fields<dim> &fields)
+                                  Fields<dim> &fields,
+                                  const ForceElements<dim> &elements)
     : split(split)
     , numbering(numbering)
     , cells(cells)
     , fields(fields)
+    , elements(elements)
   {}
 
 
@@ -77,8 +79,9 @@ namespace Keyblock
     for (const NodeSupport<dim> &support : fields.supports)
       if (support.motion >= 0)
         never_rests[support.node] = true;
-    for (const auto &spring : fields.far_field.springs)
-      never_rests[spring.node] = true;
+    for (const auto &element : elements)
+      for (const unsigned int node : element->nodes())
+        never_rests[node] = true;
     std::fill(never_rests.begin() + numbering.n_owned(),
               never_rests.end(),
               true);

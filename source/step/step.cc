@@ -42,7 +42,7 @@ namespace Keyblock
     , cells(cells)
     , fields(fields)
     , contact(contact)
-    , resting(split, numbering, cells, fields)
+    , resting(split, numbering, cells, fields, conditions.elements)
     , deformation_damping(split, blocks, numbering, cells, fields)
   {}
 
@@ -175,7 +175,7 @@ namespace Keyblock
   {
     update_forces();
     const double before = elastic_energy<dim>(cells, positions());
-    conditions.dig(number);
+    conditions.excavate(number);
     conditions.set_damping(stage.damping_ratio);
     excavated_energy = before - elastic_energy<dim>(cells, positions());
     update_forces();
@@ -185,7 +185,7 @@ namespace Keyblock
         for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
           carried[i] =
             fields.internal_force[i] - fields.load[i] - fields.contact_force[i];
-    conditions.remove_held_components(carried);
+    conditions.supports.remove_held_components(carried);
     // a block that is taken away later in the stage carries less
     carried_sum = std::max(carried_sum, sum_of_sizes(carried));
     return carried;
@@ -270,105 +270,10 @@ namespace Keyblock
     is_first          = false;
     is_stress_current = false;
     previous_dt       = dt;
-    conditions.advance_ramp(dt);
+    conditions.loads.advance_ramp(dt);
     time += dt;
     ++n_steps;
     return dt;
-  }
-
-
-
-  template <int dim>
-  void
-  ExplicitStep<dim>::update_internal_force(const bool of_all)
-  {
-    const bool rests = may_rest();
-    if (!rests)
-      resting.wake();
-    const bool with_resting = of_all || resting.is_due();
-    n_skipped += with_resting ? 0. : cells.nodes.size() - resting.n_awake();
-    compute_internal_force(with_resting);
-    if (rests && resting.is_due())
-      look_for_rest();
-    resting.advance();
-  }
-
-
-
-  template <int dim>
-  bool
-  ExplicitStep<dim>::may_rest() const
-  {
-    return skips_resting && !conditions.is_load_changing() &&
-           (contact == nullptr || contact->tally.n_searches == n_searches_seen);
-  }
-
-
-
-  template <int dim>
-  void
-  ExplicitStep<dim>::look_for_rest()
-  {
-    conditions.set_load(time);
-    double square = 0.;
-    for (unsigned int i = 0; i < dim * numbering.n_owned(); i += dim)
-      {
-        double sum = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          sum += fields.velocity[i + d] * fields.velocity[i + d];
-        square = std::max(square, sum);
-      }
-    const double fastest = std::sqrt(max_over_ranks(square));
-    const double stopped =
-      resting.look({kick,
-                    scene.time_stepping.rest_speed * fastest,
-                    stage.damping_ratio > 0.},
-                   contact ? contact->list_mobile_nodes()
-                           : std::vector<unsigned int>());
-    // the energy that a stage starts with is measured behind the look
-    if (!is_first)
-      sums.local_damping += stopped;
-  }
-
-
-
-  template <int dim>
-  void
-  ExplicitStep<dim>::compute_internal_force(const bool with_resting)
-  {
-    const double start = MPI_Wtime();
-    std::fill(fields.internal_force.begin(), fields.internal_force.end(), 0.);
-    ForcePass pass;
-    pass.step        = is_stress_current ? 0. : previous_dt;
-    pass.is_large    = scene.time_stepping.is_large();
-    pass.has_damping = stage.damping_ratio > 0.;
-    pass.cells       = with_resting ? nullptr : resting.awake_cells();
-    if (pass.has_damping)
-      std::fill(fields.damping_force.begin(), fields.damping_force.end(), 0.);
-    add_internal_force<dim>(pass,
-                            cells,
-                            pass.is_large ? fields.position.data()
-                                          : fields.reference.data(),
-                            pass.is_large ? fields.rate.data()
-                                          : fields.velocity.data(),
-                            fields.internal_force.data(),
-                            fields.damping_force.data());
-    numbering.add_hanging_to_masters(fields.internal_force);
-    numbering.add_ghosts_to_owners(fields.internal_force);
-    fields.far_field.add_force(fields.displacement, fields.internal_force);
-    if (pass.has_damping)
-      {
-        numbering.add_hanging_to_masters(fields.damping_force);
-        numbering.add_ghosts_to_owners(fields.damping_force);
-        if (contact && stage.mass_damping == 0. && stage.local_damping == 0.)
-          deformation_damping.add_force(
-            *contact,
-            stage.damping_ratio,
-            conditions.stable_step.mass_damping_left(stage, dt),
-            positions());
-      }
-    is_stress_current = true;
-    force_seconds += MPI_Wtime() - start;
   }
 
 
@@ -389,6 +294,7 @@ namespace Keyblock
                                    dt,
                                    moves_inner,
                                    scene.time_stepping.is_large(),
+                                   has_damping_force(),
                                    resting.moving_nodes()},
                                   fields);
     if (keeps_ledger)
@@ -411,7 +317,7 @@ namespace Keyblock
                     stage.damps_contact_force ? stage.local_damping : 0.,
                     scene.time_stepping.is_large(),
                     keeps_ledger,
-                    conditions.ramp_share_left()});
+                    conditions.loads.ramp_share_left()});
     contact_seconds += MPI_Wtime() - start;
   }
 

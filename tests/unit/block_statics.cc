@@ -5,7 +5,7 @@
 
 #include <keyblock/base/mpi.h>
 #include <keyblock/safety/block_statics.h>
-#include <keyblock/step/set_up.h>
+#include <keyblock/step/conditions.h>
 
 #include <cmath>
 #include <fstream>
@@ -50,7 +50,7 @@ namespace
       CellArrays<dim> cells;
       Fields<dim> fields;
       Conditions<dim> conditions(scene, split, numbering, cells, fields);
-      conditions.dig(2);
+      conditions.excavate(2);
       conditions.set_load(0.);
       std::vector<bool> is_of_block(split.mesh.vertices.size(), false);
       for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)

@@ -231,7 +231,7 @@ end
     BOOST_TEST_MESSAGE(
       "velocity in situ: " << largest(simulation->vertex_velocities()) / scale);
     BOOST_TEST(largest(simulation->vertex_velocities()) <= 1e-11 * scale);
-    const auto states = simulation->interface_contact()->gather_pair_states();
+    const auto states = simulation->interface_contact()->gather_pairs();
     const auto forces =
       exact_forces(simulation->geometry(),
                    Expression<dim>(stress, n_stress<dim>, "stress"));

@@ -21,7 +21,7 @@ namespace Keyblock
     const std::vector<bool> *is_removed = nullptr;
 
     bool is_filled(const unsigned int cell) const;
-    bool is_dug(const unsigned int cell) const;
+    bool is_excavated(const unsigned int cell) const;
 
     /** Index into Scene::materials, that of the fill where it is filled. */
     unsigned int material_of(const unsigned int cell) const;

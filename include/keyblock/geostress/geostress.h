@@ -2,7 +2,9 @@
 #ifndef keyblock_geostress_geostress_h
 #define keyblock_geostress_geostress_h
 
-#include <keyblock/step/set_up.h>
+#include <keyblock/rock/dofs.h>
+#include <keyblock/rock/fields.h>
+#include <keyblock/rock/internal_force.h>
 
 #include <memory>
 #include <ostream>

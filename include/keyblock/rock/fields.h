@@ -2,8 +2,6 @@
 #ifndef keyblock_rock_fields_h
 #define keyblock_rock_fields_h
 
-#include <keyblock/rock/far_field.h>
-
 #include <array>
 #include <utility>
 #include <vector>
@@ -73,7 +71,6 @@ namespace Keyblock
     /** Velocity of the last move with its shifts, kept in `large` only. */
     std::vector<double> rate;
 
-    FarField<dim> far_field;
     std::vector<NodeSupport<dim>> supports; ///< sorted by node
     /** Owned nodes of each entry of Scene::supports. */
     std::vector<std::vector<unsigned int>> nodes_of_support;

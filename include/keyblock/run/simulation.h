@@ -87,11 +87,12 @@ namespace Keyblock
       return conditions->stable_step.limit(Stage());
     }
 
-    /** Inertia moved within blocks in the present stage (step/set_up.h). */
+    /** Inertia moved within blocks in the present stage (step/active_cells.h).
+     */
     const std::vector<MassScaling> &
     mass_scaling() const
     {
-      return conditions->mass_scaling;
+      return conditions->active_cells.mass_scaling;
     }
 
     /** What the monitors measured (rank 0). */

@@ -64,7 +64,7 @@ namespace Keyblock
 
   /**
    * What @p block touches and what acts on it at @p time. Water and tractions
-   * are summed as Conditions does, water by its pressure at the faces'
+   * are summed as Loads does, water by its pressure at the faces'
    * vertices; of a block that is known exactly (Block::exact), weight, areas
    * and water are those between its planes, where the mesh has bent them.
    */

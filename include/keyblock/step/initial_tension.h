@@ -2,7 +2,8 @@
 #ifndef keyblock_step_initial_tension_h
 #define keyblock_step_initial_tension_h
 
-#include <keyblock/step/set_up.h>
+#include <keyblock/blocks/interface.h>
+#include <keyblock/rock/internal_force.h>
 
 namespace Keyblock
 {

@@ -14,6 +14,7 @@ namespace Keyblock
     double dt;        ///< step [s]
     bool moves_inner; ///< move the nodes of inner runs at once
     bool is_large;    ///< cells follow their nodes: positions are kept
+    bool has_damping; ///< Fields::damping_force acts
     const std::vector<NodeRun> &runs; ///< nodes to work on
   };
 

@@ -5,6 +5,7 @@
 #include <keyblock/rock/dofs.h>
 #include <keyblock/rock/fields.h>
 #include <keyblock/rock/internal_force.h>
+#include <keyblock/step/force_element.h>
 
 namespace Keyblock
 {
@@ -40,7 +41,8 @@ namespace Keyblock
     RestingCells(const SplitMesh<dim> &split,
                  const Numbering<dim> &numbering,
                  const CellArrays<dim> &cells,
-                 Fields<dim> &fields);
+                 Fields<dim> &fields,
+                 const ForceElements<dim> &elements);
 
     /** Cells, nodes that move or supports have changed: start anew, with a look
      * at the next step. */
@@ -99,7 +101,7 @@ namespace Keyblock
 
     /** List the batches at each node, and the nodes that never rest: those of
      * joints, hanging nodes and their masters, nodes of moving supports and of
-     * the far field, nodes that other ranks have as well. */
+     * force elements, nodes that other ranks have as well. */
     void set_up();
 
     bool is_resting(const unsigned int node, const RestLimit &limit) const;
@@ -121,6 +123,7 @@ namespace Keyblock
     const Numbering<dim> &numbering;
     const CellArrays<dim> &cells;
     Fields<dim> &fields;
+    const ForceElements<dim> &elements;
 
     bool is_set_up = false, rests = false;
     unsigned int n_steps_left = 0;

@@ -3,10 +3,10 @@
 #define keyblock_step_step_h
 
 #include <keyblock/contact/contact.h>
+#include <keyblock/step/conditions.h>
 #include <keyblock/step/deformation_damping.h>
 #include <keyblock/step/energies.h>
 #include <keyblock/step/resting_cells.h>
-#include <keyblock/step/set_up.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -82,9 +82,9 @@ namespace Keyblock
     void settle_contact();
 
     /**
-     * Go to stage @p number (Conditions::dig). Returns the forces that keep the
-     * owned degrees of freedom balanced all the same: what dug cells carried,
-     * what new loads ask for [N].
+     * Go to stage @p number (Conditions::excavate). Returns the forces that
+     * keep the owned degrees of freedom balanced all the same: what dug cells
+     * carried, what new loads ask for [N].
      */
     std::vector<double> dig(const unsigned int number);
 
@@ -168,6 +168,13 @@ namespace Keyblock
     void compute_internal_force(const bool with_resting = true);
     /** Whether cells at rest stay so until the next look, and can be told. */
     bool may_rest() const;
+    /** Whether forces by velocities act: stiffness damping, dashpots. */
+    bool has_damping_force() const;
+    /** This rank's elastic energy, of cells and force elements (collective)
+     * [J]. */
+    double stored_energy() const;
+    /** What plastic strains of this rank have dissipated, ever [J]. */
+    double plastic_work() const;
     /** Choose the cells to leave out until the next look. */
     void look_for_rest();
     /** Kick all nodes; with @p moves_inner the inner ones move as well. */

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_step_conditions_h
+#define keyblock_step_conditions_h
+
+#include <keyblock/step/active_cells.h>
+#include <keyblock/step/far_field_springs.h>
+#include <keyblock/step/loads.h>
+#include <keyblock/step/supports.h>
+
+#include <algorithm>
+
+namespace Keyblock
+{
+  /** What has been excavated, taken away, ramped and let go so far. */
+  struct StageState
+  {
+    CellState cells;
+    LoadState loads;
+    std::vector<ForceElementState> elements;
+  };
+
+  /**
+   * From the scene to the arrays of the hot loops: the cells that are there,
+   * supports, loads and force elements, and the order in which they follow from
+   * each other.
+   */
+  template <int dim>
+  class Conditions
+  {
+  public:
+    Conditions(const Scene<dim> &scene,
+               const SplitMesh<dim> &split,
+               const Numbering<dim> &numbering,
+               CellArrays<dim> &cells,
+               Fields<dim> &fields);
+
+    /**
+     * Go to stage @p number (Scene::stage_number): take away the cells that are
+     * excavated, put in those that are filled, apply the tractions of the
+     * stage; cells, masses, supports and tractions are made anew, stresses of
+     * the cells that stay are kept. What the excavated cells carried is left
+     * unbalanced.
+     */
+    void excavate(const unsigned int number);
+
+    /** Whether stage @p number excavates, fills or loads anything. */
+    bool
+    changes(const unsigned int number) const
+    {
+      return is_changing(scene, number);
+    }
+
+    /** Leave out cells that stay as they are, and hold all their nodes; by mesh
+     * cell. Empty: none (see recall). */
+    void freeze(const std::vector<bool> &is_frozen_cell);
+
+    /** (collective) */
+    StageState remember() const;
+
+    /** Go back to a state; cells and fields are those of its stage, but with
+     * the stresses and motions of now (collective). */
+    void recall(const StageState &state);
+
+    /** Take up a state of another run; stresses are to be put in afterwards. */
+    void resume(const StageState &state);
+
+    /** Use masses that give all cells the lowest frequency of them, or not
+     * (ActiveCells::scale_density). */
+    void scale_density(const bool is_scaled);
+
+    /** Prepare for stiffness-proportional damping of this ratio [-]. */
+    void set_damping(const double damping_ratio);
+
+    /** Whether an element has a force by velocities. */
+    bool
+    has_viscous_elements() const
+    {
+      return std::any_of(elements.begin(), elements.end(), [](const auto &e) {
+        return e->is_viscous();
+      });
+    }
+
+    /** Whether the scene has supports of kind far field. */
+    bool
+    has_far_field() const
+    {
+      return far_field != nullptr;
+    }
+
+    /** Replace the far-field supports by springs, and what they carry now by a
+     * dead load; needs the present internal force and load. */
+    void release_far_field();
+
+    /** Set fields.load to all loads at @p time. */
+    void set_load(const double time);
+
+    /** Supports::apply_supports, with displacements that grow as the ramp goes.
+     */
+    void apply_supports(const double time, const double step);
+
+    ActiveCells<dim> active_cells;
+    Supports<dim> supports;
+    Loads<dim> loads;
+    ForceElements<dim> elements;
+
+    StableStep<dim> stable_step; ///< of the masses in use and all elements
+
+  private:
+    void make_elements();
+    void set_up_supports();
+
+    /** Take up a state; excavate is to follow if its cells are others. */
+    void take_up(const StageState &state);
+
+    /** List the nodes that may move, in runs (Fields::runs). */
+    void list_moving_nodes();
+
+    const Scene<dim> &scene;
+    const SplitMesh<dim> &split;
+    const Numbering<dim> &numbering;
+    Fields<dim> &fields;
+
+    FarFieldSprings<dim> *far_field = nullptr; ///< one of elements, if any
+  };
+} // namespace Keyblock
+
+#endif

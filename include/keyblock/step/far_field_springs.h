@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_step_far_field_springs_h
+#define keyblock_step_far_field_springs_h
+
+#include <keyblock/rock/far_field.h>
+#include <keyblock/step/force_element.h>
+
+namespace Keyblock
+{
+  /**
+   * The rock around the model, in place of the supports of kind far field: they
+   * hold the boundary until the initial state is in balance, then its springs
+   * (rock/far_field.h) take over, and what it carried stays as a dead load.
+   */
+  template <int dim>
+  class FarFieldSprings : public ForceElement<dim>
+  {
+  public:
+    FarFieldSprings(const Scene<dim> &scene,
+                    const SplitMesh<dim> &split,
+                    const Numbering<dim> &numbering);
+
+    /** Whether a support of @p scene is one. */
+    static bool is_wanted(const Scene<dim> &scene);
+
+    /** Whether the springs have taken over. */
+    bool
+    is_acting() const
+    {
+      return acts;
+    }
+
+    /** Take over from the supports, which carry @p internal_force less @p load
+     * now (local degrees of freedom) [N]. */
+    void release(const std::vector<double> &internal_force,
+                 const std::vector<double> &load);
+
+    std::string
+    name() const override
+    {
+      return "far_field";
+    }
+    std::vector<unsigned int> nodes() const override;
+    void add_force(const std::vector<double> &displacement,
+                   std::vector<double> &force) override;
+    void add_load(std::vector<double> &load) const override;
+    StepBound
+    step_bound(const std::vector<double> &inverse_mass) const override;
+    double
+    stored_energy(const std::vector<double> &displacement) const override;
+    void for_each_stiffness(
+      const typename ForceElement<dim>::AddStiffness &add) const override;
+    CoupledStiffness coupled_stiffness() const override;
+    ForceElementState remember() const override;
+    void recall(const ForceElementState &state) override;
+
+  private:
+    void set_up();
+
+    const Scene<dim> &scene;
+    const SplitMesh<dim> &split;
+    const Numbering<dim> &numbering;
+
+    FarField<dim> far_field; ///< empty until it acts
+    bool acts = false;
+    std::vector<double> dead_load; ///< by owned degree of freedom [N]
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_step_loads_h
+#define keyblock_step_loads_h
+
+#include <keyblock/base/expression.h>
+#include <keyblock/blocks/ground.h>
+#include <keyblock/rock/dofs.h>
+#include <keyblock/rock/fields.h>
+#include <keyblock/step/ramp.h>
+
+#include <memory>
+
+namespace Keyblock
+{
+  /** A load on one node that depends on position and time. */
+  template <int dim>
+  struct NodalTraction
+  {
+    unsigned int node;
+    unsigned int traction; ///< index into Scene::tractions
+    double area;           ///< [m^(dim-1)]
+    Point<dim> place;      ///< of the face's centre [m]
+  };
+
+  /** What is ramped out, and how far it is. */
+  struct LoadState
+  {
+    Ramp ramp;
+    std::vector<double> carried_force; ///< by owned degree of freedom [N]
+  };
+
+  /** Gravity, tractions, water in joints, and forces that are taken away over
+   * a time. */
+  template <int dim>
+  class Loads : private LoadState
+  {
+  public:
+    Loads(const Scene<dim> &scene,
+          const SplitMesh<dim> &split,
+          const Numbering<dim> &numbering,
+          Fields<dim> &fields);
+
+    /** Find the nodes that tractions and water act on in @p ground. */
+    void set_up(const Ground<dim> &ground);
+
+    /**
+     * Add @p force (owned degrees of freedom) to the load and take it away
+     * over @p duration, as half a cosine [N, s]. Displacements of supports grow
+     * with it. Duration 0: nothing is added, and they are reached at once.
+     */
+    void start_ramp(const std::vector<double> &force, const double duration);
+
+    /** Move on by a step [s] times the pace. */
+    void
+    advance_ramp(const double step)
+    {
+      ramp.advance(step);
+    }
+
+    /** Slow the ramp down, where it would outrun the rock: 0 to 1 [-]. */
+    void
+    set_ramp_pace(const double pace)
+    {
+      ramp.pace = pace;
+    }
+
+    bool
+    is_ramping() const
+    {
+      return ramp.is_running();
+    }
+
+    /** Share of what the stage ramps out that is left now [-]. */
+    double
+    ramp_share_left() const
+    {
+      return is_ramping() ? ramp.share_left() : 0.;
+    }
+
+    /** Share of it that goes in the next step of this length [s -> -]. */
+    double
+    ramp_share_of_step(const double step) const
+    {
+      return ramp.share_of_step(step);
+    }
+
+    /** Whether set_load sets other values from step to step. */
+    bool
+    is_load_changing() const
+    {
+      return !is_constant || is_ramping();
+    }
+
+    /** Set fields.load to gravity, water, tractions and ramped forces at
+     * @p time. Returns whether it had to: else they are what they were. */
+    bool set_load(const double time);
+
+    /** Let the next call of set_load set all values. */
+    void
+    forget_load()
+    {
+      is_set = false;
+    }
+
+    const LoadState &
+    state() const
+    {
+      return *this;
+    }
+
+    void
+    recall(const LoadState &other)
+    {
+      LoadState::operator=(other);
+      forget_load();
+    }
+
+  private:
+    void read_formulas();
+    void set_up_tractions(const Ground<dim> &ground);
+    void set_up_water(const Ground<dim> &ground);
+
+    const Scene<dim> &scene;
+    const SplitMesh<dim> &split;
+    const Numbering<dim> &numbering;
+    Fields<dim> &fields;
+
+    std::unique_ptr<Expression<dim>> gravity;
+    std::vector<std::unique_ptr<Expression<dim>>> tractions;
+    std::vector<NodalTraction<dim>> nodal_tractions;
+    /** Of water in joints, by degree of freedom [N]. */
+    std::vector<std::pair<unsigned int, double>> water_forces;
+    bool is_constant = true; ///< no formula depends on time
+    bool is_set      = false;
+    double share_set = 0.; ///< of the carried force in the load [-]
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_step_supports_h
+#define keyblock_step_supports_h
+
+#include <keyblock/base/expression.h>
+#include <keyblock/blocks/ground.h>
+#include <keyblock/rock/dofs.h>
+#include <keyblock/rock/fields.h>
+
+#include <map>
+#include <memory>
+
+namespace Keyblock
+{
+  /** Nodes that are held or moved, by supports of the scene and by rigid
+   * bodies. They are listed in Fields::supports. */
+  template <int dim>
+  class Supports
+  {
+  public:
+    Supports(const Scene<dim> &scene,
+             const SplitMesh<dim> &split,
+             const Numbering<dim> &numbering,
+             Fields<dim> &fields);
+
+    /** List the nodes that are held in @p ground; supports of kind far field
+     * do not count if @p is_far_field_free. Masses are to be set anew. */
+    void set_up(const Ground<dim> &ground, const bool is_far_field_free);
+
+    /** Remove held components of fields.velocity and put in those prescribed
+     * for the step from @p time to time + @p step, on owned nodes.
+     * Displacements that are reached grow by the share @p share_of_step [-]. */
+    void apply_supports(const double time,
+                        const double step,
+                        const double share_of_step);
+
+    /** Take the held components out of @p force (owned degrees of freedom). */
+    void remove_held_components(std::vector<double> &force) const;
+
+    /** Displacement [m] that a support prescribes at the end of the ramp. */
+    Tensor<1, dim> prescribed_displacement(const NodeSupport<dim> &s) const;
+
+  private:
+    using Found = std::map<unsigned int, NodeSupport<dim>>; ///< by local node
+
+    /** A formula by which nodes move; returns its index. */
+    int add_motion(const std::string &formula,
+                   const std::string &entry,
+                   const bool is_reached);
+    void hold_rigid_bodies(Found &found);
+
+    /** Hold the nodes of a support, number @p s; returns how many vertices of
+     * the whole mesh it holds. */
+    unsigned int
+    hold(const unsigned int s, const Ground<dim> &ground, Found &found);
+    Point<dim> place_of(const NodeSupport<dim> &support) const;
+
+    const Scene<dim> &scene;
+    const SplitMesh<dim> &split;
+    const Numbering<dim> &numbering;
+    Fields<dim> &fields;
+
+    /** Velocities, or displacements that are reached at the end of the ramp. */
+    std::vector<std::unique_ptr<Expression<dim>>> motions;
+    std::vector<bool> is_displacement; ///< one per motion
+  };
+} // namespace Keyblock
+
+#endif

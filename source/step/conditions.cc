@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/step/conditions.h>
+
+#include <keyblock/step/initial_state.h>
+
+namespace Keyblock
+{
+  template <int dim>
+  Conditions<dim>::Conditions(const Scene<dim> &scene,
+                              const SplitMesh<dim> &split,
+                              const Numbering<dim> &numbering,
+                              CellArrays<dim> &cells,
+                              Fields<dim> &fields)
+    : active_cells(scene, split, numbering, cells, fields)
+    , supports(scene, split, numbering, fields)
+    , loads(scene, split, numbering, fields)
+    , scene(scene)
+    , split(split)
+    , numbering(numbering)
+    , fields(fields)
+  {
+    allocate_fields(split, numbering, fields);
+    make_elements();
+    excavate(1);
+    set_initial_stress(scene, split.mesh, cells);
+    set_initial_velocity(scene, split.mesh, numbering, fields);
+    if (scene.time_stepping.is_large())
+      {
+        fields.position = fields.reference;
+        fields.rate     = fields.velocity;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::make_elements()
+  {
+    if (FarFieldSprings<dim>::is_wanted(scene))
+      {
+        auto springs =
+          std::make_unique<FarFieldSprings<dim>>(scene, split, numbering);
+        far_field = springs.get();
+        elements.push_back(std::move(springs));
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::excavate(const unsigned int number)
+  {
+    active_cells.excavate(number);
+    for (const auto &element : elements)
+      element->take_ground(active_cells.ground());
+    set_up_supports();
+    loads.set_up(active_cells.ground());
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::set_up_supports()
+  {
+    supports.set_up(active_cells.ground(), far_field && far_field->is_acting());
+    scale_density(false);
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::freeze(const std::vector<bool> &is_frozen_cell)
+  {
+    active_cells.freeze(is_frozen_cell);
+    excavate(active_cells.state().stage_number);
+  }
+
+
+
+  template <int dim>
+  StageState
+  Conditions<dim>::remember() const
+  {
+    StageState state{active_cells.state(), loads.state(), {}};
+    for (const auto &element : elements)
+      state.elements.push_back(element->remember());
+    return state;
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::take_up(const StageState &state)
+  {
+    active_cells.recall(state.cells);
+    loads.recall(state.loads);
+    for (unsigned int i = 0; i < elements.size(); ++i)
+      elements[i]->recall(state.elements.at(i));
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::recall(const StageState &state)
+  {
+    const bool has_other_cells = !(active_cells.state() == state.cells);
+    take_up(state);
+    if (has_other_cells)
+      excavate(state.cells.stage_number);
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::resume(const StageState &state)
+  {
+    take_up(state);
+    excavate(state.cells.stage_number);
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::scale_density(const bool is_scaled)
+  {
+    active_cells.scale_density(is_scaled);
+    list_moving_nodes();
+    stable_step = active_cells.stable_step;
+    for (const auto &element : elements)
+      stable_step.add(element->step_bound(fields.inverse_mass));
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::list_moving_nodes()
+  {
+    std::vector<bool> is_outer(numbering.n_local(), false);
+    const auto take = [&](const unsigned int vertex) {
+      split.for_each_carrier(vertex, [&](const unsigned int carrier, double) {
+        for (const unsigned int v : {vertex, carrier})
+          if (numbering.is_owned(v))
+            is_outer[numbering.local_node(v)] = true;
+      });
+    };
+    for (const unsigned int v : split.interface.group_vertices)
+      take(v);
+    for (const SurfaceFace<dim> &face : split.interface.surface)
+      for (const unsigned int v : face.vertices)
+        take(v);
+    for (const unsigned int node : numbering.hanging_nodes)
+      is_outer[node] = true;
+    for (const NodeSupport<dim> &support : fields.supports)
+      is_outer[support.node] = true;
+
+    fields.runs.clear();
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      if (is_outer[node] || fields.inverse_mass[node] > 0.)
+        {
+          if (fields.runs.empty() || fields.runs.back().end != node ||
+              fields.runs.back().is_inner == is_outer[node])
+            fields.runs.push_back({node, node, !is_outer[node]});
+          ++fields.runs.back().end;
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::set_damping(const double damping_ratio)
+  {
+    active_cells.set_damping(damping_ratio);
+    if (damping_ratio > 0. || has_viscous_elements())
+      fields.damping_force.assign(fields.velocity.size(), 0.);
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::release_far_field()
+  {
+    if (far_field == nullptr || far_field->is_acting())
+      return;
+    far_field->release(fields.internal_force, fields.load);
+    loads.forget_load();
+    set_up_supports();
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::set_load(const double time)
+  {
+    if (loads.set_load(time))
+      for (const auto &element : elements)
+        element->add_load(fields.load);
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::apply_supports(const double time, const double step)
+  {
+    supports.apply_supports(time, step, loads.ramp_share_of_step(step));
+  }
+
+  template class Conditions<2>;
+  template class Conditions<3>;
+} // namespace Keyblock

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The forces of a step: of all cells or those that do not rest, and of force
+// elements.
+#include <keyblock/step/step.h>
+
+#include <keyblock/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Keyblock
+{
+  template <int dim>
+  void
+  ExplicitStep<dim>::update_internal_force(const bool of_all)
+  {
+    const bool rests = may_rest();
+    if (!rests)
+      resting.wake();
+    const bool with_resting = of_all || resting.is_due();
+    n_skipped += with_resting ? 0. : cells.nodes.size() - resting.n_awake();
+    compute_internal_force(with_resting);
+    if (rests && resting.is_due())
+      look_for_rest();
+    resting.advance();
+  }
+
+
+
+  template <int dim>
+  bool
+  ExplicitStep<dim>::may_rest() const
+  {
+    return skips_resting && !conditions.loads.is_load_changing() &&
+           (contact == nullptr || contact->tally.n_searches == n_searches_seen);
+  }
+
+
+
+  template <int dim>
+  bool
+  ExplicitStep<dim>::has_damping_force() const
+  {
+    return stage.damping_ratio > 0. || conditions.has_viscous_elements();
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::look_for_rest()
+  {
+    conditions.set_load(time);
+    double square = 0.;
+    for (unsigned int i = 0; i < dim * numbering.n_owned(); i += dim)
+      {
+        double sum = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          sum += fields.velocity[i + d] * fields.velocity[i + d];
+        square = std::max(square, sum);
+      }
+    const double fastest = std::sqrt(max_over_ranks(square));
+    const double stopped = resting.look(
+      {kick, scene.time_stepping.rest_speed * fastest, has_damping_force()},
+      contact ? contact->list_mobile_nodes() : std::vector<unsigned int>());
+    // the energy that a stage starts with is measured behind the look
+    if (!is_first)
+      sums.local_damping += stopped;
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::compute_internal_force(const bool with_resting)
+  {
+    const double start = MPI_Wtime();
+    std::fill(fields.internal_force.begin(), fields.internal_force.end(), 0.);
+    ForcePass pass;
+    pass.step        = is_stress_current ? 0. : previous_dt;
+    pass.is_large    = scene.time_stepping.is_large();
+    pass.has_damping = stage.damping_ratio > 0.;
+    pass.cells       = with_resting ? nullptr : resting.awake_cells();
+    if (has_damping_force())
+      std::fill(fields.damping_force.begin(), fields.damping_force.end(), 0.);
+    add_internal_force<dim>(pass,
+                            cells,
+                            pass.is_large ? fields.position.data()
+                                          : fields.reference.data(),
+                            pass.is_large ? fields.rate.data()
+                                          : fields.velocity.data(),
+                            fields.internal_force.data(),
+                            fields.damping_force.data());
+    numbering.add_hanging_to_masters(fields.internal_force);
+    numbering.add_ghosts_to_owners(fields.internal_force);
+    for (const auto &element : conditions.elements)
+      element->add_force(fields.displacement, fields.internal_force);
+    if (pass.has_damping)
+      {
+        numbering.add_hanging_to_masters(fields.damping_force);
+        numbering.add_ghosts_to_owners(fields.damping_force);
+        if (contact && stage.mass_damping == 0. && stage.local_damping == 0.)
+          deformation_damping.add_force(
+            *contact,
+            stage.damping_ratio,
+            conditions.stable_step.mass_damping_left(stage, dt),
+            positions());
+      }
+    for (const auto &element : conditions.elements)
+      if (element->is_viscous())
+        element->add_damping_force(fields.velocity, fields.damping_force);
+    is_stress_current = true;
+    force_seconds += MPI_Wtime() - start;
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template void ExplicitStep<dim>::update_internal_force(const bool);          \
+  template bool ExplicitStep<dim>::has_damping_force() const;                  \
+  template void ExplicitStep<dim>::compute_internal_force(const bool);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Keyblock

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Loads sum up to area times traction and mass times gravity at any time, and
+// what is ramped out goes as half a cosine.
+#include "plate.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+
+using namespace Keyblock;
+
+namespace
+{
+  std::string
+  traction(const std::string &formula, const std::string &more = "")
+  {
+    return "subsection Tractions\n set Names = push\n subsection push\n  set "
+           "Boundaries = right\n  set Traction = " +
+           formula + "\n" + more + " end\nend\n" + one_stage;
+  }
+
+  void
+  check_sum(const Plate &plate, const double x, const double y)
+  {
+    const Tensor<1, 2> sum = plate.sum_of(plate.fields.load);
+    BOOST_TEST(std::abs(sum[0] - x) < 1e-9 * Plate::mass);
+    BOOST_TEST(std::abs(sum[1] - y) < 1e-9 * Plate::mass);
+  }
+} // namespace
+
+BOOST_AUTO_TEST_CASE(ramp_shares)
+{
+  Ramp ramp = Ramp::over(2.);
+  BOOST_TEST(ramp.is_running());
+  BOOST_TEST(ramp.share_left() == 1.);
+  BOOST_TEST(std::abs(ramp.share_of_step(1.) - 0.5) < 1e-15);
+  ramp.advance(0.5); // a quarter of the way
+  BOOST_TEST(std::abs(ramp.share_left() - 0.5 * (1. + std::sqrt(0.5))) < 1e-15);
+  ramp.pace = 0.5;
+  ramp.advance(1.); // half the way
+  BOOST_TEST(std::abs(ramp.share_left() - 0.5) < 1e-15);
+  // the last step ends at nothing
+  BOOST_TEST(ramp.share_of_step(1e3) == ramp.share_left());
+  ramp.advance(1e3);
+  BOOST_TEST(!ramp.is_running());
+  BOOST_TEST(ramp.share_left() == 0.);
+  BOOST_TEST(ramp.share_of_step(1.) == 0.);
+  BOOST_TEST(!Ramp::over(0.).is_running());
+}
+
+BOOST_AUTO_TEST_CASE(traction_is_area_times_traction)
+{
+  Plate plate(traction("3e3; -500"));
+  BOOST_TEST(!plate.conditions->loads.is_load_changing());
+  BOOST_TEST(plate.conditions->loads.set_load(0.));
+  check_sum(plate, 3e3, -500.); // a side of 1 m
+  for (unsigned int node = 0; node < plate.numbering->n_owned(); ++node)
+    if (plate.place_of(node)[0] < 1.9)
+      BOOST_TEST(plate.fields.load[2 * node] == 0.);
+  // nothing changes it any more
+  BOOST_TEST(!plate.conditions->loads.set_load(1.));
+}
+
+BOOST_AUTO_TEST_CASE(traction_of_a_stage)
+{
+  Plate plate(traction("3e3; 0", "  set Stage = rest\n"));
+  plate.conditions->set_load(0.);
+  check_sum(plate, 0., 0.);
+  BOOST_TEST(plate.conditions->changes(2));
+  plate.conditions->excavate(2);
+  plate.conditions->set_load(0.);
+  check_sum(plate, 3e3, 0.);
+}
+
+BOOST_AUTO_TEST_CASE(formulas_in_time)
+{
+  Plate plate("subsection Initial state\n set Gravity = 0; -10*t\nend\n" +
+              traction("1e3*t^2*y; 0"));
+  BOOST_TEST(plate.conditions->loads.is_load_changing());
+  for (const double time : {0., 1., 3.})
+    {
+      plate.conditions->set_load(time);
+      check_sum(plate, 500. * time * time, -10. * time * Plate::mass);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(carried_force_is_ramped_out)
+{
+  Plate plate("subsection Initial state\n set Gravity = 0; -10\nend\n" +
+              one_stage);
+  std::vector<double> carried(2 * plate.numbering->n_owned(), 0.);
+  for (unsigned int node = 0; node < plate.numbering->n_owned(); ++node)
+    carried[2 * node] = 8e3 / plate.numbering->n_global();
+  auto &loads = plate.conditions->loads;
+  loads.start_ramp(carried, 4.);
+  BOOST_TEST(loads.is_load_changing());
+  for (const double share : {1., 0.5, 0.})
+    {
+      plate.conditions->set_load(0.);
+      check_sum(plate, 8e3 * share, -10. * Plate::mass);
+      BOOST_TEST(std::abs(loads.ramp_share_left() - share) < 1e-15);
+      loads.advance_ramp(2.);
+    }
+  BOOST_TEST(!loads.is_load_changing());
+  // a state that is recalled is half way again
+  loads.start_ramp(carried, 4.);
+  loads.advance_ramp(2.);
+  const StageState half = plate.conditions->remember();
+  loads.start_ramp({}, 0.);
+  plate.conditions->set_load(0.);
+  check_sum(plate, 0., -10. * Plate::mass);
+  plate.conditions->recall(half);
+  plate.conditions->set_load(0.);
+  check_sum(plate, 4e3, -10. * Plate::mass);
+}
