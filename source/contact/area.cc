@@ -98,7 +98,8 @@ namespace Keyblock
         double gap = 0.;
         for (int d = 0; d < dim; ++d)
           gap += memory.normal[p][d] * (at_plus[d] - at_minus[d]);
-        if (gap > least_opening * pair.face_size)
+        if (gap - memory.state[p].history.dilation >
+            least_opening * pair.face_size)
           {
             memory.state[p].has_opened = true;
             shared_among               = {};
@@ -285,6 +286,59 @@ namespace Keyblock
       if (has_opened(slots[k], joint) || has_pair(slots[k], joint, block))
         sum += overlap.slave_weight[k];
     return std::min(sum, 1.);
+  }
+
+
+
+  template <int dim>
+  double
+  ContactAreas<dim>::share_of_closed_pairs(
+    const FaceOverlap<dim> &overlap) const
+  {
+    const auto &slots        = search.face_slots[overlap.slave_face];
+    const unsigned int joint = interface.surface[overlap.slave_face].joint;
+    const unsigned int block = interface.surface[overlap.master_face].block;
+    double sum               = 0.;
+    for (unsigned int k = 0; k < slots.size(); ++k)
+      if (has_pair(slots[k], joint, block))
+        sum += overlap.slave_weight[k];
+    return std::min(sum, 1.);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactAreas<dim>::average_pressure(const double kick)
+  {
+    std::map<Footing, double> area, impulse;
+    for (const FaceOverlap<dim> &overlap : overlaps)
+      area[key_of(overlap)] +=
+        overlap.area * (1. - share_of_closed_pairs(overlap));
+    for (const SurfaceContact<dim> &contact : memory.contacts)
+      if (contact.joint != none && !contact.is_ridge)
+        impulse[between(contact.joint,
+                        search.block_of_slot[contact.slave],
+                        contact.master_block)] +=
+          dot<dim>(contact.point.impulse, contact.point.normal);
+    mean_pressure.clear();
+    for (const auto &[key, sum] : impulse)
+      if (const auto found = area.find(key);
+          found != area.end() && found->second > 0.)
+        mean_pressure[key] = sum / (found->second * kick);
+  }
+
+
+
+  template <int dim>
+  double
+  ContactAreas<dim>::pressure_at(const SurfaceContact<dim> &contact) const
+  {
+    const auto found =
+      mean_pressure.find(between(contact.joint,
+                                 search.block_of_slot[contact.slave],
+                                 contact.master_block));
+    return found == mean_pressure.end() ? 0. : found->second;
   }
 
 

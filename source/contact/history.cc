@@ -3,7 +3,6 @@
 #include <keyblock/law/joint_law.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Keyblock
 {
@@ -69,6 +68,18 @@ namespace Keyblock
         place->joint == joint)
       return place->history;
     return memory.node_histories.insert(place, {slot, joint, {}})->history;
+  }
+
+
+
+  template <int dim>
+  double
+  ContactHistory<dim>::largest_dilation() const
+  {
+    double largest = 0.;
+    for (const NodeHistory &node : memory.node_histories)
+      largest = std::max(largest, node.history.dilation);
+    return largest;
   }
 
 
@@ -140,15 +151,12 @@ namespace Keyblock
             !strength.laws[contact.joint]->has_memory() ||
             point.status != ContactStatus::sliding)
           continue;
-        const double area     = areas.of(contact);
         JointHistory &history = at(contact.slave, contact.joint);
         history               = strength.laws[contact.joint]->advance(
           history,
           slip_of(relative_velocity<dim>(point, nodes.velocity.data()),
                   point.normal),
-          strength.pressure_of(point.impulse,
-                               point.normal,
-                               std::isnan(area) ? 0. : area));
+          areas.pressure_at(contact));
       }
   }
 

@@ -143,6 +143,8 @@ namespace Keyblock
       for (int d = 0; d < dim; ++d)
         p.gap += p.normal[d] *
                  (fields.displacement[pp + d] - fields.displacement[pm + d]);
+    if (s.status != ContactStatus::sticking)
+      p.gap -= s.history.dilation;
     p.is_intact = s.is_intact;
     p.strength  = strength_now;
     p.impulse =

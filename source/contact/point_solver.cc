@@ -50,7 +50,9 @@ namespace Keyblock
     const double r_n     = dot<dim>(point.impulse, point.normal);
     const double all     = -0.5 * dot<dim>(point.impulse, mean);
     const double closure = -0.5 * r_n * dot<dim>(point.normal, mean);
-    tally.work.closure += closure;
+    const bool dilates =
+      point.strength.dilation > 0. && point.status == ContactStatus::sliding;
+    (dilates ? tally.work.dilation : tally.work.closure) += closure;
     tally.work.friction += all - closure;
   }
 

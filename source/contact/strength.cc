@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/angle.h>
 #include <keyblock/contact/strength.h>
 #include <keyblock/law/friction.h>
 #include <keyblock/law/joint_law.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <cmath>
 
@@ -11,12 +10,6 @@ namespace Keyblock
 {
   namespace
   {
-    double
-    tangent_of(const double degrees)
-    {
-      return std::tan(degrees * dealii::numbers::PI / 180.);
-    }
-
     /** Impulse that no step reaches [N s]. */
     constexpr double unbreakable = 1e100;
   } // namespace
@@ -114,6 +107,7 @@ namespace Keyblock
   ContactStrength<dim>::of_surface(const SurfaceContact<dim> &contact,
                                    const double area,
                                    const JointHistory *history,
+                                   const double pressure,
                                    const double kick) const
   {
     const double share =
@@ -125,9 +119,7 @@ namespace Keyblock
     JointPointState point{false, false, {}, 0.};
     if (history != nullptr)
       point.history = *history;
-    if (has_memory && has_area)
-      point.pressure =
-        pressure_of(contact.point.impulse, contact.point.normal, area);
+    point.pressure                  = pressure;
     const StrengthEnvelope envelope = envelope_of(contact.joint, point);
     if (has_area && !contact.is_ridge)
       return envelope.of_point(share, area, kick);

@@ -145,16 +145,26 @@ namespace Keyblock
                  (nodes.position[i] - memory.searched_position[i]);
         square = std::max(square, way);
       }
-    search.evaluate(nodes.position, reach, std::sqrt(square), memory.contacts);
+    search.evaluate(nodes.position,
+                    reach + history.largest_dilation(),
+                    std::sqrt(square),
+                    memory.contacts);
     drop_removed_blocks();
     take_over_impulses(previous, step.kick / memory.last_kick);
     areas.share();
+    if (strength.has_memory)
+      areas.average_pressure(step.kick);
     for (SurfaceContact<dim> &contact : memory.contacts)
-      contact.point.strength =
-        strength.of_surface(contact,
-                            areas.of(contact),
-                            strength.has_memory ? history.of(contact) : nullptr,
-                            step.kick);
+      {
+        const JointHistory *past =
+          strength.has_memory ? history.of(contact) : nullptr;
+        const double pressure =
+          strength.has_memory ? areas.pressure_at(contact) : 0.;
+        if (past != nullptr && !contact.is_ridge)
+          contact.point.gap -= past->dilation;
+        contact.point.strength = strength.of_surface(
+          contact, areas.of(contact), past, pressure, step.kick);
+      }
   }
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/angle.h>
 #include <keyblock/law/coulomb_joint.h>
-
-#include <deal.II/base/numbers.h>
+#include <keyblock/law/dilation.h>
 
 #include <cmath>
 
@@ -9,12 +9,6 @@ namespace Keyblock
 {
   namespace
   {
-    double
-    tangent_of(const double degrees)
-    {
-      return std::tan(degrees * dealii::numbers::PI / 180.);
-    }
-
     class CoulombJoint : public JointLaw
     {
     public:
@@ -26,6 +20,7 @@ namespace Keyblock
         , cohesion(entries.cohesion)
         , residual_cohesion(entries.cohesion_of_sliding())
         , tensile_strength(entries.tensile_strength)
+        , dilation(entries)
       {}
 
       StrengthEnvelope
@@ -41,12 +36,30 @@ namespace Keyblock
           }
         else if (!state.has_opened)
           strength.cohesion = residual_cohesion;
+        strength.dilation_tangent = dilation.tangent_at(state.history.slip);
         return strength;
+      }
+
+      bool
+      has_memory() const override
+      {
+        return dilation.is_any();
+      }
+
+      JointHistory
+      advance(JointHistory history,
+              const double slip,
+              const double /*pressure*/) const override
+      {
+        history.slip += slip;
+        history.dilation = dilation.opening_at(history.slip);
+        return history;
       }
 
     private:
       double static_tangent, kinetic_tangent;               ///< tan(phi) [-]
       double cohesion, residual_cohesion, tensile_strength; ///< [Pa]
+      Dilation dilation;
     };
   } // namespace
 
@@ -56,8 +69,8 @@ namespace Keyblock
   coulomb_joint()
   {
     return {"coulomb",
-            "constant friction and cohesion",
-            {},
+            "constant friction and cohesion, and dilation up to a slip",
+            dilation_entries(),
             [](const JointStrength &entries, const std::string &) {
               return std::make_shared<const CoulombJoint>(entries);
             }};

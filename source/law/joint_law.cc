@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/errors.h>
+#include <keyblock/law/barton_bandis.h>
 #include <keyblock/law/coulomb_joint.h>
+#include <keyblock/law/slip_weakening.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -9,11 +12,24 @@ namespace Keyblock
   namespace
   {
     /** The laws that users can choose: a new one is a line here. */
-    std::vector<JointLawKind> &
+    const std::vector<JointLawKind> &
     registered_kinds()
     {
-      static std::vector<JointLawKind> kinds = {coulomb_joint()};
+      static const std::vector<JointLawKind> kinds = {coulomb_joint(),
+                                                      slip_weakening_joint(),
+                                                      barton_bandis_joint()};
       return kinds;
+    }
+
+    bool
+    has_entry(const std::vector<JointLawEntry> &entries,
+              const std::string &name)
+    {
+      return std::any_of(entries.begin(),
+                         entries.end(),
+                         [&](const JointLawEntry &entry) {
+                           return entry.name == name;
+                         });
     }
 
     std::vector<JointLawEntry>
@@ -22,11 +38,7 @@ namespace Keyblock
       std::vector<JointLawEntry> entries;
       for (const JointLawKind &kind : registered_kinds())
         for (const JointLawEntry &entry : kind.entries)
-          if (std::none_of(entries.begin(),
-                           entries.end(),
-                           [&](const JointLawEntry &other) {
-                             return other.name == entry.name;
-                           }))
+          if (!has_entry(entries, entry.name))
             entries.push_back(entry);
       return entries;
     }
@@ -44,14 +56,8 @@ namespace Keyblock
     strength.kinetic_friction = share * kinetic_tangent;
     strength.cohesion         = share * cohesion * area * kick;
     strength.tension          = share * tensile_strength * area * kick;
+    strength.dilation         = dilation_tangent;
     return strength;
-  }
-
-
-
-  JointLawRegistration::JointLawRegistration(const JointLawKind &kind)
-  {
-    registered_kinds().push_back(kind);
   }
 
 
@@ -87,7 +93,19 @@ namespace Keyblock
   std::shared_ptr<const JointLaw>
   make_joint_law(const JointStrength &entries, const std::string &section)
   {
-    return joint_law_kind(entries.law).make(entries, section);
+    const JointLawKind &kind = joint_law_kind(entries.law);
+    for (unsigned int i = 0; i < joint_law_entries().size(); ++i)
+      {
+        const JointLawEntry &entry = joint_law_entries()[i];
+        AssertThrow(entries.law_values[i] == entry.value ||
+                      has_entry(kind.entries, entry.name),
+                    InputError("'" + section + "/" + entry.name +
+                               "' is given, but the joint's law is '" +
+                               kind.name +
+                               "', which does not use it; remove it or choose "
+                               "another 'Law'."));
+      }
+    return kind.make(entries, section);
   }
 
 

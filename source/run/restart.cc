@@ -221,6 +221,7 @@ namespace Keyblock
                          {&contact->tally.work.friction,
                           &contact->tally.work.closure,
                           &contact->tally.work.penetration,
+                          &contact->tally.work.dilation,
                           &n_capped});
     contact->tally.n_capped = n_capped;
   }

@@ -133,15 +133,17 @@ namespace Keyblock
       unsigned int
       new_entry(const Tensor<1, dim> &inward,
                 const std::string &name,
-                const JointLaw &law)
+                const std::shared_ptr<const JointLaw> &law)
       {
-        const StrengthEnvelope strength = law.envelope(JointPointState());
+        const StrengthEnvelope strength = law->envelope(JointPointState());
         BlockFace<dim> face;
         face.inward           = inward;
         face.name             = name;
         face.tangent_friction = strength.static_tangent;
         face.cohesion         = strength.cohesion;
         face.tensile_strength = strength.tensile_strength;
+        if (law->has_memory())
+          face.law = law;
         result.faces.push_back(face);
         result.others.emplace_back();
         return result.faces.size() - 1;
@@ -157,7 +159,7 @@ namespace Keyblock
         const unsigned int entry =
           new_entry((is_plus ? 1. : -1.) * joint.normal(),
                     joint.name,
-                    *make_joint_law(joint));
+                    make_joint_law(joint));
         return entries[{j, is_plus}] = entry;
       }
 
@@ -220,7 +222,7 @@ namespace Keyblock
         if (entry == result.faces.size())
           new_entry(-outward,
                     "a free face",
-                    *make_friction_law(
+                    make_friction_law(
                       ground.scene.contact.default_friction_angle));
         add_area(entry,
                  own,

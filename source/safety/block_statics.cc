@@ -265,7 +265,7 @@ namespace Keyblock
     statics.around = look_around(ground, free, blocks.blocks[block], time);
     const BlockLoads<dim> &loads = statics.around.loads;
     statics.limit =
-      solve_limit_equilibrium<dim>(statics.around.faces, loads.without_water());
+      solve_with_laws<dim>(statics.around.faces, loads.without_water());
     const double factor_of_sliding = statics.limit.factor;
     const Rotation rotation =
       judge_rotation<dim>(statics.around.faces, loads.all(), statics.limit);

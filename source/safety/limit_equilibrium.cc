@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/law/joint_law.h>
 #include <keyblock/safety/limit_equilibrium.h>
 
 #include <algorithm>
@@ -239,6 +240,31 @@ namespace Keyblock
 
   template struct LimitEquilibrium<2>;
   template struct LimitEquilibrium<3>;
+  template <int dim>
+  LimitEquilibrium<dim>
+  solve_with_laws(std::vector<BlockFace<dim>> &faces,
+                  const Tensor<1, dim> &load)
+  {
+    const LimitEquilibrium<dim> result = solve_limit_equilibrium(faces, load);
+    // the mode and the normal forces do not depend on friction
+    bool has_changed = false;
+    for (unsigned int i = 0; i < result.n_pressed; ++i)
+      {
+        BlockFace<dim> &face = faces[result.faces[i]];
+        if (face.law == nullptr || face.area <= 0.)
+          continue;
+        JointPointState state;
+        state.pressure        = result.normal_forces[i] / face.area;
+        face.tangent_friction = face.law->envelope(state).static_tangent;
+        has_changed           = true;
+      }
+    return has_changed ? solve_limit_equilibrium(faces, load) : result;
+  }
+
+  template LimitEquilibrium<2> solve_with_laws(std::vector<BlockFace<2>> &,
+                                               const Tensor<1, 2> &);
+  template LimitEquilibrium<3> solve_with_laws(std::vector<BlockFace<3>> &,
+                                               const Tensor<1, 3> &);
   template LimitEquilibrium<2>
   solve_limit_equilibrium(const std::vector<BlockFace<2>> &,
                           const Tensor<1, 2> &);

@@ -12,8 +12,8 @@ namespace Keyblock
   Energies::residual() const
   {
     return start + external + supports - kinetic - elastic - friction -
-           contact_closure - penetration - stiffness_damping - mass_damping -
-           local_damping - plastic;
+           contact_closure - penetration - dilation - stiffness_damping -
+           mass_damping - local_damping - plastic;
   }
 
 
@@ -29,6 +29,7 @@ namespace Keyblock
        {"friction", &Energies::friction},
        {"contact_closure", &Energies::contact_closure},
        {"penetration", &Energies::penetration},
+       {"dilation", &Energies::dilation},
        {"stiffness_damping", &Energies::stiffness_damping},
        {"mass_damping", &Energies::mass_damping},
        {"local_damping", &Energies::local_damping},
@@ -197,6 +198,8 @@ namespace Keyblock
           contact->tally.work.closure - contact_work_at_start.closure;
         mine.penetration =
           contact->tally.work.penetration - contact_work_at_start.penetration;
+        mine.dilation =
+          contact->tally.work.dilation - contact_work_at_start.dilation;
       }
     std::array<double, n_energy_terms> values = mine.as_array();
     sum_lists(values);

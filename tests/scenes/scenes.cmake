@@ -89,6 +89,12 @@ foreach(case 10_40 68_40 25_50 60_40 50_25 75_68 77_76 80_75)
     SET "Joints/base/Friction angle=${friction}"
     "Initial state/Gravity=9.81*sin(${dip}*pi/180)@ -9.81*cos(${dip}*pi/180)")
 endforeach()
+# a flat slab on a rough joint at the dip at which its strength is used up
+keyblock_scene(verification/factor_incline REFERENCES factor_incline_rough RANKS 1 2
+  SET "Domain/Size=1, 0.12" "Mesh/Cells=40, 12" "Materials/rock/Density=265035.678"
+  "Joints/base/Law=barton-bandis" "Joints/base/JRC=10" "Joints/base/JCS=50e6"
+  "Joints/base/Residual friction angle=30" "Safety factor/Bracket=0.002"
+  "Initial state/Gravity=9.81*sin(63.305*pi/180)@ -9.81*cos(63.305*pi/180)")
 keyblock_scene(verification/friction_rod_400 RANKS 2)
 foreach(angle 10 20 30 35)
   keyblock_scene(verification/footing_${angle} RANKS 1)

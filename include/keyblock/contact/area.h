@@ -36,6 +36,14 @@ namespace Keyblock
     /** Area that a surface contact stands for [m^(dim-1)]; NaN: unknown. */
     double of(const SurfaceContact<dim> &contact) const;
 
+    /** Take the mean of the pressure on each joint between two blocks.
+     * @param kick interval of the impulses [s] */
+    void average_pressure(const double kick);
+
+    /** That mean where a surface contact is [Pa]; 0 if there is none. What a
+     * single point stands for changes as nodes pass faces. */
+    double pressure_at(const SurfaceContact<dim> &contact) const;
+
     /** Mark the pairs of such joints whose sides have come apart. */
     void note_openings();
 
@@ -77,6 +85,9 @@ namespace Keyblock
      * with a pair, or whose pair has opened. */
     double share_of_pairs(const FaceOverlap<dim> &overlap) const;
 
+    /** That of nodes with a pair alone. */
+    double share_of_closed_pairs(const FaceOverlap<dim> &overlap) const;
+
     /** Whether the pair of a surface node on @p joint has opened. */
     bool has_opened(const unsigned int slot, const unsigned int joint) const;
 
@@ -98,6 +109,9 @@ namespace Keyblock
     /** As list_footings() was when areas were shared. */
     std::array<std::vector<Footing>, 2> shared_among;
     std::map<Footing, double> covered_area; ///< [m^(dim-1)]
+
+    /** By joint and blocks [Pa]. */
+    std::map<Footing, double> mean_pressure;
   };
 } // namespace Keyblock
 

@@ -26,6 +26,9 @@ namespace Keyblock
     /** That of a surface contact's slave on its joint; null: none. */
     const JointHistory *of(const SurfaceContact<dim> &contact) const;
 
+    /** Of all surface nodes [m]: surfaces so far apart may touch. */
+    double largest_dilation() const;
+
     /** Leave what a pair's joint remembers to its nodes. */
     void pass_on(const unsigned int pair);
 

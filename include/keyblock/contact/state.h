@@ -105,6 +105,7 @@ namespace Keyblock
     double friction    = 0.;
     double closure     = 0.;
     double penetration = 0.;
+    double dilation    = 0.; ///< negative: it pushes the sides apart
   };
 
   /** What contact has done since the start, on this rank. */

@@ -34,10 +34,12 @@ namespace Keyblock
 
     /** Strength of a surface contact that stands for @p area [m^(dim-1)], NaN
      * if it is not known; then cohesion stays what it was.
-     * @param history of its slave on the joint, or null */
+     * @param history of its slave on the joint, or null
+     * @param pressure on the joint there [Pa] */
     PointStrength of_surface(const SurfaceContact<dim> &contact,
                              const double area,
                              const JointHistory *history,
+                             const double pressure,
                              const double kick) const;
 
     /** Tension and shear of a pair in state @p now beyond its strength [N]. */

@@ -54,6 +54,10 @@ namespace Keyblock
    *   r_n < -T opens;  |r_t| <= C + mu_s r_n sticks,
    *   else r_t = (C + mu_k r_n) r_t / |r_t|.
    *
+   * A joint that dilates opens by tan(psi) of what it slips, for which its
+   * normal impulse grows: r_n = (r_n + tan(psi) (|r_t| - C)) / (1 + tan(psi)
+   * mu_k).
+   *
    * The solution of the contact problem of one point if its inverse mass is
    * the same in all directions.
    */
@@ -63,12 +67,16 @@ namespace Keyblock
                      const Vector<dim> &normal,
                      const PointStrength &strength)
   {
-    const double r_n          = dot<dim>(stick, normal);
+    double r_n                = dot<dim>(stick, normal);
     const Vector<dim> tangent = add<dim>(stick, -r_n, normal);
     const double r_t          = norm<dim>(tangent);
+    const bool sticks         = r_t <= strength.sticking_limit(r_n);
+    if (strength.dilation > 0. && !sticks)
+      r_n = (r_n + strength.dilation * (r_t - strength.cohesion)) /
+            (1. + strength.dilation * strength.kinetic_friction);
     if (r_n < -strength.tension)
       return {Vector<dim>{}, ContactStatus::open};
-    if (r_t <= strength.sticking_limit(r_n))
+    if (sticks)
       return {stick, ContactStatus::sticking};
     const double limit = strength.sliding_limit(r_n);
     Vector<dim> impulse;

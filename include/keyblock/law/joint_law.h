@@ -19,6 +19,7 @@ namespace Keyblock
     double kinetic_tangent  = 0.; ///< tan(phi) while it slides [-]
     double cohesion         = 0.; ///< [Pa]
     double tensile_strength = 0.; ///< [Pa]
+    double dilation_tangent = 0.; ///< tan(psi): opening over slip now [-]
 
     /** The same as impulses of a point.
      * @param share of the strength that is left, as in strength reduction [-]
@@ -91,13 +92,6 @@ namespace Keyblock
     std::function<std::shared_ptr<const JointLaw>(const JointStrength &entries,
                                                   const std::string &section)>
       make;
-  };
-
-  /** Add a law to those that can be chosen: before a scene is read. */
-  class JointLawRegistration
-  {
-  public:
-    explicit JointLawRegistration(const JointLawKind &kind);
   };
 
   /** All laws that can be chosen; the first is the default. */

@@ -23,6 +23,7 @@ namespace Keyblock
     double kinetic_friction = 0.; ///< tan(phi) while it slides
     double cohesion         = 0.;
     double tension          = 0.;
+    double dilation         = 0.; ///< tan(psi): opening over slip
 
     /** Largest shear [N s] under the normal impulse @p r_n: of a point that
      * sticks, and of one that slides. */

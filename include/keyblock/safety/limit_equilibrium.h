@@ -5,11 +5,14 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace Keyblock
 {
+  class JointLaw; // law/joint_law.h
+
   /** A plane on which a rigid block rests, or may slide. */
   template <int dim>
   struct BlockFace
@@ -20,6 +23,9 @@ namespace Keyblock
     double cohesion         = 0.;  ///< [Pa]
     double water_force      = 0.;  ///< pressure times area, pushes inwards [N]
     std::string name;              ///< of the joint
+
+    /** Set if friction depends on the normal stress. */
+    std::shared_ptr<const JointLaw> law{};
 
     // only for judge_rotation()
     double tensile_strength = 0.;               ///< [Pa]
@@ -77,6 +83,12 @@ namespace Keyblock
   LimitEquilibrium<dim>
   solve_limit_equilibrium(const std::vector<BlockFace<dim>> &faces,
                           const dealii::Tensor<1, dim> &load);
+
+  /** The same where the friction of some faces depends on their normal stress:
+   * statics gives it, and @p faces the friction that belongs to it. */
+  template <int dim>
+  LimitEquilibrium<dim> solve_with_laws(std::vector<BlockFace<dim>> &faces,
+                                        const dealii::Tensor<1, dim> &load);
 } // namespace Keyblock
 
 #endif

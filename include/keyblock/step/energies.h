@@ -9,10 +9,10 @@
 
 namespace Keyblock
 {
-  constexpr unsigned int n_energy_terms = 13;
+  constexpr unsigned int n_energy_terms = 14;
 
   /** Those that history.csv lists: all but the last two. */
-  constexpr unsigned int n_recorded_energies = 11;
+  constexpr unsigned int n_recorded_energies = 12;
 
   /** Every energy of the ledger [J], per metre of thickness in 2D. Work terms
    * count since the start of the stage; losses are positive. */
@@ -25,6 +25,7 @@ namespace Keyblock
     double friction          = 0.;
     double contact_closure   = 0.;
     double penetration       = 0.; ///< work of the position correction
+    double dilation          = 0.; ///< of pressure where joints dilate: gained
     double stiffness_damping = 0.;
     double mass_damping      = 0.;
     double local_damping     = 0.;

@@ -234,6 +234,7 @@ namespace Keyblock
     for (double *const share : {&contact_work_at_start.friction,
                                 &contact_work_at_start.closure,
                                 &contact_work_at_start.penetration,
+                                &contact_work_at_start.dilation,
                                 &plastic_work_at_start,
                                 &excavated_energy})
       shares.push_back(share);
