@@ -7,7 +7,7 @@ usage: contrib/compare_builds.py OLD_KEYBLOCK [--keyblock NEW] [--build FOLDER]
 
 Runs every scene of the quick tests (those that `ctest` lists in FOLDER) with both
 programs and compares all rows of history.csv, as they are written; headers may
-differ. Prints the scenes that differ and by how much at most, relative to the
+differ, and a column that only one of them has is left out. Prints the scenes that differ and by how much at most, relative to the
 largest number in the column. Exits with 1 if there are any.
 """
 import concurrent.futures
@@ -45,13 +45,18 @@ def rows_of(program, scene, ranks, overrides, folder):
     if done.returncode != 0 or not history.exists():
         return None
     with open(history, encoding="utf-8") as file:
-        return list(csv.reader(file))[1:]
+        return list(csv.reader(file))
 
 
 def difference(old, new):
     """Nothing if equal, else a sentence."""
     if old is None or new is None:
         return "both runs failed" if old is new else "one of the runs failed"
+    if len(old[0]) != len(new[0]):  # what only one of them has says nothing
+        common = set(old[0]) & set(new[0])
+        old, new = ([[value for title, value in zip(rows[0], row) if title in common]
+                     for row in rows] for rows in (old, new))
+    old, new = old[1:], new[1:]
     if old == new:
         return None
     if [len(row) for row in old] != [len(row) for row in new]:

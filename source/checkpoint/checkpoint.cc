@@ -69,7 +69,6 @@ namespace Keyblock
     action(pair.bend_tension);
     action(pair.weld_shear);
     action(pair.weld_tension);
-    for_each_number(pair.history, action);
   }
 
   template <typename Action>
@@ -316,13 +315,14 @@ namespace Keyblock
 
 
   template <int dim>
+  template <typename T>
   void
   StateExchange<dim>::exchange_pairs(const std::string &entry,
-                                     std::vector<PairState<dim>> &state)
+                                     std::vector<T> &state)
   {
     // of each group from the owner of its first vertex, who solves it
     const Interface<dim> &interface = split.interface;
-    const std::size_t n             = numbers_of(PairState<dim>()).size();
+    const std::size_t n             = numbers_of(T()).size();
     std::vector<double> rows(n * state.size(), 0.);
     for (unsigned int g = 0; g < interface.n_groups() && !state.empty(); ++g)
       if (numbering.is_owned(
@@ -339,10 +339,11 @@ namespace Keyblock
     file.exchange(entry, rows);
     if (!file.is_read())
       return;
-    assert_length(entry, rows.size(), n * interface.pairs.size());
+    if (!rows.empty())
+      assert_length(entry, rows.size(), n * interface.pairs.size());
     state.clear();
     for (std::size_t i = 0; i < rows.size(); i += n)
-      state.push_back(from_numbers<PairState<dim>>(rows.data() + i));
+      state.push_back(from_numbers<T>(rows.data() + i));
   }
 
 
@@ -353,6 +354,7 @@ namespace Keyblock
                                ContactMemory<dim> &memory)
   {
     exchange_pairs(group + "pairs", memory.state);
+    exchange_pairs(group + "pair_histories", memory.pair_histories);
     exchange_rows(file, group + "surface_contacts", memory.contacts);
     exchange_rows(file, group + "node_histories", memory.node_histories);
     std::vector<double> normals;

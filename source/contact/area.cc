@@ -98,8 +98,7 @@ namespace Keyblock
         double gap = 0.;
         for (int d = 0; d < dim; ++d)
           gap += memory.normal[p][d] * (at_plus[d] - at_minus[d]);
-        if (gap - memory.state[p].history.dilation >
-            least_opening * pair.face_size)
+        if (gap - memory.dilation_of(p) > least_opening * pair.face_size)
           {
             memory.state[p].has_opened = true;
             shared_among               = {};
@@ -246,7 +245,7 @@ namespace Keyblock
     for (unsigned int i = 0; i < overlaps.size(); ++i)
       {
         const FaceOverlap<dim> &overlap = overlaps[i];
-        const double area = overlap.area * (1. - share_of_pairs(overlap));
+        const double area = overlap.area * (1. - share_of_pairs(overlap, true));
         const std::size_t n_before = shares.size();
         const bool is_shared = share_between(overlap, area, pressed, shares);
         areas[key_of(overlap)][is_shared ? 0 : 1] += area;
@@ -275,32 +274,16 @@ namespace Keyblock
 
   template <int dim>
   double
-  ContactAreas<dim>::share_of_pairs(const FaceOverlap<dim> &overlap) const
-  {
-    // what pairs stand for is theirs, and what has opened is nobody's
-    const auto &slots        = search.face_slots[overlap.slave_face];
-    const unsigned int joint = interface.surface[overlap.slave_face].joint;
-    const unsigned int block = interface.surface[overlap.master_face].block;
-    double sum               = 0.;
-    for (unsigned int k = 0; k < slots.size(); ++k)
-      if (has_opened(slots[k], joint) || has_pair(slots[k], joint, block))
-        sum += overlap.slave_weight[k];
-    return std::min(sum, 1.);
-  }
-
-
-
-  template <int dim>
-  double
-  ContactAreas<dim>::share_of_closed_pairs(
-    const FaceOverlap<dim> &overlap) const
+  ContactAreas<dim>::share_of_pairs(const FaceOverlap<dim> &overlap,
+                                    const bool with_opened) const
   {
     const auto &slots        = search.face_slots[overlap.slave_face];
     const unsigned int joint = interface.surface[overlap.slave_face].joint;
     const unsigned int block = interface.surface[overlap.master_face].block;
     double sum               = 0.;
     for (unsigned int k = 0; k < slots.size(); ++k)
-      if (has_pair(slots[k], joint, block))
+      if ((with_opened && has_opened(slots[k], joint)) ||
+          has_pair(slots[k], joint, block))
         sum += overlap.slave_weight[k];
     return std::min(sum, 1.);
   }
@@ -314,7 +297,7 @@ namespace Keyblock
     std::map<Footing, double> area, impulse;
     for (const FaceOverlap<dim> &overlap : overlaps)
       area[key_of(overlap)] +=
-        overlap.area * (1. - share_of_closed_pairs(overlap));
+        overlap.area * (1. - share_of_pairs(overlap, false));
     for (const SurfaceContact<dim> &contact : memory.contacts)
       if (contact.joint != none && !contact.is_ridge)
         impulse[between(contact.joint,

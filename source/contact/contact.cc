@@ -9,11 +9,10 @@ namespace Keyblock
     /** Steps between two looks at the normals of pairs, in large kinematics. */
     constexpr unsigned int normals_interval = 20;
 
-    /** All pairs bonded as their joints and the rock around them are. */
+    /** That of the start, but for bonds. */
     template <int dim>
     ContactMemory<dim>
-    make_memory(const Scene<dim> &scene,
-                const SplitMesh<dim> &split,
+    make_memory(const SplitMesh<dim> &split,
                 const Blocks<dim> &blocks,
                 const ContactSearch<dim> &search)
     {
@@ -22,11 +21,7 @@ namespace Keyblock
       memory.state.resize(interface.pairs.size());
       for (unsigned int p = 0; p < interface.pairs.size(); ++p)
         {
-          const Joint<dim> &joint = *scene.joints[interface.pairs[p].joint];
-          PairState<dim> &state   = memory.state[p];
-          state.is_welded         = interface.pairs[p].unwelding_stage > 1;
-          state.is_intact         = state.is_welded || scene.contact.tie_all ||
-                            joint.cohesion > 0. || joint.tensile_strength > 0.;
+          memory.state[p].is_welded = interface.pairs[p].unwelding_stage > 1;
           Vector<dim> n;
           for (int d = 0; d < dim; ++d)
             n[d] = interface.pairs[p].normal[d];
@@ -50,7 +45,7 @@ namespace Keyblock
                         Fields<dim> &fields)
     : fields(fields)
     , search(split, blocks, scene)
-    , memory(make_memory(scene, split, blocks, search))
+    , memory(make_memory(split, blocks, search))
     , topology(scene, split, numbering, search)
     , strength(topology, memory)
     , loans(topology, strength, memory)
@@ -78,7 +73,23 @@ namespace Keyblock
                solver,
                memory)
     , sums(topology, nodes, fields, memory)
-  {}
+  {
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      memory.state[p].is_intact =
+        memory.state[p].is_welded ||
+        strength.is_bonded(topology.interface.pairs[p].joint);
+    keep_histories();
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::keep_histories()
+  {
+    if (strength.has_memory)
+      memory.pair_histories.resize(memory.state.size());
+  }
 
 
 
@@ -175,7 +186,8 @@ namespace Keyblock
   void
   Contact<dim>::recall(const ContactMemory<dim> &past)
   {
-    memory               = past;
+    memory = past;
+    keep_histories();
     memory.is_search_due = true;
     memory.next_look     = memory.n_steps;
     multi_pairs.list_nodes();

@@ -139,13 +139,18 @@ namespace Keyblock
     std::vector<int> converted(memory.state.size(), 0);
     for (unsigned int p = 0; p < memory.state.size(); ++p)
       converted[p] = memory.state[p].is_converted;
-    std::vector<PairState<dim>> all =
-      gather_pair_states<dim>(topology, memory, strength.has_memory);
+    std::vector<PairState<dim>> all = gather_pair_states(topology, memory);
     max_lists(converted);
+    std::vector<JointHistory> histories;
+    if (strength.has_memory)
+      histories = gather_pair_histories(topology, memory);
     for (unsigned int p = 0; p < memory.state.size(); ++p)
       {
-        if (!memory.is_mobile_group[topology.group_of_pair[p]])
+        const unsigned int g = topology.group_of_pair[p];
+        if (!memory.is_mobile_group[g])
           memory.state[p] = all[p];
+        if (strength.has_memory && !memory.is_mobile_group[g])
+          memory.pair_histories[p] = histories[p];
         if (strength.has_memory && converted[p] && !all[p].is_converted)
           history.pass_on(p);
         memory.state[p].is_converted = converted[p];

@@ -46,15 +46,34 @@ namespace Keyblock
 
 
   template <int dim>
-  const JointHistory *
+  JointHistory
+  ContactHistory<dim>::find(const unsigned int slot,
+                            const unsigned int joint) const
+  {
+    const auto place = place_in(memory.node_histories, slot, joint);
+    return place != memory.node_histories.end() && place->slot == slot &&
+               place->joint == joint
+             ? place->history
+             : JointHistory();
+  }
+
+
+
+  template <int dim>
+  JointHistory
   ContactHistory<dim>::of(const SurfaceContact<dim> &contact) const
   {
-    const auto place =
-      place_in(memory.node_histories, contact.slave, contact.joint);
-    return place != memory.node_histories.end() &&
-               place->slot == contact.slave && place->joint == contact.joint
-             ? &place->history
-             : nullptr;
+    const JointHistory own = find(contact.slave, contact.joint);
+    JointHistory mean;
+    for (int k = 0; k < contact.point.n_nodes; ++k)
+      if (contact.point.weight[k] < 0.)
+        {
+          const JointHistory one = find(contact.point.node[k], contact.joint);
+          mean.slip -= contact.point.weight[k] * one.slip;
+          mean.dilation -= contact.point.weight[k] * one.dilation;
+          mean.damage -= contact.point.weight[k] * one.damage;
+        }
+    return own.slip < mean.slip ? mean : own;
   }
 
 
@@ -92,8 +111,8 @@ namespace Keyblock
     for (const unsigned int vertex : {p.minus, p.plus})
       {
         JointHistory &history = at(search.slot_of_vertex[vertex], p.joint);
-        if (history.slip < memory.state[pair].history.slip)
-          history = memory.state[pair].history;
+        if (history.slip < memory.pair_histories[pair].slip)
+          history = memory.pair_histories[pair];
       }
   }
 
@@ -132,17 +151,16 @@ namespace Keyblock
     };
     for (unsigned int p = 0; p < memory.state.size(); ++p)
       {
-        PairState<dim> &pair = memory.state[p];
-        const JointLaw &law  = *strength.laws[interface.pairs[p].joint];
+        const PairState<dim> &pair = memory.state[p];
+        const JointLaw &law        = *strength.laws[interface.pairs[p].joint];
         Vector<dim> velocity;
         if (law.has_memory() && !pair.is_converted && !pair.is_removed &&
             pair.status == ContactStatus::sliding && find_velocity(p, velocity))
-          pair.history =
-            law.advance(pair.history,
+          memory.pair_histories[p] =
+            law.advance(memory.pair_histories[p],
                         slip_of(velocity, memory.normal[p]),
-                        strength.pressure_of(pair.impulse,
-                                             memory.normal[p],
-                                             interface.pairs[p].area));
+                        strength.needs_pressure ? strength.pressure_of_pair(p)
+                                                : 0.);
       }
     for (const SurfaceContact<dim> &contact : memory.contacts)
       {
@@ -151,12 +169,12 @@ namespace Keyblock
             !strength.laws[contact.joint]->has_memory() ||
             point.status != ContactStatus::sliding)
           continue;
-        JointHistory &history = at(contact.slave, contact.joint);
-        history               = strength.laws[contact.joint]->advance(
-          history,
-          slip_of(relative_velocity<dim>(point, nodes.velocity.data()),
-                  point.normal),
-          areas.pressure_at(contact));
+        at(contact.slave, contact.joint) =
+          strength.laws[contact.joint]->advance(
+            of(contact),
+            slip_of(relative_velocity<dim>(point, nodes.velocity.data()),
+                    point.normal),
+            areas.pressure_at(contact));
       }
   }
 

@@ -153,7 +153,7 @@ namespace Keyblock
       point.gap +=
         point.normal[d] * (nodes.displacement[dim * point.node[0] + d] -
                            nodes.displacement[dim * point.node[1] + d]);
-    point.gap -= memory.state[pair].history.dilation;
+    point.gap -= memory.dilation_of(pair);
     point.is_intact = memory.state[pair].is_intact;
     point.strength  = strength.of_pair(pair, point.is_intact, kick);
     point.status    = memory.state[pair].status;

@@ -40,24 +40,6 @@ namespace Keyblock
 
 
   template <int dim>
-  inline void
-  PairContact<dim>::prefetch(const SinglePair &single) const
-  {
-    __builtin_prefetch(&memory.state[single.pair]);
-    __builtin_prefetch(&interface.pairs[single.pair]);
-    for (const unsigned int node : {single.minus, single.plus})
-      {
-        __builtin_prefetch(&fields.velocity[dim * node]);
-        __builtin_prefetch(&fields.old_velocity[dim * node]);
-        __builtin_prefetch(&fields.contact_force[dim * node]);
-        __builtin_prefetch(&fields.inverse_mass[node]);
-        __builtin_prefetch(&fields.is_in_cluster[node]);
-      }
-  }
-
-
-
-  template <int dim>
   bool
   PairContact<dim>::stick(const SinglePair &single,
                           const PointStrength &strength_now,
@@ -144,7 +126,7 @@ namespace Keyblock
         p.gap += p.normal[d] *
                  (fields.displacement[pp + d] - fields.displacement[pm + d]);
     if (s.status != ContactStatus::sticking)
-      p.gap -= s.history.dilation;
+      p.gap -= memory.dilation_of(single.pair);
     p.is_intact = s.is_intact;
     p.strength  = strength_now;
     p.impulse =
@@ -165,6 +147,21 @@ namespace Keyblock
   void
   PairContact<dim>::solve(const ContactStep &step)
   {
+    // as a function of its own it would be left out: it has no effect
+    const auto prefetch = [&](const SinglePair &single)
+      __attribute__((always_inline))
+    {
+      __builtin_prefetch(&memory.state[single.pair]);
+      __builtin_prefetch(&interface.pairs[single.pair]);
+      for (const unsigned int node : {single.minus, single.plus})
+        {
+          __builtin_prefetch(&fields.velocity[dim * node]);
+          __builtin_prefetch(&fields.old_velocity[dim * node]);
+          __builtin_prefetch(&fields.contact_force[dim * node]);
+          __builtin_prefetch(&fields.inverse_mass[node]);
+          __builtin_prefetch(&fields.is_in_cluster[node]);
+        }
+    };
     for (unsigned int i = 0; i < single_pairs.size(); ++i)
       {
         // a joint runs across the order of the nodes

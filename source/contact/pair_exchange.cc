@@ -9,11 +9,10 @@ namespace Keyblock
   template <int dim>
   std::vector<PairState<dim>>
   gather_pair_states(const PairTopology<dim> &topology,
-                     const ContactMemory<dim> &memory,
-                     const bool has_history)
+                     const ContactMemory<dim> &memory)
   {
     const std::vector<PairState<dim>> &state = memory.state;
-    const unsigned int n                     = dim + 4 + (has_history ? 3 : 0);
+    constexpr unsigned int n                 = dim + 4;
     std::vector<double> packed(n * state.size(), 0.);
     for (unsigned int p = 0; p < state.size(); ++p)
       if (topology.is_primary(topology.group_of_pair[p]))
@@ -24,12 +23,6 @@ namespace Keyblock
           packed[n * p + dim + 1] = state[p].is_intact;
           packed[n * p + dim + 2] = state[p].is_converted;
           packed[n * p + dim + 3] = state[p].has_opened;
-          if (has_history)
-            {
-              packed[n * p + dim + 4] = state[p].history.slip;
-              packed[n * p + dim + 5] = state[p].history.dilation;
-              packed[n * p + dim + 6] = state[p].history.damage;
-            }
         }
     sum_lists(packed);
     std::vector<PairState<dim>> result(state.size());
@@ -42,10 +35,6 @@ namespace Keyblock
         result[p].is_intact    = packed[n * p + dim + 1] > 0.5;
         result[p].is_converted = packed[n * p + dim + 2] > 0.5;
         result[p].has_opened   = packed[n * p + dim + 3] > 0.5;
-        if (has_history)
-          result[p].history = {packed[n * p + dim + 4],
-                               packed[n * p + dim + 5],
-                               packed[n * p + dim + 6]};
         result[p].is_welded    = state[p].is_welded;
         result[p].is_removed   = state[p].is_removed;
         result[p].bend_shear   = state[p].bend_shear;
@@ -56,12 +45,32 @@ namespace Keyblock
     return result;
   }
 
+  template <int dim>
+  std::vector<JointHistory>
+  gather_pair_histories(const PairTopology<dim> &topology,
+                        const ContactMemory<dim> &memory)
+  {
+    std::vector<JointHistory> result = memory.pair_histories;
+    std::vector<double> packed(3 * result.size(), 0.);
+    for (unsigned int p = 0; p < result.size(); ++p)
+      if (topology.is_primary(topology.group_of_pair[p]))
+        {
+          packed[3 * p]     = result[p].slip;
+          packed[3 * p + 1] = result[p].dilation;
+          packed[3 * p + 2] = result[p].damage;
+        }
+    sum_lists(packed);
+    for (unsigned int p = 0; p < result.size(); ++p)
+      result[p] = {packed[3 * p], packed[3 * p + 1], packed[3 * p + 2]};
+    return result;
+  }
+
   template std::vector<PairState<2>>
-  gather_pair_states(const PairTopology<2> &,
-                     const ContactMemory<2> &,
-                     const bool);
+  gather_pair_states(const PairTopology<2> &, const ContactMemory<2> &);
   template std::vector<PairState<3>>
-  gather_pair_states(const PairTopology<3> &,
-                     const ContactMemory<3> &,
-                     const bool);
+  gather_pair_states(const PairTopology<3> &, const ContactMemory<3> &);
+  template std::vector<JointHistory>
+  gather_pair_histories(const PairTopology<2> &, const ContactMemory<2> &);
+  template std::vector<JointHistory>
+  gather_pair_histories(const PairTopology<3> &, const ContactMemory<3> &);
 } // namespace Keyblock

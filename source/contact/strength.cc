@@ -24,12 +24,14 @@ namespace Keyblock
     , scene(topology.scene)
     , law_of_free_faces(make_friction_law(scene.contact.default_friction_angle))
   {
+    const JointPointState slid{false, false, {}, 0.};
     for (const auto &joint : scene.joints)
       {
         laws.push_back(make_joint_law(*joint));
-        has_memory = has_memory || laws.back()->has_memory();
-        needs_areas.push_back(joint->cohesion_of_sliding() > 0. ||
-                              laws.back()->has_memory());
+        has_memory     = has_memory || laws.back()->has_memory();
+        needs_pressure = needs_pressure || laws.back()->depends_on_pressure();
+        needs_areas.push_back(laws.back()->envelope(slid).cohesion > 0. ||
+                              laws.back()->depends_on_pressure());
       }
   }
 
@@ -82,11 +84,9 @@ namespace Keyblock
       }
     JointPointState point{is_intact, memory.state[pair].has_opened, {}, 0.};
     if (has_memory)
-      {
-        point.history = memory.state[pair].history;
-        point.pressure =
-          pressure_of(memory.state[pair].impulse, memory.normal[pair], p.area);
-      }
+      point.history = memory.pair_histories[pair];
+    if (needs_pressure)
+      point.pressure = pressure_of_pair(pair);
     PointStrength strength =
       envelope_of(p.joint, point).of_point(share, p.area, kick);
     strength.cohesion += (memory.state[pair].bend_shear +
@@ -106,7 +106,7 @@ namespace Keyblock
   PointStrength
   ContactStrength<dim>::of_surface(const SurfaceContact<dim> &contact,
                                    const double area,
-                                   const JointHistory *history,
+                                   const JointHistory &history,
                                    const double pressure,
                                    const double kick) const
   {
@@ -117,8 +117,7 @@ namespace Keyblock
     const bool has_area = !std::isnan(area);
     // surfaces lie on each other where pairs have slid
     JointPointState point{false, false, {}, 0.};
-    if (history != nullptr)
-      point.history = *history;
+    point.history                   = history;
     point.pressure                  = pressure;
     const StrengthEnvelope envelope = envelope_of(contact.joint, point);
     if (has_area && !contact.is_ridge)
@@ -147,12 +146,12 @@ namespace Keyblock
 
   template <int dim>
   double
-  ContactStrength<dim>::pressure_of(const Vector<dim> &impulse,
-                                    const Vector<dim> &direction,
-                                    const double area) const
+  ContactStrength<dim>::pressure_of_pair(const unsigned int pair) const
   {
+    const double area = topology.interface.pairs[pair].area;
     return area > 0.
-             ? dot<dim>(impulse, direction) / (area * memory.present_kick())
+             ? dot<dim>(memory.state[pair].impulse, memory.normal[pair]) /
+                 (area * memory.present_kick())
              : 0.;
   }
 

@@ -30,7 +30,7 @@ namespace Keyblock
     if (pairs.empty())
       return;
     const std::vector<PairState<dim>> all =
-      gather_pair_states<dim>(topology, memory, strength.has_memory);
+      gather_pair_states(topology, memory);
     for (const unsigned int p : pairs)
       {
         memory.state[p].is_welded = false;

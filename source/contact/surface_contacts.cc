@@ -152,18 +152,20 @@ namespace Keyblock
     drop_removed_blocks();
     take_over_impulses(previous, step.kick / memory.last_kick);
     areas.share();
-    if (strength.has_memory)
+    if (strength.needs_pressure)
       areas.average_pressure(step.kick);
     for (SurfaceContact<dim> &contact : memory.contacts)
       {
-        const JointHistory *past =
-          strength.has_memory ? history.of(contact) : nullptr;
-        const double pressure =
-          strength.has_memory ? areas.pressure_at(contact) : 0.;
-        if (past != nullptr && !contact.is_ridge)
-          contact.point.gap -= past->dilation;
-        contact.point.strength = strength.of_surface(
-          contact, areas.of(contact), past, pressure, step.kick);
+        JointHistory past;
+        if (strength.has_memory)
+          past = history.of(contact);
+        if (!contact.is_ridge)
+          contact.point.gap -= past.dilation;
+        contact.point.strength = strength.of_surface(contact,
+                                                     areas.of(contact),
+                                                     past,
+                                                     areas.pressure_at(contact),
+                                                     step.kick);
       }
   }
 
@@ -218,13 +220,9 @@ namespace Keyblock
     for (unsigned int g = 0; g < interface.n_groups(); ++g)
       {
         const unsigned int p = interface.group_pairs_begin[g];
-        if (memory.is_mobile_group[g] &&
-            interface.group_pairs_begin[g + 1] == p + 1 &&
-            !memory.state[p].is_converted && !memory.state[p].is_removed &&
-            nodes.projection[search.slot_of_vertex[interface.pairs[p].minus]] ==
-              nullptr &&
-            nodes.projection[search.slot_of_vertex[interface.pairs[p].plus]] ==
-              nullptr)
+        if (memory.is_mobile_group[g] && !memory.state[p].is_converted &&
+            !memory.state[p].is_removed &&
+            topology.is_single(g, nodes.projection))
           pairs.push_back(p);
       }
     return pairs;

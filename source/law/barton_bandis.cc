@@ -49,7 +49,7 @@ namespace Keyblock
       }
 
       bool
-      has_memory() const override
+      depends_on_pressure() const override
       {
         return true;
       }

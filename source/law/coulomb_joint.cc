@@ -51,9 +51,7 @@ namespace Keyblock
               const double slip,
               const double /*pressure*/) const override
       {
-        history.slip += slip;
-        history.dilation = dilation.opening_at(history.slip);
-        return history;
+        return dilation.advance(history, slip);
       }
 
     private:

@@ -46,22 +46,6 @@ namespace Keyblock
 
 
 
-  PointStrength
-  StrengthEnvelope::of_point(const double share,
-                             const double area,
-                             const double kick) const
-  {
-    PointStrength strength;
-    strength.static_friction  = share * static_tangent;
-    strength.kinetic_friction = share * kinetic_tangent;
-    strength.cohesion         = share * cohesion * area * kick;
-    strength.tension          = share * tensile_strength * area * kick;
-    strength.dilation         = dilation_tangent;
-    return strength;
-  }
-
-
-
   const std::vector<JointLawKind> &
   joint_law_kinds()
   {

@@ -142,7 +142,7 @@ namespace Keyblock
         face.tangent_friction = strength.static_tangent;
         face.cohesion         = strength.cohesion;
         face.tensile_strength = strength.tensile_strength;
-        if (law->has_memory())
+        if (law->depends_on_pressure())
           face.law = law;
         result.faces.push_back(face);
         result.others.emplace_back();

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/expression.h>
 #include <keyblock/blocks/blocks.h>
+#include <keyblock/law/joint_law.h>
 #include <keyblock/safety/block_theory.h>
 #include <keyblock/safety/limit_equilibrium.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace Keyblock
@@ -95,6 +97,18 @@ namespace Keyblock
       return edges;
     }
 
+    /** Static friction angle [deg], the least there is under any pressure. */
+    double
+    friction_angle_of(const JointStrength &joint)
+    {
+      const auto law = make_joint_law(joint);
+      if (!law->depends_on_pressure())
+        return joint.friction_angle;
+      JointPointState state;
+      state.pressure = std::numeric_limits<double>::max();
+      return std::atan(law->envelope(state).static_tangent) / radian;
+    }
+
     /** Sets of the infinite joints, parallel ones together. */
     template <int dim>
     std::vector<ParallelJoints<dim>>
@@ -112,10 +126,10 @@ namespace Keyblock
                               (set.normal + normal).norm()) < 1e-6;
             });
           if (same == sets.end())
-            sets.push_back({joint->name, normal, joint->friction_angle});
+            sets.push_back({joint->name, normal, friction_angle_of(*joint)});
           else
             same->friction_angle =
-              std::min(same->friction_angle, joint->friction_angle);
+              std::min(same->friction_angle, friction_angle_of(*joint));
         }
       return sets;
     }

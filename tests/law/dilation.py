@@ -52,7 +52,7 @@ def main():
         energy = json.load(file)["energy"]
     print(f"errors: slip {worst_slip:.2e}, opening {worst_opening:.2e}, opening at "
           f"the end {final:.2e}; energy {energy}")
-    return not (worst_slip < 5e-3 and worst_opening < 5e-3 and abs(final) < 5e-3
+    return not (worst_slip < 5e-4 and worst_opening < 5e-4 and abs(final) < 1e-4
                 and energy["dilation"] < 0.
                 and abs(energy["relative_residual"]) < 1e-9)
 

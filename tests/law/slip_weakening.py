@@ -42,6 +42,8 @@ def main():
         ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", ranks,
          keyblock, scene, "--output", output,
          "--set=Check/Closed form=none",
+         # stiff: what springs back as it is let go is an error of the slip
+         "--set=Materials/rock/Young modulus=2e9",
          "--set=Joints/base/Law=slip weakening",
          f"--set=Joints/base/Slip distance={DISTANCE}",
          f"--set=Joints/base/Residual friction angle={RESIDUAL}"],
@@ -60,7 +62,8 @@ def main():
         worst = max(worst, abs(slip / exact_slip(time) - 1.))
     print(f"slip at the end {slip:.6f} m, exact {exact_slip(time):.6f} m; "
           f"largest relative error {worst:.2e}")
-    return worst > 5e-3
+    # nodes that hover count no slip: up to 1e-3 behind at the kink
+    return worst > 1.5e-3
 
 
 if __name__ == "__main__":

@@ -44,8 +44,8 @@ namespace Keyblock
     void exchange(const std::string &group, Fields<dim> &fields);
     void exchange(const std::string &group, CellArrays<dim> &cells);
     void exchange(const std::string &group, ContactMemory<dim> &memory);
-    void exchange_pairs(const std::string &entry,
-                        std::vector<PairState<dim>> &state);
+    template <typename T>
+    void exchange_pairs(const std::string &entry, std::vector<T> &state);
 
     /** Save or read @p values, @p n_values for each cell from @p first on. */
     void exchange_cells(const std::string &entry,

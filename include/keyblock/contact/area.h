@@ -81,12 +81,11 @@ namespace Keyblock
                   const std::vector<Footing> &bearing,
                   std::vector<AreaShare> &shares) const;
 
-    /** Share of an overlap for which no surface point can stand: that of nodes
-     * with a pair, or whose pair has opened. */
-    double share_of_pairs(const FaceOverlap<dim> &overlap) const;
-
-    /** That of nodes with a pair alone. */
-    double share_of_closed_pairs(const FaceOverlap<dim> &overlap) const;
+    /** Share of an overlap for which no surface point stands: that of nodes
+     * with a pair, and if @p with_opened of those whose pair has opened:
+     * cohesion is gone there, pressure is not. */
+    double share_of_pairs(const FaceOverlap<dim> &overlap,
+                          const bool with_opened) const;
 
     /** Whether the pair of a surface node on @p joint has opened. */
     bool has_opened(const unsigned int slot, const unsigned int joint) const;

@@ -114,7 +114,7 @@ namespace Keyblock
     std::vector<PairState<dim>>
     gather_pairs() const
     {
-      return gather_pair_states<dim>(topology, memory, strength.has_memory);
+      return gather_pair_states(topology, memory);
     }
 
     /** Kick interval of the last step [s]. */
@@ -131,6 +131,9 @@ namespace Keyblock
     ContactTally tally;
 
   private:
+    /** One for each pair, if a law remembers them. */
+    void keep_histories();
+
     Fields<dim> &fields;
     ContactSearch<dim> search;
     ContactMemory<dim> memory;

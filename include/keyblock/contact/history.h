@@ -23,8 +23,10 @@ namespace Keyblock
                    const Fields<dim> &fields,
                    ContactMemory<dim> &memory);
 
-    /** That of a surface contact's slave on its joint; null: none. */
-    const JointHistory *of(const SurfaceContact<dim> &contact) const;
+    /** That of a surface contact: of its slave, or the mean over the nodes of
+     * the face it is on, whichever has slipped farther. A fresh surface under
+     * a worn one is as worn as that. */
+    JointHistory of(const SurfaceContact<dim> &contact) const;
 
     /** Of all surface nodes [m]: surfaces so far apart may touch. */
     double largest_dilation() const;
@@ -37,6 +39,8 @@ namespace Keyblock
     void advance(const double step);
 
   private:
+    /** That of a node, none so far if it is not listed. */
+    JointHistory find(const unsigned int slot, const unsigned int joint) const;
     JointHistory &at(const unsigned int slot, const unsigned int joint);
 
     /** Velocity of a pair's plus side from its minus side [m/s]; false if this

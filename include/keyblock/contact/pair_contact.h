@@ -31,9 +31,6 @@ namespace Keyblock
       unsigned int pair, minus, plus; ///< local nodes
     };
 
-    /** Load what a pair needs from anywhere in memory. */
-    void prefetch(const SinglePair &single) const;
-
     /** One velocity for both nodes, if the pair stuck and bears it. */
     bool stick(const SinglePair &single,
                const PointStrength &strength_now,

@@ -8,13 +8,17 @@
 namespace Keyblock
 {
 
-  /** Pair states of all ranks, by index of the pair (collective).
-   * @param has_history whether laws remember what has happened to pairs */
+  /** Pair states of all ranks, by index of the pair (collective). */
   template <int dim>
   std::vector<PairState<dim>>
   gather_pair_states(const PairTopology<dim> &topology,
-                     const ContactMemory<dim> &memory,
-                     const bool has_history);
+                     const ContactMemory<dim> &memory);
+
+  /** The same of what joints' laws remember of pairs. */
+  template <int dim>
+  std::vector<JointHistory>
+  gather_pair_histories(const PairTopology<dim> &topology,
+                        const ContactMemory<dim> &memory);
 } // namespace Keyblock
 
 #endif

@@ -27,8 +27,6 @@ namespace Keyblock
     // what a weld bore beyond the joint's strength when it was let go [N]
     double weld_shear   = 0.;
     double weld_tension = 0.;
-
-    JointHistory history; ///< kept if the joint's law has a memory
   };
 
   /** What a joint's law remembers of a surface node that has met others than
@@ -71,7 +69,11 @@ namespace Keyblock
     std::vector<unsigned int> mobile_slots;
     std::vector<unsigned int> mobile_corners;  ///< of the list of corners
     std::vector<SurfaceContact<dim>> contacts; ///< of the last step
-    std::vector<NodeHistory> node_histories;   ///< by slot and joint, sorted
+
+    /** What joints' laws remember, if one does: of each pair, and of nodes that
+     * have met others than their partners, by slot and joint, sorted. */
+    std::vector<JointHistory> pair_histories;
+    std::vector<NodeHistory> node_histories;
     unsigned int n_steps = 0;
     double last_kick     = 0.; ///< [s]
 
@@ -79,6 +81,13 @@ namespace Keyblock
     std::vector<double> searched_position;
     bool is_search_due     = true;
     unsigned int next_look = 0; ///< step at which motion is measured
+
+    /** How far a pair's slip has opened it [m]. */
+    double
+    dilation_of(const unsigned int pair) const
+    {
+      return pair_histories.empty() ? 0. : pair_histories[pair].dilation;
+    }
 
     /** Kick interval of the last step [s]. */
     double

@@ -34,11 +34,11 @@ namespace Keyblock
 
     /** Strength of a surface contact that stands for @p area [m^(dim-1)], NaN
      * if it is not known; then cohesion stays what it was.
-     * @param history of its slave on the joint, or null
+     * @param history of the contact
      * @param pressure on the joint there [Pa] */
     PointStrength of_surface(const SurfaceContact<dim> &contact,
                              const double area,
-                             const JointHistory *history,
+                             const JointHistory &history,
                              const double pressure,
                              const double kick) const;
 
@@ -46,16 +46,15 @@ namespace Keyblock
     std::array<double, 2> beyond(const unsigned int pair,
                                  const PairState<dim> &now) const;
 
-    /** Effective normal stress of the last step [Pa] of a point of @p area. */
-    double pressure_of(const Vector<dim> &impulse,
-                       const Vector<dim> &direction,
-                       const double area) const;
+    /** Effective normal stress of a pair in the last step [Pa]. */
+    double pressure_of_pair(const unsigned int pair) const;
 
     /** Whether a joint's pairs are bonded when they are let go. */
     bool is_bonded(const unsigned int joint) const;
 
     std::vector<std::shared_ptr<const JointLaw>> laws; ///< by joint
-    bool has_memory = false;                           ///< one of the laws
+    bool has_memory     = false;                       ///< one of the laws
+    bool needs_pressure = false;                       ///< one of the laws
     std::vector<bool> needs_areas; ///< of surface contacts, by joint
 
     StrengthReduction reduction;

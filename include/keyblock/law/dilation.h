@@ -25,11 +25,14 @@ namespace Keyblock
       return slip < limit ? tangent : 0.;
     }
 
-    /** Opening that @p slip [m] has made [m]. */
-    double
-    opening_at(const double slip) const
+    /** History after a further @p slip [m]. */
+    JointHistory
+    advance(JointHistory history, const double slip) const
     {
-      return tangent * (slip < limit ? slip : limit);
+      history.slip += slip;
+      history.dilation =
+        tangent * (history.slip < limit ? history.slip : limit);
+      return history;
     }
 
   private:

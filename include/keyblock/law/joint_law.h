@@ -26,7 +26,16 @@ namespace Keyblock
      * @param area that the point stands for [m^(dim-1)]
      * @param kick interval that impulses are collected over [s] */
     PointStrength
-    of_point(const double share, const double area, const double kick) const;
+    of_point(const double share, const double area, const double kick) const
+    {
+      PointStrength strength;
+      strength.static_friction  = share * static_tangent;
+      strength.kinetic_friction = share * kinetic_tangent;
+      strength.cohesion         = share * cohesion * area * kick;
+      strength.tension          = share * tensile_strength * area * kick;
+      strength.dilation         = dilation_tangent;
+      return strength;
+    }
   };
 
   /** All a law may know of one contact point. */
@@ -51,16 +60,23 @@ namespace Keyblock
 
     virtual StrengthEnvelope envelope(const JointPointState &state) const = 0;
 
-    /** Whether strength depends on the state's history or pressure; if not,
-     * contact does not keep them. */
+    /** Whether strength depends on the state's history; if not, contact does
+     * not keep it. */
     virtual bool
     has_memory() const
     {
       return false;
     }
 
+    /** Whether strength depends on the pressure, which is not measured else. */
+    virtual bool
+    depends_on_pressure() const
+    {
+      return false;
+    }
+
     /** What becomes of @p history when the point slides a further @p slip [m]
-     * under @p pressure [Pa]. */
+     * under @p pressure [Pa] (0 unless depends_on_pressure). */
     virtual JointHistory
     advance(JointHistory history,
             const double slip,
