@@ -234,7 +234,7 @@ def accuracy(keyblock):
                      float("nan") if run.failed else run.run["loop_time"],
                      error))
 
-    for method in ("exact", "paper"):
+    for method in ("exact", "published"):
         for n in (20, 40, 80):
             add("incline, acceleration", f"{method} contact",
                 check_of("acceleration_relative_error"), "incline_30",
@@ -244,7 +244,7 @@ def accuracy(keyblock):
         add("incline, acceleration", "time step",
             check_of("acceleration_relative_error"), "incline_30",
             f"Time stepping/Safety={safety}")
-    for method in ("exact", "paper"):
+    for method in ("exact", "published"):
         for n in (80, 160, 320, 640):
             add("bar impact, energy lost", f"{method} contact",
                 lambda run: 1. - run.summary["checks"][
@@ -292,11 +292,11 @@ def published(keyblock):
     ways = (("bisection to 0.5 %, coupled contact, moves what reacts",
              half_percent),
             ("the same with uncoupled contact",
-             half_percent + ("Contact/Method=paper",)),
+             half_percent + ("Contact/Method=published",)),
             ("sweep of 0.01, coupled contact, all cells move", sweep),
             ("the same, 5000 steps for each trial", steps),
             ("published: that with uncoupled contact",
-             steps + ("Contact/Method=paper",)))
+             steps + ("Contact/Method=published",)))
     cases = (("incline", "verification/factor_incline", (), 0.6881246),
              ("powerhouse, block 1 after stage 5", "study/powerhouse",
               ("Safety factor/Stages=stage_5", "Safety factor/Blocks=1",
@@ -326,14 +326,14 @@ def published(keyblock):
 
 
 def factors(keyblock):
-    """All safety factors of the powerhouse over meshes, on two teams."""
+    """All safety factors of the powerhouse over meshes, on two rank groups."""
     with open(ROOT / "prm/study/powerhouse.prm", encoding="utf-8") as file:
         sizes = re.findall(
             r"set (Size|Size at excavation|Size at joints)\s*= ([\d.]+)$",
             file.read(), re.M)
     rows = []
     for scale in (1.3, 1., 0.7):
-        run = Run(keyblock, "study/powerhouse", "Safety factor/Teams=2",
+        run = Run(keyblock, "study/powerhouse", "Safety factor/Rank groups=2",
                   "Output/Write VTU=false",
                   *(f"Mesh/{name}={scale * float(value)}"
                     for name, value in sizes), ranks=2)

@@ -48,7 +48,7 @@ Sweeps of the powerhouse begin at a factor of 0.99.
 """,
     "factors": """## Factors of the powerhouse
 
-All stages, all safety factors to 0.5 %, two teams on two cores.
+All stages, all safety factors to 0.5 %, two rank groups on two cores.
 """,
     "skips": """## What is skipped, and what that changes
 

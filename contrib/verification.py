@@ -187,7 +187,7 @@ def incline_table(out):
     out.write("| run | acceleration | slip | normal force | offset "
               "| energy residual | loop time [s] |\n"
               "|---|---|---|---|---|---|---|\n")
-    for method in ("exact", "paper"):
+    for method in ("exact", "published"):
         for cells, size in ((8, "40, 10"), (16, "80, 20"), (32, "160, 40")):
             incline_row(out, f"rigid base, {cells} x {cells}, {method}",
                         run("verification/incline_30", f"Mesh/Cells={size}",
@@ -338,7 +338,7 @@ def main():
         write_gallery(out)
         out.write("\n## Incline of 40 degrees: mesh, base, contact method\n\n"
                   "Friction 30 degrees unless stated; errors relative to the "
-                  "closed form. `exact` is the coupled solution, `paper` the "
+                  "closed form. `exact` is the coupled solution, `published` the "
                   "published one-pass variant with its factor corrected. "
                   "Sudden gravity starts the block unstressed; it is "
                   "reported, not recommended.\n\n")

@@ -49,7 +49,7 @@ keyblock_restart(factor_incline verification/factor_incline)
 keyblock_restart(factor_incline_stopped verification/factor_incline
   ARGUMENTS --by stop --breaks 2 --set "Safety factor/Bracket=0.003")
 # factors by teams, each of a block, after two stages
-set(two_teams --ranks 2 --set "Safety factor/Teams=2" --set "Mesh/Cells=80, 16"
+set(two_teams --ranks 2 --set "Safety factor/Rank groups=2" --set "Mesh/Cells=80, 16"
   --set "Excavations/Names=uphill, downhill, slot"
   --set "Excavations/slot/Shape=box" --set "Excavations/slot/Corner=-0.05, 0"
   --set "Excavations/slot/Size=0.1, 0.1" --set "Stages/Names=rest, again"

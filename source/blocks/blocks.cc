@@ -273,17 +273,17 @@ namespace Keyblock
             {
               const unsigned int other = mesh.neighbor[c][f];
               const unsigned int j     = mesh.joint[c][f];
-              const unsigned int dug =
+              const unsigned int excavated =
                 other == none ? 0 : mesh.excavation_stage[other];
               for (unsigned int s = 0; s <= n_stages; ++s)
                 {
                   if (other == none ? !is_truncated(mesh, scene, c, f)
-                                    : (dug > 0 && dug <= s))
+                                    : (excavated > 0 && excavated <= s))
                     around[b].has_free_face[s] = true;
-                  if (dug > s && j == none)
+                  if (excavated > s && j == none)
                     around[b].is_attached[s] = true;
                 }
-              if (j != none && other != none && dug == 0)
+              if (j != none && other != none && excavated == 0)
                 {
                   const int side = mesh.side[c][f];
                   result.blocks[b].joint_area[j] +=

@@ -26,8 +26,8 @@ namespace Keyblock
     if (block != none && is_removed != nullptr && !is_removed->empty() &&
         (*is_removed)[block])
       return true;
-    const unsigned int dug = split.mesh.excavation_stage[cell];
-    return dug > 0 && dug <= stage_number && !is_filled(cell);
+    const unsigned int excavated = split.mesh.excavation_stage[cell];
+    return excavated > 0 && excavated <= stage_number && !is_filled(cell);
   }
 
 

@@ -127,21 +127,23 @@ namespace Keyblock
 
 
     /**
-     * Renumber the corners of the kept cells by fan, and list the joint faces.
+     * Renumber the corners of the kept cells by cluster, and list the joint
+     * faces.
      *
-     * Fans are those of the rock that is left at the end. Cells that are dug
-     * later go with one of the fans that they join, and the pairs between
-     * these fans are welded until no undug cell joins them any more.
+     * Clusters are those of the rock that is left at the end. Cells that are
+     * excavated later go with one of the clusters that they join, and the pairs
+     * between these clusters are welded until no unexcavated cell joins them
+     * any more.
      */
     template <int dim>
-    class FanNumbering
+    class ClusterNumbering
     {
     public:
-      FanNumbering(const Mesh<dim> &mesh,
-                   const Blocks<dim> &blocks,
-                   const std::vector<unsigned int> &kept,
-                   const bool weld_infinite_blocks,
-                   SplitMesh<dim> &result)
+      ClusterNumbering(const Mesh<dim> &mesh,
+                       const Blocks<dim> &blocks,
+                       const std::vector<unsigned int> &kept,
+                       const bool weld_infinite_blocks,
+                       SplitMesh<dim> &result)
         : mesh(mesh)
         , blocks(blocks)
         , kept(kept)
@@ -216,14 +218,15 @@ namespace Keyblock
             }
       }
 
-      /** Which fans of rock need a vertex of their own: of fans that face each
-       * other across a joint and are one fan early, all but the first. */
+      /** Which clusters of rock need a vertex of their own: of clusters that
+       * face each other across a joint and are one cluster early, all but the
+       * first. */
       void
       choose_vertices()
       {
         is_apart.assign(mesh.n_cells() * n, false);
         DisjointSets facing(mesh.n_cells() * n);
-        std::vector<unsigned int> fans;
+        std::vector<unsigned int> clusters;
         for_each_split_face(
           [&](const unsigned int c, const unsigned int f, const unsigned int) {
             for (unsigned int v = 0; v < Mesh<dim>::n_face_vertices; ++v)
@@ -234,12 +237,12 @@ namespace Keyblock
                 if (a == b || early.root(a) != early.root(b))
                   continue;
                 facing.join(a, b);
-                fans.push_back(a);
-                fans.push_back(b);
+                clusters.push_back(a);
+                clusters.push_back(b);
               }
           });
-        for (const unsigned int fan : fans)
-          is_apart[fan] = facing.root(fan) != fan;
+        for (const unsigned int cluster : clusters)
+          is_apart[cluster] = facing.root(cluster) != cluster;
       }
 
       void
@@ -251,12 +254,12 @@ namespace Keyblock
           if (kept[c] != none)
             for (unsigned int v = 0; v < n; ++v)
               {
-                const unsigned int fan = rock.root(c * n + v);
+                const unsigned int cluster = rock.root(c * n + v);
                 const unsigned int root =
-                  is_apart[fan] ? fan : early.root(c * n + v);
-                // an early fan and a fan apart may have the same root
+                  is_apart[cluster] ? cluster : early.root(c * n + v);
+                // an early cluster and a cluster apart may have the same root
                 unsigned int &vertex =
-                  is_apart[fan] ? apart_vertex[root] : new_vertex[root];
+                  is_apart[cluster] ? apart_vertex[root] : new_vertex[root];
                 if (vertex == none)
                   {
                     vertex = before.size();
@@ -308,9 +311,9 @@ namespace Keyblock
       const bool weld;
       SplitMesh<dim> &result;
 
-      DisjointSets rock;               ///< fans of the rock left at the end
-      DisjointSets early;              ///< fans at the start
-      std::vector<DisjointSets> alive; ///< fans after stage 2, 3, ...
+      DisjointSets rock;               ///< clusters of the rock left at the end
+      DisjointSets early;              ///< clusters at the start
+      std::vector<DisjointSets> alive; ///< clusters after stage 2, 3, ...
       std::vector<bool> is_apart;      ///< by root in rock
     };
 
@@ -374,10 +377,10 @@ namespace Keyblock
     template <int dim>
     void
     make_pairs(const Scene<dim> &scene,
-               const FanNumbering<dim> &fans,
+               const ClusterNumbering<dim> &clusters,
                SplitMesh<dim> &result)
     {
-      const std::vector<unsigned int> &before = fans.before;
+      const std::vector<unsigned int> &before = clusters.before;
       Interface<dim> &interface               = result.interface;
       PairMap<dim> pairs;
       for (const JointFace &face : interface.joint_faces)
@@ -407,8 +410,8 @@ namespace Keyblock
                   pair.joint  = face.joint;
                   pair.normal = scene.joints[face.joint]->normal();
                   const auto welded =
-                    fans.unwelding_stage.find({{minus[v], p}});
-                  if (welded != fans.unwelding_stage.end())
+                    clusters.unwelding_stage.find({{minus[v], p}});
+                  if (welded != clusters.unwelding_stage.end())
                     pair.unwelding_stage = welded->second;
                   pair.area += in_plane * areas[v];
                   pair.area_vector += areas[v] * direction;
@@ -494,15 +497,15 @@ namespace Keyblock
     if (!is_active)
       for (auto &block : welded.blocks)
         block.is_infinite = true;
-    const FanNumbering<dim> fans(mesh,
-                                 welded,
-                                 kept,
-                                 !is_active ||
-                                   scene.contact.weld_infinite_blocks,
-                                 result);
+    const ClusterNumbering<dim> clusters(mesh,
+                                         welded,
+                                         kept,
+                                         !is_active ||
+                                           scene.contact.weld_infinite_blocks,
+                                         result);
     find_neighbors(result.mesh);
     result.hanging = list_hanging_vertices(result.mesh);
-    make_pairs(scene, fans, result);
+    make_pairs(scene, clusters, result);
     list_surface(result);
     return result;
   }

@@ -73,11 +73,11 @@ namespace Keyblock
 
   template <typename Action>
   void
-  for_each_number(NodeHistory &node, const Action &action)
+  for_each_number(NodeHistory &entry, const Action &action)
   {
-    action(node.slot);
-    action(node.joint);
-    for_each_number(node.history, action);
+    action(entry.node);
+    action(entry.joint);
+    for_each_number(entry.history, action);
   }
 
   template <int dim, typename Action>
@@ -234,8 +234,8 @@ namespace Keyblock
     file.exchange(group + "ramp_duration", state.loads.ramp.duration);
     file.exchange(group + "ramp_progress", state.loads.ramp.progress);
     file.exchange(group + "ramp_pace", state.loads.ramp.pace);
-    exchange_nodes(group + "carried_force",
-                   state.loads.carried_force,
+    exchange_nodes(group + "out_of_balance_force",
+                   state.loads.out_of_balance_force,
                    dim,
                    numbering.n_owned());
     for (ForceElementState &element : state.elements)
@@ -365,15 +365,19 @@ namespace Keyblock
     for (std::size_t i = 0; i < normals.size(); ++i)
       memory.normal[i / dim][i % dim] = normals[i];
     file.exchange(group + "is_removed_block", memory.is_removed_block);
-    file.exchange(group + "is_mobile_group", memory.is_mobile_group);
-    file.exchange(group + "is_mobile_slot", memory.is_mobile_slot);
-    file.exchange(group + "mobile_slots", memory.mobile_slots);
-    file.exchange(group + "mobile_corners", memory.mobile_corners);
+    file.exchange(group + "is_surface_contact_group",
+                  memory.is_surface_contact_group);
+    file.exchange(group + "is_surface_contact_node",
+                  memory.is_surface_contact_node);
+    file.exchange(group + "surface_contact_nodes",
+                  memory.surface_contact_nodes);
+    file.exchange(group + "surface_contact_groups",
+                  memory.surface_contact_groups);
     file.exchange(group + "contact_steps", memory.n_steps);
     file.exchange(group + "last_kick", memory.last_kick);
     file.exchange(group + "searched_position", memory.searched_position);
     file.exchange(group + "is_search_due", memory.is_search_due);
-    file.exchange(group + "next_look", memory.next_look);
+    file.exchange(group + "next_normal_check", memory.next_normal_check);
   }
 
   template class StateExchange<2>;

@@ -138,7 +138,7 @@ namespace Keyblock
 
 
   std::vector<SafetyFactor>
-  gather_from_teams(const std::vector<SafetyFactor> &mine)
+  gather_from_rank_groups(const std::vector<SafetyFactor> &mine)
   {
     // numbers of factors, of their trials and groups, and texts
     using Rows = std::vector<std::vector<double>>;

@@ -82,18 +82,18 @@ namespace Keyblock
           continue;
         const unsigned int minus = topology.numbering.local_node(pair.minus);
         const unsigned int plus  = topology.numbering.local_node(pair.plus);
-        // mobile nodes are known on all ranks
-        const bool is_mobile =
-          memory.is_mobile_group[topology.group_of_pair[p]];
-        if (!is_mobile && (minus == none || plus == none))
+        // nodes in surface contacts are known on all ranks
+        const bool is_surface_contact =
+          memory.is_surface_contact_group[topology.group_of_pair[p]];
+        if (!is_surface_contact && (minus == none || plus == none))
           continue;
         const double *at_minus =
-          is_mobile
-            ? &nodes.displacement[dim * search.slot_of_vertex[pair.minus]]
+          is_surface_contact
+            ? &nodes.displacement[dim * search.node_of_vertex[pair.minus]]
             : &fields.displacement[dim * minus];
         const double *at_plus =
-          is_mobile
-            ? &nodes.displacement[dim * search.slot_of_vertex[pair.plus]]
+          is_surface_contact
+            ? &nodes.displacement[dim * search.node_of_vertex[pair.plus]]
             : &fields.displacement[dim * plus];
         double gap = 0.;
         for (int d = 0; d < dim; ++d)
@@ -110,13 +110,13 @@ namespace Keyblock
 
   template <int dim>
   bool
-  ContactAreas<dim>::has_opened(const unsigned int slot,
+  ContactAreas<dim>::has_opened(const unsigned int node,
                                 const unsigned int joint) const
   {
-    const unsigned int g = topology.group_of_node[slot];
+    const unsigned int g = topology.group_of_node[node];
     if (g == none)
       return false;
-    const unsigned int v = search.vertex_of_slot[slot];
+    const unsigned int v = search.vertex_of_node[node];
     for (unsigned int p = interface.group_pairs_begin[g];
          p < interface.group_pairs_begin[g + 1];
          ++p)
@@ -130,14 +130,14 @@ namespace Keyblock
 
   template <int dim>
   bool
-  ContactAreas<dim>::has_pair(const unsigned int slot,
+  ContactAreas<dim>::has_pair(const unsigned int node,
                               const unsigned int joint,
                               const unsigned int block) const
   {
-    const unsigned int g = topology.group_of_node[slot];
+    const unsigned int g = topology.group_of_node[node];
     if (g == none)
       return false;
-    const unsigned int v = search.vertex_of_slot[slot];
+    const unsigned int v = search.vertex_of_node[node];
     for (unsigned int p = interface.group_pairs_begin[g];
          p < interface.group_pairs_begin[g + 1];
          ++p)
@@ -149,7 +149,7 @@ namespace Keyblock
             (pair.minus != v && pair.plus != v))
           continue;
         const unsigned int partner = pair.minus == v ? pair.plus : pair.minus;
-        if (search.is_on_block(search.slot_of_vertex[partner], block))
+        if (search.is_on_block(search.node_of_vertex[partner], block))
           return true;
       }
     return false;
@@ -174,7 +174,7 @@ namespace Keyblock
           const double r =
             std::max(0., dot<dim>(contact.point.impulse, contact.point.normal));
           auto &sums = impulses[between(contact.joint,
-                                        search.block_of_slot[contact.slave],
+                                        search.block_of_node[contact.slave],
                                         contact.master_block)];
           sums[0] += 1.;
           sums[1] += r;
@@ -183,7 +183,7 @@ namespace Keyblock
     for (const auto &[footing, r] : impulse_at)
       {
         const auto &sums = impulses[between(
-          footing[1], search.block_of_slot[footing[0]], footing[2])];
+          footing[1], search.block_of_node[footing[0]], footing[2])];
         if (r > least_share * sums[1] / sums[0])
           pressed.push_back(footing);
       }
@@ -277,13 +277,13 @@ namespace Keyblock
   ContactAreas<dim>::share_of_pairs(const FaceOverlap<dim> &overlap,
                                     const bool with_opened) const
   {
-    const auto &slots        = search.face_slots[overlap.slave_face];
-    const unsigned int joint = interface.surface[overlap.slave_face].joint;
-    const unsigned int block = interface.surface[overlap.master_face].block;
-    double sum               = 0.;
-    for (unsigned int k = 0; k < slots.size(); ++k)
-      if ((with_opened && has_opened(slots[k], joint)) ||
-          has_pair(slots[k], joint, block))
+    const auto &surface_nodes = search.nodes_of_face[overlap.slave_face];
+    const unsigned int joint  = interface.surface[overlap.slave_face].joint;
+    const unsigned int block  = interface.surface[overlap.master_face].block;
+    double sum                = 0.;
+    for (unsigned int k = 0; k < surface_nodes.size(); ++k)
+      if ((with_opened && has_opened(surface_nodes[k], joint)) ||
+          has_pair(surface_nodes[k], joint, block))
         sum += overlap.slave_weight[k];
     return std::min(sum, 1.);
   }
@@ -301,7 +301,7 @@ namespace Keyblock
     for (const SurfaceContact<dim> &contact : memory.contacts)
       if (contact.joint != none && !contact.is_ridge)
         impulse[between(contact.joint,
-                        search.block_of_slot[contact.slave],
+                        search.block_of_node[contact.slave],
                         contact.master_block)] +=
           dot<dim>(contact.point.impulse, contact.point.normal);
     mean_pressure.clear();
@@ -319,7 +319,7 @@ namespace Keyblock
   {
     const auto found =
       mean_pressure.find(between(contact.joint,
-                                 search.block_of_slot[contact.slave],
+                                 search.block_of_node[contact.slave],
                                  contact.master_block));
     return found == mean_pressure.end() ? 0. : found->second;
   }
@@ -336,25 +336,26 @@ namespace Keyblock
     const std::vector<Footing> &bearing,
     std::vector<AreaShare> &shares) const
   {
-    const auto &slots        = search.face_slots[face];
-    const unsigned int joint = interface.surface[face].joint;
-    double sum               = 0.;
+    const auto &surface_nodes = search.nodes_of_face[face];
+    const unsigned int joint  = interface.surface[face].joint;
+    double sum                = 0.;
     std::array<bool, Mesh<dim>::n_face_vertices> takes;
-    for (unsigned int k = 0; k < slots.size(); ++k)
+    for (unsigned int k = 0; k < surface_nodes.size(); ++k)
       {
-        takes[k] = std::binary_search(bearing.begin(),
-                                      bearing.end(),
-                                      Footing{{slots[k], joint, block}}) &&
-                   !has_opened(slots[k], joint) &&
-                   !has_pair(slots[k], joint, block);
+        takes[k] =
+          std::binary_search(bearing.begin(),
+                             bearing.end(),
+                             Footing{{surface_nodes[k], joint, block}}) &&
+          !has_opened(surface_nodes[k], joint) &&
+          !has_pair(surface_nodes[k], joint, block);
         sum += takes[k] ? weight[k] : 0.;
       }
     if (sum <= 0.)
       return false;
-    for (unsigned int k = 0; k < slots.size(); ++k)
+    for (unsigned int k = 0; k < surface_nodes.size(); ++k)
       if (takes[k])
         shares.push_back(
-          {{{slots[k], joint, block}}, {}, area * weight[k] / sum});
+          {{{surface_nodes[k], joint, block}}, {}, area * weight[k] / sum});
     return true;
   }
 

@@ -6,7 +6,8 @@ namespace Keyblock
 {
   namespace
   {
-    /** Steps between two looks at the normals of pairs, in large kinematics. */
+    /** Steps within a check interval at the normals of pairs, in large
+     * kinematics. */
     constexpr unsigned int normals_interval = 20;
 
     /** That of the start, but for bonds. */
@@ -28,8 +29,8 @@ namespace Keyblock
           memory.normal.push_back(n);
         }
       memory.is_removed_block.assign(blocks.blocks.size(), false);
-      memory.is_mobile_group.assign(interface.n_groups(), false);
-      memory.is_mobile_slot.assign(search.n_slots(), false);
+      memory.is_surface_contact_group.assign(interface.n_groups(), false);
+      memory.is_surface_contact_node.assign(search.n_surface_nodes(), false);
       return memory;
     }
   } // namespace
@@ -103,19 +104,19 @@ namespace Keyblock
     if (step.is_large && memory.n_steps % normals_interval == 0)
       detection.refresh_normals();
     tally.n_searches += detection.update(step.step);
-    nodes.gather(memory.mobile_slots);
+    nodes.gather(memory.surface_contact_nodes);
     if (memory.last_kick <= 0.)
       memory.last_kick = step.kick;
     pairs.solve(step);
     multi_pairs.solve(step);
-    if (!memory.mobile_slots.empty())
+    if (!memory.surface_contact_nodes.empty())
       surfaces.solve(step);
     memory.last_kick = step.kick;
     areas.note_openings();
     nodes.scatter(step.kick);
     if (strength.has_memory)
       history.advance(step.step);
-    if (step.is_large && !memory.mobile_slots.empty())
+    if (step.is_large && !memory.surface_contact_nodes.empty())
       surfaces.correct_penetration(fields, tally);
     ++memory.n_steps;
   }
@@ -167,7 +168,7 @@ namespace Keyblock
       }
     for (const SurfaceContact<dim> &contact : memory.contacts)
       if (contact.master_block == block ||
-          search.block_of_slot[contact.slave] == block)
+          search.block_of_node[contact.slave] == block)
         for (int k = 0; k < contact.point.n_nodes; ++k)
           if (nodes.local_node[contact.point.node[k]] != none)
             for (int d = 0; d < dim; ++d)
@@ -188,8 +189,8 @@ namespace Keyblock
   {
     memory = past;
     keep_histories();
-    memory.is_search_due = true;
-    memory.next_look     = memory.n_steps;
+    memory.is_search_due     = true;
+    memory.next_normal_check = memory.n_steps;
     multi_pairs.list_nodes();
     multi_pairs.activate_nodes();
   }
@@ -201,21 +202,21 @@ namespace Keyblock
   Contact<dim>::resume(const ContactMemory<dim> &past)
   {
     recall(past);
-    memory.is_search_due = past.is_search_due;
-    memory.next_look     = past.next_look;
+    memory.is_search_due     = past.is_search_due;
+    memory.next_normal_check = past.next_normal_check;
     detection.search_again();
   }
 
 
   template <int dim>
   std::vector<unsigned int>
-  Contact<dim>::list_mobile_nodes() const
+  Contact<dim>::list_surface_contact_nodes() const
   {
-    std::vector<unsigned int> mobile;
-    for (const unsigned int slot : memory.mobile_slots)
-      if (nodes.local_node[slot] != none)
-        mobile.push_back(nodes.local_node[slot]);
-    return mobile;
+    std::vector<unsigned int> result;
+    for (const unsigned int node : memory.surface_contact_nodes)
+      if (nodes.local_node[node] != none)
+        result.push_back(nodes.local_node[node]);
+    return result;
   }
 
   template class Contact<2>;

@@ -100,19 +100,20 @@ namespace Keyblock
   void
   ContactDetection<dim>::measure_motion(const double step)
   {
-    if (!memory.searched_position.empty() && memory.n_steps >= memory.next_look)
+    if (!memory.searched_position.empty() &&
+        memory.n_steps >= memory.next_normal_check)
       {
         double square = 0., speed = 0.;
-        for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
-          if (nodes.local_node[slot] < numbering.n_owned())
+        for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
+          if (nodes.local_node[node] < numbering.n_owned())
             {
               double moved = 0., fast = 0.;
               for (int d = 0; d < dim; ++d)
                 {
-                  const unsigned int dof = dim * nodes.local_node[slot] + d;
+                  const unsigned int dof = dim * nodes.local_node[node] + d;
                   const double way       = fields.reference[dof] +
                                      fields.displacement[dof] -
-                                     memory.searched_position[dim * slot + d];
+                                     memory.searched_position[dim * node + d];
                   moved += way * way;
                   fast += fields.velocity[dof] * fields.velocity[dof];
                 }
@@ -123,10 +124,10 @@ namespace Keyblock
         speed  = std::sqrt(max_over_ranks(speed));
         memory.is_search_due =
           memory.is_search_due || square > 0.25 * search.skin() * search.skin();
-        const double eighth = 0.125 * search.skin();
-        memory.next_look    = memory.n_steps + 1;
+        const double eighth      = 0.125 * search.skin();
+        memory.next_normal_check = memory.n_steps + 1;
         if (speed * step * 20. < eighth)
-          memory.next_look += 19;
+          memory.next_normal_check += 19;
       }
   }
 
@@ -147,9 +148,9 @@ namespace Keyblock
     for (unsigned int p = 0; p < memory.state.size(); ++p)
       {
         const unsigned int g = topology.group_of_pair[p];
-        if (!memory.is_mobile_group[g])
+        if (!memory.is_surface_contact_group[g])
           memory.state[p] = all[p];
-        if (strength.has_memory && !memory.is_mobile_group[g])
+        if (strength.has_memory && !memory.is_surface_contact_group[g])
           memory.pair_histories[p] = histories[p];
         if (strength.has_memory && converted[p] && !all[p].is_converted)
           history.pass_on(p);
@@ -177,7 +178,7 @@ namespace Keyblock
       memory.searched_position = nodes.gather_positions();
     share_pair_states();
     list_candidates(is_moved);
-    mark_mobile();
+    mark_surface_contacts();
     return true;
   }
 
@@ -207,15 +208,15 @@ namespace Keyblock
 
   template <int dim>
   bool
-  ContactDetection<dim>::is_paired(const unsigned int slot,
+  ContactDetection<dim>::is_paired(const unsigned int node,
                                    const unsigned int face,
                                    const std::vector<bool> &has_converted) const
   {
-    const unsigned int g = topology.group_of_node[slot];
+    const unsigned int g = topology.group_of_node[node];
     if (g == none)
       return false;
     if (!has_converted[g])
-      for (const unsigned int other : search.face_slots[face])
+      for (const unsigned int other : search.nodes_of_face[face])
         if (topology.group_of_node[other] == g)
           return true;
     for (unsigned int p = interface.group_pairs_begin[g];
@@ -223,11 +224,11 @@ namespace Keyblock
          ++p)
       {
         const Pair<dim> &pair = interface.pairs[p];
-        const unsigned int v  = search.vertex_of_slot[slot];
+        const unsigned int v  = search.vertex_of_node[node];
         if (memory.state[p].is_converted || (pair.minus != v && pair.plus != v))
           continue;
         const unsigned int partner =
-          search.slot_of_vertex[pair.minus == v ? pair.plus : pair.minus];
+          search.node_of_vertex[pair.minus == v ? pair.plus : pair.minus];
         const SurfaceFace<dim> &surface = interface.surface[face];
         if (search.is_on_block(partner, surface.block) &&
             (pair.joint == surface.joint ||
@@ -258,8 +259,8 @@ namespace Keyblock
     listed_converted = converted;
     search.search(
       memory.searched_position,
-      [&](const unsigned int slot, const unsigned int face) {
-        return is_paired(slot, face, has_converted);
+      [&](const unsigned int node, const unsigned int face) {
+        return is_paired(node, face, has_converted);
       },
       has_changed);
     areas.find_overlaps(is_moved);
@@ -269,41 +270,42 @@ namespace Keyblock
 
   template <int dim>
   void
-  ContactDetection<dim>::mark_mobile()
+  ContactDetection<dim>::mark_surface_contacts()
   {
-    std::fill(memory.is_mobile_slot.begin(),
-              memory.is_mobile_slot.end(),
+    std::fill(memory.is_surface_contact_node.begin(),
+              memory.is_surface_contact_node.end(),
               false);
-    memory.is_mobile_group = list_converted_groups();
-    for (const unsigned int slot : search.candidate_slots())
+    memory.is_surface_contact_group = list_converted_groups();
+    for (const unsigned int node : search.candidate_nodes())
       {
-        memory.is_mobile_slot[slot] = true;
-        if (topology.group_of_node[slot] != none)
-          memory.is_mobile_group[topology.group_of_node[slot]] = true;
+        memory.is_surface_contact_node[node] = true;
+        if (topology.group_of_node[node] != none)
+          memory.is_surface_contact_group[topology.group_of_node[node]] = true;
       }
     for (const HangingVertex &hanging : split.hanging)
-      if (search.slot_of_vertex[hanging.vertex] != none &&
-          memory.is_mobile_slot[search.slot_of_vertex[hanging.vertex]])
+      if (search.node_of_vertex[hanging.vertex] != none &&
+          memory.is_surface_contact_node[search.node_of_vertex[hanging.vertex]])
         for (const auto &[master, weight] : hanging.masters)
           {
-            const unsigned int slot     = search.slot_of_vertex[master];
-            memory.is_mobile_slot[slot] = true;
-            if (topology.group_of_node[slot] != none)
-              memory.is_mobile_group[topology.group_of_node[slot]] = true;
+            const unsigned int node = search.node_of_vertex[master];
+            memory.is_surface_contact_node[node] = true;
+            if (topology.group_of_node[node] != none)
+              memory.is_surface_contact_group[topology.group_of_node[node]] =
+                true;
           }
-    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
-      if (topology.group_of_node[slot] != none &&
-          memory.is_mobile_group[topology.group_of_node[slot]])
-        memory.is_mobile_slot[slot] = true;
-    memory.mobile_slots.clear();
-    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
-      if (memory.is_mobile_slot[slot])
+    for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
+      if (topology.group_of_node[node] != none &&
+          memory.is_surface_contact_group[topology.group_of_node[node]])
+        memory.is_surface_contact_node[node] = true;
+    memory.surface_contact_nodes.clear();
+    for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
+      if (memory.is_surface_contact_node[node])
         {
-          memory.mobile_slots.push_back(slot);
-          if (nodes.local_node[slot] != none)
-            fields.is_in_cluster[nodes.local_node[slot]] = false;
+          memory.surface_contact_nodes.push_back(node);
+          if (nodes.local_node[node] != none)
+            fields.is_in_cluster[nodes.local_node[node]] = false;
         }
-    multi_pairs.list_mobile_groups();
+    multi_pairs.list_surface_contact_groups();
     multi_pairs.activate_nodes();
   }
 

@@ -12,14 +12,14 @@ namespace Keyblock
     template <typename Histories>
     auto
     place_in(Histories &histories,
-             const unsigned int slot,
+             const unsigned int node,
              const unsigned int joint)
     {
       return std::lower_bound(histories.begin(),
                               histories.end(),
-                              std::make_pair(slot, joint),
-                              [](const NodeHistory &node, const auto &key) {
-                                return std::make_pair(node.slot, node.joint) <
+                              std::make_pair(node, joint),
+                              [](const NodeHistory &entry, const auto &key) {
+                                return std::make_pair(entry.node, entry.joint) <
                                        key;
                               });
     }
@@ -47,11 +47,11 @@ namespace Keyblock
 
   template <int dim>
   JointHistory
-  ContactHistory<dim>::find(const unsigned int slot,
+  ContactHistory<dim>::find(const unsigned int node,
                             const unsigned int joint) const
   {
-    const auto place = place_in(memory.node_histories, slot, joint);
-    return place != memory.node_histories.end() && place->slot == slot &&
+    const auto place = place_in(memory.node_histories, node, joint);
+    return place != memory.node_histories.end() && place->node == node &&
                place->joint == joint
              ? place->history
              : JointHistory();
@@ -80,13 +80,13 @@ namespace Keyblock
 
   template <int dim>
   JointHistory &
-  ContactHistory<dim>::at(const unsigned int slot, const unsigned int joint)
+  ContactHistory<dim>::at(const unsigned int node, const unsigned int joint)
   {
-    const auto place = place_in(memory.node_histories, slot, joint);
-    if (place != memory.node_histories.end() && place->slot == slot &&
+    const auto place = place_in(memory.node_histories, node, joint);
+    if (place != memory.node_histories.end() && place->node == node &&
         place->joint == joint)
       return place->history;
-    return memory.node_histories.insert(place, {slot, joint, {}})->history;
+    return memory.node_histories.insert(place, {node, joint, {}})->history;
   }
 
 
@@ -96,8 +96,8 @@ namespace Keyblock
   ContactHistory<dim>::largest_dilation() const
   {
     double largest = 0.;
-    for (const NodeHistory &node : memory.node_histories)
-      largest = std::max(largest, node.history.dilation);
+    for (const NodeHistory &entry : memory.node_histories)
+      largest = std::max(largest, entry.history.dilation);
     return largest;
   }
 
@@ -110,7 +110,7 @@ namespace Keyblock
     const Pair<dim> &p = interface.pairs[pair];
     for (const unsigned int vertex : {p.minus, p.plus})
       {
-        JointHistory &history = at(search.slot_of_vertex[vertex], p.joint);
+        JointHistory &history = at(search.node_of_vertex[vertex], p.joint);
         if (history.slip < memory.pair_histories[pair].slip)
           history = memory.pair_histories[pair];
       }
@@ -123,17 +123,18 @@ namespace Keyblock
   ContactHistory<dim>::find_velocity(const unsigned int pair,
                                      Vector<dim> &velocity) const
   {
-    const Pair<dim> &p   = interface.pairs[pair];
-    const bool is_mobile = memory.is_mobile_group[topology.group_of_pair[pair]];
-    const auto index_of  = [&](const unsigned int vertex) {
-      return is_mobile ? search.slot_of_vertex[vertex]
-                        : topology.numbering.local_node(vertex);
+    const Pair<dim> &p = interface.pairs[pair];
+    const bool is_surface_contact =
+      memory.is_surface_contact_group[topology.group_of_pair[pair]];
+    const auto index_of = [&](const unsigned int vertex) {
+      return is_surface_contact ? search.node_of_vertex[vertex]
+                                : topology.numbering.local_node(vertex);
     };
     const unsigned int plus = index_of(p.plus), minus = index_of(p.minus);
     if (plus == none || minus == none)
       return false;
     const double *v =
-      is_mobile ? nodes.velocity.data() : fields.velocity.data();
+      is_surface_contact ? nodes.velocity.data() : fields.velocity.data();
     for (int d = 0; d < dim; ++d)
       velocity[d] = v[dim * plus + d] - v[dim * minus + d];
     return true;

@@ -59,15 +59,15 @@ namespace Keyblock
   {
     for (Group &group : groups)
       {
-        group.slots.clear();
+        group.surface_nodes.clear();
         for (unsigned int i = interface.group_begin[group.group];
              i < interface.group_begin[group.group + 1];
              ++i)
           {
-            const unsigned int slot =
-              search.slot_of_vertex[interface.group_vertices[i]];
-            if (!memory.is_removed_block[search.block_of_slot[slot]])
-              group.slots.push_back(slot);
+            const unsigned int node =
+              search.node_of_vertex[interface.group_vertices[i]];
+            if (!memory.is_removed_block[search.block_of_node[node]])
+              group.surface_nodes.push_back(node);
           }
       }
   }
@@ -78,11 +78,11 @@ namespace Keyblock
   void
   MultiPairContact<dim>::activate_nodes()
   {
-    std::vector<bool> is_active = memory.is_mobile_slot;
+    std::vector<bool> is_active = memory.is_surface_contact_node;
     for (const Group &group : groups)
-      for (const unsigned int slot : group.slots)
-        if (nodes.local_node[slot] != none)
-          is_active[slot] = true;
+      for (const unsigned int node : group.surface_nodes)
+        if (nodes.local_node[node] != none)
+          is_active[node] = true;
     nodes.activate(is_active);
   }
 
@@ -90,12 +90,12 @@ namespace Keyblock
 
   template <int dim>
   void
-  MultiPairContact<dim>::list_mobile_groups()
+  MultiPairContact<dim>::list_surface_contact_groups()
   {
-    memory.mobile_corners.clear();
+    memory.surface_contact_groups.clear();
     for (unsigned int i = 0; i < groups.size(); ++i)
-      if (memory.is_mobile_group[groups[i].group])
-        memory.mobile_corners.push_back(i);
+      if (memory.is_surface_contact_group[groups[i].group])
+        memory.surface_contact_groups.push_back(i);
   }
 
 
@@ -105,8 +105,9 @@ namespace Keyblock
   MultiPairContact<dim>::solve(const ContactStep &step)
   {
     for (Group &group : groups)
-      if (!memory.is_mobile_group[group.group] && !group.slots.empty() &&
-          nodes.local_node[group.slots[0]] != none)
+      if (!memory.is_surface_contact_group[group.group] &&
+          !group.surface_nodes.empty() &&
+          nodes.local_node[group.surface_nodes[0]] != none)
         solve_group(group, step);
   }
 
@@ -118,11 +119,11 @@ namespace Keyblock
                                          const ContactStep &step)
   {
     std::vector<unsigned int> touched;
-    for (const unsigned int i : memory.mobile_corners)
-      if (std::none_of(groups[i].slots.begin(),
-                       groups[i].slots.end(),
-                       [&](const unsigned int slot) {
-                         return is_touched[slot];
+    for (const unsigned int i : memory.surface_contact_groups)
+      if (std::none_of(groups[i].surface_nodes.begin(),
+                       groups[i].surface_nodes.end(),
+                       [&](const unsigned int node) {
+                         return is_touched[node];
                        }))
         solve_group(groups[i], step);
       else
@@ -144,8 +145,8 @@ namespace Keyblock
     const Pair<dim> &p = interface.pairs[pair];
     ContactPoint<dim> point;
     point.n_nodes   = 2;
-    point.node[0]   = search.slot_of_vertex[p.plus];
-    point.node[1]   = search.slot_of_vertex[p.minus];
+    point.node[0]   = search.node_of_vertex[p.plus];
+    point.node[1]   = search.node_of_vertex[p.minus];
     point.weight[0] = 1.;
     point.weight[1] = -1.;
     point.normal    = memory.normal[pair];
@@ -174,9 +175,9 @@ namespace Keyblock
   MultiPairContact<dim>::books(const unsigned int group,
                                const ContactStep &step) const
   {
-    return step.keeps_ledger &&
-           (memory.is_mobile_group[group] ? is_root()
-                                          : topology.is_primary(group));
+    return step.keeps_ledger && (memory.is_surface_contact_group[group]
+                                   ? is_root()
+                                   : topology.is_primary(group));
   }
 
 
@@ -224,26 +225,26 @@ namespace Keyblock
                                        Vector<dim> common)
   {
     if (step.local_damping > 0. && is_damped &&
-        fields.is_in_cluster[nodes.local_node[group.slots[0]]])
+        fields.is_in_cluster[nodes.local_node[group.surface_nodes[0]]])
       {
         Vector<dim> old;
         for (int d = 0; d < dim; ++d)
-          old[d] = nodes.old_velocity[dim * group.slots[0] + d];
+          old[d] = nodes.old_velocity[dim * group.surface_nodes[0] + d];
         const Vector<dim> change =
           damp_cluster<dim>(common, old, step.local_damping);
         common = add<dim>(common, 1., change);
-        for (const unsigned int slot : group.slots)
-          if (nodes.local_node[slot] != none)
+        for (const unsigned int node : group.surface_nodes)
+          if (nodes.local_node[node] != none)
             for (int d = 0; d < dim; ++d)
-              fields.local_damping[dim * nodes.local_node[slot] + d] =
-                change[d] / nodes.inverse_mass[slot];
+              fields.local_damping[dim * nodes.local_node[node] + d] =
+                change[d] / nodes.inverse_mass[node];
       }
-    for (const unsigned int slot : group.slots)
+    for (const unsigned int node : group.surface_nodes)
       {
         for (int d = 0; d < dim; ++d)
-          nodes.velocity[dim * slot + d] = common[d];
-        if (nodes.local_node[slot] != none)
-          fields.is_in_cluster[nodes.local_node[slot]] = is_damped;
+          nodes.velocity[dim * node + d] = common[d];
+        if (nodes.local_node[node] != none)
+          fields.is_in_cluster[nodes.local_node[node]] = is_damped;
       }
   }
 
@@ -259,13 +260,13 @@ namespace Keyblock
     const auto [begin, end] = topology.pairs_of_group(g);
     Vector<dim> common;
     const bool is_free = group.find_common_velocity(nodes, common);
-    std::vector<double> needed(dim * group.slots.size(), 0.);
-    for (unsigned int i = 0; i < group.slots.size(); ++i)
+    std::vector<double> needed(dim * group.surface_nodes.size(), 0.);
+    for (unsigned int i = 0; i < group.surface_nodes.size(); ++i)
       for (int d = 0; d < dim; ++d)
         if (group.is_free(i, d))
           needed[dim * i + d] =
-            (common[d] - nodes.velocity[dim * group.slots[i] + d]) /
-            nodes.inverse_mass[group.slots[i]];
+            (common[d] - nodes.velocity[dim * group.surface_nodes[i] + d]) /
+            nodes.inverse_mass[group.surface_nodes[i]];
     for (unsigned int p = begin; p < end; ++p)
       if (!memory.state[p].is_removed)
         memory.state[p].impulse =
@@ -273,9 +274,12 @@ namespace Keyblock
     group.recover_impulses(topology, needed.data(), memory.state);
     if (!bears(group, step))
       return false;
-    // mobile nodes are damped with all others, before contact, and so is a
-    // cluster that was none in the step before
-    move_together(group, is_free && !memory.is_mobile_group[g], step, common);
+    // nodes in surface contacts are damped with all others, before contact, and
+    // so is a cluster that was none in the step before
+    move_together(group,
+                  is_free && !memory.is_surface_contact_group[g],
+                  step,
+                  common);
     if (books(g, step))
       for (unsigned int p = begin; p < end; ++p)
         {
@@ -309,7 +313,7 @@ namespace Keyblock
         double w = 0.;
         for (const unsigned int v :
              {interface.pairs[p].minus, interface.pairs[p].plus})
-          w += nodes.inverse_mass[search.slot_of_vertex[v]];
+          w += nodes.inverse_mass[search.node_of_vertex[v]];
         if (memory.state[p].is_removed || memory.state[p].is_converted ||
             w == 0.)
           continue;
@@ -319,9 +323,9 @@ namespace Keyblock
         broken.push_back(strength.of_pair(p, false, step.kick));
         members.push_back(p);
       }
-    for (const unsigned int slot : group.slots)
-      if (nodes.local_node[slot] != none)
-        fields.is_in_cluster[nodes.local_node[slot]] = false;
+    for (const unsigned int node : group.surface_nodes)
+      if (nodes.local_node[node] != none)
+        fields.is_in_cluster[nodes.local_node[node]] = false;
     solver.solve(points, broken, nodes.view, step.step, !strength.is_tied);
     const bool is_booked = books(g, step);
     for (unsigned int i = 0; i < points.size(); ++i)
@@ -349,8 +353,8 @@ namespace Keyblock
       if (!memory.state[p].is_converted && !memory.state[p].is_removed)
         for (int d = 0; d < dim; ++d)
           {
-            const auto plus  = search.slot_of_vertex[interface.pairs[p].plus];
-            const auto minus = search.slot_of_vertex[interface.pairs[p].minus];
+            const auto plus  = search.node_of_vertex[interface.pairs[p].plus];
+            const auto minus = search.node_of_vertex[interface.pairs[p].minus];
             nodes.impulse[dim * plus + d] += memory.state[p].impulse[d];
             nodes.impulse[dim * minus + d] -= memory.state[p].impulse[d];
           }

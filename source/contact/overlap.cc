@@ -123,7 +123,7 @@ namespace Keyblock
       return norm<dim>(difference<dim>(x[x.size() - 1], x[0]));
     };
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
-    for (unsigned int f = 0; f < face_slots.size(); ++f)
+    for (unsigned int f = 0; f < nodes_of_face.size(); ++f)
       if (joint_of(f) != none && joints[joint_of(f)])
         boxes.emplace_back(box_of(position, f, farthest_gap * size_of(f)), f);
     const auto tree = dealii::pack_rtree(boxes);
@@ -171,20 +171,20 @@ namespace Keyblock
   template <int dim>
   std::vector<typename ContactSearch<dim>::Projection>
   ContactSearch<dim>::feet_on_pairs(const std::vector<double> &position,
-                                    const unsigned int slot) const
+                                    const unsigned int node) const
   {
     std::vector<Projection> feet;
     const auto candidate =
       std::lower_bound(candidates.begin(),
                        candidates.end(),
-                       slot,
+                       node,
                        [](const Candidate &a, const unsigned int b) {
                          return a.slave < b;
                        });
-    if (candidate == candidates.end() || candidate->slave != slot)
+    if (candidate == candidates.end() || candidate->slave != node)
       return feet;
     for (const CandidateFace &face : candidate->paired_faces)
-      feet.push_back(project(position, at<dim>(position, slot), face.face));
+      feet.push_back(project(position, at<dim>(position, node), face.face));
     return feet;
   }
 
@@ -193,11 +193,11 @@ namespace Keyblock
   template <int dim>
   double
   ContactSearch<dim>::overlap_with(const std::vector<double> &position,
-                                   const unsigned int slot,
+                                   const unsigned int node,
                                    const std::vector<unsigned int> &faces) const
   {
-    const Vector<dim> place              = at<dim>(position, slot);
-    const std::vector<Projection> paired = feet_on_pairs(position, slot);
+    const Vector<dim> place              = at<dim>(position, node);
+    const std::vector<Projection> paired = feet_on_pairs(position, node);
     double depth = 0., distance = std::numeric_limits<double>::max();
     bool is_in_front = false; // of the nearest joint
     bool is_on_joint = false;
@@ -211,8 +211,8 @@ namespace Keyblock
             is_in_front = now.is_inside && now.gap > 0.;
           }
         if (!now.is_inside || now.gap >= 0. ||
-            now.gap < -make_candidate(position, slot, f).largest_overlap ||
-            !opposes(position, slot, now.normal) ||
+            now.gap < -make_candidate(position, node, f).largest_overlap ||
+            !opposes(position, node, now.normal) ||
             std::any_of(paired.begin(),
                         paired.end(),
                         [&](const Projection &other) {
@@ -220,7 +220,7 @@ namespace Keyblock
                         }))
           continue;
         const double before =
-          project(start_position, at<dim>(start_position, slot), f).gap;
+          project(start_position, at<dim>(start_position, node), f).gap;
         const double deeper = -now.gap + std::min(0., before);
         depth               = depth == 0. ? deeper : std::min(depth, deeper);
         is_on_joint         = is_on_joint || is_joint;
@@ -240,18 +240,18 @@ namespace Keyblock
     const std::vector<bool> &is_removed_block) const
   {
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
-    for (unsigned int f = 0; f < face_slots.size(); ++f)
+    for (unsigned int f = 0; f < nodes_of_face.size(); ++f)
       if (!is_removed_block[interface.surface[f].block])
         boxes.emplace_back(box_of(position, f, skin_width), f);
     const auto tree = dealii::pack_rtree(boxes);
     Overlap<dim> largest;
     namespace bgi = boost::geometry::index;
-    for (unsigned int slot = 0; slot < n_slots(); ++slot)
+    for (unsigned int node = 0; node < n_surface_nodes(); ++node)
       {
-        const unsigned int block = block_of_slot[slot];
+        const unsigned int block = block_of_node[node];
         if (is_removed_block[block])
           continue;
-        const Vector<dim> place = at<dim>(position, slot);
+        const Vector<dim> place = at<dim>(position, node);
         dealii::Point<dim> p;
         for (unsigned int d = 0; d < dim; ++d)
           p[d] = place[d];
@@ -259,10 +259,11 @@ namespace Keyblock
         for (const auto &hit :
              tree | bgi::adaptors::queried(bgi::intersects(p)))
           {
-            const unsigned int f     = hit.second;
-            const unsigned int other = interface.surface[f].block;
-            const auto &slots        = face_slots[f];
-            if (std::find(slots.begin(), slots.end(), slot) != slots.end() ||
+            const unsigned int f      = hit.second;
+            const unsigned int other  = interface.surface[f].block;
+            const auto &surface_nodes = nodes_of_face[f];
+            if (std::find(surface_nodes.begin(), surface_nodes.end(), node) !=
+                  surface_nodes.end() ||
                 (block == other && interface.surface[f].joint == none) ||
                 (is_rigid_block[block] && is_rigid_block[other]))
               continue;
@@ -270,7 +271,7 @@ namespace Keyblock
           }
         for (const auto &[other, faces] : faces_near)
           {
-            const double depth = overlap_with(position, slot, faces);
+            const double depth = overlap_with(position, node, faces);
             // of several that are equal but for rounding the first, on any
             // ranks
             if (depth > rounding * block_face_size[block] &&

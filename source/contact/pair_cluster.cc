@@ -52,12 +52,12 @@ namespace Keyblock
                            const std::vector<PairState<dim>> &state)
   {
     const unsigned int g = group;
-    const unsigned int n = slots.size();
+    const unsigned int n = surface_nodes.size();
     const auto index_of  = [&](const unsigned int vertex) {
-      return std::find(slots.begin(),
-                       slots.end(),
-                       topology.search.slot_of_vertex[vertex]) -
-             slots.begin();
+      return std::find(surface_nodes.begin(),
+                       surface_nodes.end(),
+                       topology.search.node_of_vertex[vertex]) -
+             surface_nodes.begin();
     };
     is_oblique = false;
     for (int d = 0; d < dim; ++d)
@@ -66,12 +66,12 @@ namespace Keyblock
         free_index[d].assign(n, -1);
         for (unsigned int i = 0; i < n; ++i)
           {
-            const double *p = nodes.projection[slots[i]];
+            const double *p = nodes.projection[surface_nodes[i]];
             if (p != nullptr)
               for (int e = 0; e < dim; ++e)
                 is_oblique =
                   is_oblique || (e != d && std::abs(p[dim * d + e]) > 1e-12);
-            if (nodes.inverse_mass[slots[i]] > 0. &&
+            if (nodes.inverse_mass[surface_nodes[i]] > 0. &&
                 (p == nullptr || p[dim * d + d] > 0.5))
               free_index[d][i] = n_free++;
           }
@@ -113,10 +113,10 @@ namespace Keyblock
       {
         double mass = 0., momentum = 0., held = 0.;
         bool is_held = false;
-        for (unsigned int i = 0; i < slots.size(); ++i)
+        for (unsigned int i = 0; i < surface_nodes.size(); ++i)
           {
-            const unsigned int slot = slots[i];
-            const double v          = nodes.velocity[dim * slot + d];
+            const unsigned int node = surface_nodes[i];
+            const double v          = nodes.velocity[dim * node + d];
             if (free_index[d][i] < 0)
               {
                 is_held = true;
@@ -124,7 +124,7 @@ namespace Keyblock
               }
             else
               {
-                const double m = 1. / nodes.inverse_mass[slot];
+                const double m = 1. / nodes.inverse_mass[node];
                 mass += m;
                 momentum += m * v;
               }
@@ -147,12 +147,12 @@ namespace Keyblock
     const unsigned int g     = group;
     const unsigned int begin = topology.interface.group_pairs_begin[g];
     const unsigned int end   = topology.interface.group_pairs_begin[g + 1];
-    const unsigned int n     = slots.size();
+    const unsigned int n     = surface_nodes.size();
     const auto index         = [&](const unsigned int vertex) {
-      return std::find(slots.begin(),
-                       slots.end(),
-                       topology.search.slot_of_vertex[vertex]) -
-             slots.begin();
+      return std::find(surface_nodes.begin(),
+                       surface_nodes.end(),
+                       topology.search.node_of_vertex[vertex]) -
+             surface_nodes.begin();
     };
     for (int d = 0; d < dim; ++d)
       {

@@ -173,7 +173,8 @@ namespace Keyblock
         const double wm = fields.inverse_mass[single.minus];
         const double wp = fields.inverse_mass[single.plus];
         if (s.is_removed || wm + wp == 0. ||
-            memory.is_mobile_group[topology.group_of_pair[single.pair]])
+            memory
+              .is_surface_contact_group[topology.group_of_pair[single.pair]])
           continue;
         const PointStrength strength_now =
           strength.of_pair(single.pair, s.is_intact, step.kick);

@@ -15,7 +15,7 @@ namespace Keyblock
   {
     std::array<Vector<dim>, Mesh<dim>::n_face_vertices> corners;
     for (unsigned int v = 0; v < corners.size(); ++v)
-      corners[v] = at<dim>(position, face_slots[face][v]);
+      corners[v] = at<dim>(position, nodes_of_face[face][v]);
     return corners;
   }
 
@@ -46,7 +46,7 @@ namespace Keyblock
                               const unsigned int slave,
                               const Vector<dim> &normal) const
   {
-    for (const unsigned int f : faces_of_slot[slave])
+    for (const unsigned int f : faces_of_node[slave])
       if (dot<dim>(face_normal(position, f), normal) < -0.1)
         return true;
     return false;
@@ -77,8 +77,8 @@ namespace Keyblock
       from_a_to_b =
         add<dim>(from_a_to_b,
                  1. / Mesh<dim>::n_face_vertices,
-                 difference<dim>(at<dim>(position, face_slots[b.face][v]),
-                                 at<dim>(position, face_slots[a.face][v])));
+                 difference<dim>(at<dim>(position, nodes_of_face[b.face][v]),
+                                 at<dim>(position, nodes_of_face[a.face][v])));
     return dot<dim>(from_a_to_b, a.normal) < -1e-6 * a.size;
   }
 
@@ -91,11 +91,11 @@ namespace Keyblock
                             const Projection &b) const
   {
     const double slack   = 1e-6 * a.size;
-    const Vector<dim> on = at<dim>(position, face_slots[a.face][0]);
+    const Vector<dim> on = at<dim>(position, nodes_of_face[a.face][0]);
     if (is_coplanar(a, b) || a.gap < -slack)
       return false;
-    for (const unsigned int slot : face_slots[b.face])
-      if (dot<dim>(difference<dim>(at<dim>(position, slot), on), a.normal) >
+    for (const unsigned int node : nodes_of_face[b.face])
+      if (dot<dim>(difference<dim>(at<dim>(position, node), on), a.normal) >
           slack)
         return false;
     return true;
@@ -158,7 +158,7 @@ namespace Keyblock
       contact.point.weight[0] = 1.;
       for (unsigned int v = 0; v < Mesh<dim>::n_face_vertices; ++v)
         {
-          contact.point.node[v + 1]   = face_slots[projection.face][v];
+          contact.point.node[v + 1]   = nodes_of_face[projection.face][v];
           contact.point.weight[v + 1] = -projection.weight[v];
         }
       contact.point.normal = normal;

@@ -268,7 +268,7 @@ namespace Keyblock
     if (is_root())
       for (const SurfaceContact<dim> &contact : memory.contacts)
         {
-          const unsigned int slave       = search.block_of_slot[contact.slave];
+          const unsigned int slave       = search.block_of_node[contact.slave];
           const ContactPoint<dim> &point = contact.point;
           if (slave == contact.master_block)
             continue;
@@ -339,7 +339,7 @@ namespace Keyblock
                          memory.contacts.end(),
                          [&](const SurfaceContact<dim> &contact) {
                            const unsigned int block =
-                             search.block_of_slot[contact.slave];
+                             search.block_of_node[contact.slave];
                            return !contact.is_ridge &&
                                   block == contact.master_block &&
                                   search.start_distance(contact.slave,
@@ -388,7 +388,7 @@ namespace Keyblock
       if (contact.point.status == ContactStatus::sliding)
         {
           mark(contact.master_block);
-          mark(search.block_of_slot[contact.slave]);
+          mark(search.block_of_node[contact.slave]);
         }
     max_lists(is_sliding);
     return is_sliding;

@@ -60,30 +60,30 @@ namespace Keyblock
   void
   ContactSearch<3>::find_ridges()
   {
-    std::vector<double> position(3 * n_slots());
-    for (unsigned int slot = 0; slot < n_slots(); ++slot)
+    std::vector<double> position(3 * n_surface_nodes());
+    for (unsigned int node = 0; node < n_surface_nodes(); ++node)
       for (unsigned int d = 0; d < 3; ++d)
-        position[3 * slot + d] = place_of_slot[slot][d];
+        position[3 * node + d] = place_of_node[node][d];
     std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> faces_at;
-    for (unsigned int f = 0; f < face_slots.size(); ++f)
+    for (unsigned int f = 0; f < nodes_of_face.size(); ++f)
       for (const auto &[i, j] :
            {std::array<unsigned int, 2>{{0, 1}}, {{2, 3}}, {{0, 2}}, {{1, 3}}})
-        faces_at[{{std::min(face_slots[f][i], face_slots[f][j]),
-                   std::max(face_slots[f][i], face_slots[f][j])}}]
+        faces_at[{{std::min(nodes_of_face[f][i], nodes_of_face[f][j]),
+                   std::max(nodes_of_face[f][i], nodes_of_face[f][j])}}]
           .push_back(f);
     const auto center = [&](const unsigned int f) {
       Vector<3> sum{};
-      for (const unsigned int slot : face_slots[f])
-        sum = add<3>(sum, 0.25, at<3>(position, slot));
+      for (const unsigned int node : nodes_of_face[f])
+        sum = add<3>(sum, 0.25, at<3>(position, node));
       return sum;
     };
-    for (const auto &[slots, faces] : faces_at)
+    for (const auto &[surface_nodes, faces] : faces_at)
       if (faces.size() == 2)
         {
           const Vector<3> n = face_normal(position, faces[0]);
           if (dot<3>(n, face_normal(position, faces[1])) < cosine_of_sharp &&
               dot<3>(n, difference<3>(center(faces[1]), center(faces[0]))) < 0.)
-            ridges.push_back({slots, {{faces[0], faces[1]}}});
+            ridges.push_back({surface_nodes, {{faces[0], faces[1]}}});
         }
   }
 
@@ -116,8 +116,8 @@ namespace Keyblock
       std::pair<dealii::Point<3>, dealii::Point<3>> corners;
       for (unsigned int d = 0; d < 3; ++d)
         {
-          const double x    = position[3 * ridge.slots[0] + d];
-          const double y    = position[3 * ridge.slots[1] + d];
+          const double x    = position[3 * ridge.surface_nodes[0] + d];
+          const double y    = position[3 * ridge.surface_nodes[1] + d];
           corners.first[d]  = std::min(x, y) - margin;
           corners.second[d] = std::max(x, y) + margin;
         }
@@ -130,12 +130,12 @@ namespace Keyblock
 
     ridge_pairs.clear();
     const auto block_of = [&](const unsigned int r) {
-      return block_of_slot[ridges[r].slots[0]];
+      return block_of_node[ridges[r].surface_nodes[0]];
     };
     const auto touches_pair = [&](const Ridge &a, const Ridge &b) {
-      for (const unsigned int slot : a.slots)
+      for (const unsigned int node : a.surface_nodes)
         for (const unsigned int f : b.faces)
-          if (is_paired(slot, f))
+          if (is_paired(node, f))
             return true;
       return false;
     };
@@ -151,10 +151,10 @@ namespace Keyblock
               !is_slave_block(b, a))
             continue;
           const Crossing crossing =
-            cross_segments(at<3>(position, ridges[other].slots[0]),
-                           at<3>(position, ridges[other].slots[1]),
-                           at<3>(position, ridges[r].slots[0]),
-                           at<3>(position, ridges[r].slots[1]));
+            cross_segments(at<3>(position, ridges[other].surface_nodes[0]),
+                           at<3>(position, ridges[other].surface_nodes[1]),
+                           at<3>(position, ridges[r].surface_nodes[0]),
+                           at<3>(position, ridges[r].surface_nodes[1]));
           const auto is_near = [](const double s) { return s > -1. && s < 2.; };
           if (crossing.sine < least_sine || !is_near(crossing.s) ||
               !is_near(crossing.t) || touches_pair(ridges[r], ridges[other]) ||
@@ -178,13 +178,16 @@ namespace Keyblock
   ContactSearch<3>::largest_overlap_of(const Ridge &master,
                                        const Ridge &slave) const
   {
-    const auto start = [&](const unsigned int slot) {
-      return at<3>(start_position, slot);
+    const auto start = [&](const unsigned int node) {
+      return at<3>(start_position, node);
     };
-    const Vector<3> a0 = start(master.slots[0]), a1 = start(master.slots[1]);
-    const double size = norm<3>(difference<3>(a1, a0));
-    const Crossing crossing =
-      cross_segments(a0, a1, start(slave.slots[0]), start(slave.slots[1]));
+    const Vector<3> a0      = start(master.surface_nodes[0]),
+                    a1      = start(master.surface_nodes[1]);
+    const double size       = norm<3>(difference<3>(a1, a0));
+    const Crossing crossing = cross_segments(a0,
+                                             a1,
+                                             start(slave.surface_nodes[0]),
+                                             start(slave.surface_nodes[1]));
     const double outward =
       dot<3>(crossing.normal,
              add<3>(face_normal(start_position, master.faces[0]),
@@ -209,13 +212,13 @@ namespace Keyblock
     for (const RidgePair &pair : ridge_pairs)
       {
         const Ridge &master = ridges[pair.master], &slave = ridges[pair.slave];
-        const Vector<3> a0 = at<3>(position, master.slots[0]),
-                        a1 = at<3>(position, master.slots[1]);
+        const Vector<3> a0 = at<3>(position, master.surface_nodes[0]),
+                        a1 = at<3>(position, master.surface_nodes[1]);
         const Crossing crossing =
           cross_segments(a0,
                          a1,
-                         at<3>(position, slave.slots[0]),
-                         at<3>(position, slave.slots[1]));
+                         at<3>(position, slave.surface_nodes[0]),
+                         at<3>(position, slave.surface_nodes[1]));
         if (crossing.sine < least_sine || !is_inside(crossing.s) ||
             !is_inside(crossing.t))
           continue;
@@ -233,7 +236,7 @@ namespace Keyblock
                                difference<3>(Vector<3>{}, normal)))
           continue;
         SurfaceContact<3> contact;
-        contact.slave        = slave.slots[0];
+        contact.slave        = slave.surface_nodes[0];
         contact.face         = master.faces[0];
         contact.is_ridge     = true;
         contact.joint        = interface.surface[master.faces[0]].joint;
@@ -241,10 +244,12 @@ namespace Keyblock
         if (contact.joint == none)
           contact.joint = interface.surface[master.faces[1]].joint;
         contact.point.n_nodes = 4;
-        contact.point.node    = {
-             {slave.slots[0], slave.slots[1], master.slots[0], master.slots[1]}};
-        contact.point.weight = {
-          {1. - crossing.t, crossing.t, crossing.s - 1., -crossing.s}};
+        contact.point.node    = {{slave.surface_nodes[0],
+                                  slave.surface_nodes[1],
+                                  master.surface_nodes[0],
+                                  master.surface_nodes[1]}};
+        contact.point.weight  = {
+           {1. - crossing.t, crossing.t, crossing.s - 1., -crossing.s}};
         contact.point.normal = normal;
         contact.point.gap    = gap;
         contacts.push_back(contact);

@@ -41,25 +41,25 @@ namespace Keyblock
   {
     const Mesh<dim> &mesh = split.mesh;
     std::vector<unsigned int> n_faces(blocks.blocks.size(), 0);
-    slot_of_vertex.assign(mesh.vertices.size(), none);
+    node_of_vertex.assign(mesh.vertices.size(), none);
     double smallest = std::numeric_limits<double>::max();
     for (const SurfaceFace<dim> &face : interface.surface)
       {
-        auto slots = face.vertices;
-        for (unsigned int &slot : slots)
+        auto surface_nodes = face.vertices;
+        for (unsigned int &node : surface_nodes)
           {
-            const unsigned int v = slot;
-            if (slot_of_vertex[v] == none)
+            const unsigned int v = node;
+            if (node_of_vertex[v] == none)
               {
-                slot_of_vertex[v] = vertex_of_slot.size();
-                vertex_of_slot.push_back(v);
-                block_of_slot.push_back(face.block);
-                faces_of_slot.emplace_back();
+                node_of_vertex[v] = vertex_of_node.size();
+                vertex_of_node.push_back(v);
+                block_of_node.push_back(face.block);
+                faces_of_node.emplace_back();
               }
-            slot = slot_of_vertex[v];
-            faces_of_slot[slot].push_back(face_slots.size());
+            node = node_of_vertex[v];
+            faces_of_node[node].push_back(nodes_of_face.size());
           }
-        face_slots.push_back(slots);
+        nodes_of_face.push_back(surface_nodes);
         const double size =
           std::pow(mesh.face_area_vector(face.cell, face.face).norm(),
                    1. / (dim - 1));
@@ -74,21 +74,21 @@ namespace Keyblock
         is_rigid_block.push_back(blocks.blocks[b].is_rigid);
       }
     skin_width = 0.5 * smallest;
-    place_slots(mesh, scene);
-    start_position.resize(dim * n_slots());
-    for (unsigned int slot = 0; slot < n_slots(); ++slot)
+    place_surface_nodes(mesh, scene);
+    start_position.resize(dim * n_surface_nodes());
+    for (unsigned int node = 0; node < n_surface_nodes(); ++node)
       for (int d = 0; d < dim; ++d)
-        start_position[dim * slot + d] = place_of_slot[slot][d];
+        start_position[dim * node + d] = place_of_node[node][d];
     if constexpr (dim == 3)
       find_ridges();
 
-    for (unsigned int slot = 0; slot < n_slots(); ++slot)
+    for (unsigned int node = 0; node < n_surface_nodes(); ++node)
       {
         bool is_edge = false;
-        for (const unsigned int f : faces_of_slot[slot])
+        for (const unsigned int f : faces_of_node[node])
           is_edge = is_edge || dot<dim>(face_normal(start_position, f),
                                         face_normal(start_position,
-                                                    faces_of_slot[slot][0])) <
+                                                    faces_of_node[node][0])) <
                                  cosine_of_sharp;
         is_sharp.push_back(is_edge);
       }
@@ -98,22 +98,22 @@ namespace Keyblock
 
   template <int dim>
   void
-  ContactSearch<dim>::place_slots(const Mesh<dim> &mesh,
-                                  const Scene<dim> &scene)
+  ContactSearch<dim>::place_surface_nodes(const Mesh<dim> &mesh,
+                                          const Scene<dim> &scene)
   {
     std::vector<JointExtent<dim>> planes;
     planes.reserve(scene.joints.size());
     for (const auto &joint : scene.joints)
       planes.emplace_back(*joint);
-    for (unsigned int slot = 0; slot < n_slots(); ++slot)
+    for (unsigned int node = 0; node < n_surface_nodes(); ++node)
       {
-        const Point<dim> &vertex = mesh.vertices[vertex_of_slot[slot]];
+        const Point<dim> &vertex = mesh.vertices[vertex_of_node[node]];
         Point<dim> place         = vertex;
         double size              = 0.;
         std::vector<Tensor<1, dim>> used;
         std::vector<unsigned int> joints;
         // free faces stay where they are
-        for (const unsigned int f : faces_of_slot[slot])
+        for (const unsigned int f : faces_of_node[node])
           if (interface.surface[f].joint == none)
             {
               const SurfaceFace<dim> &face = interface.surface[f];
@@ -125,7 +125,7 @@ namespace Keyblock
               if (used.size() < dim && n.norm() > least_sine_of_edge)
                 used.push_back(n / n.norm());
             }
-        for (const unsigned int f : faces_of_slot[slot])
+        for (const unsigned int f : faces_of_node[node])
           {
             const SurfaceFace<dim> &face = interface.surface[f];
             size                         = std::max(size,
@@ -147,7 +147,7 @@ namespace Keyblock
           }
         // rounding is no bend, and planes that meet far away do not meet here
         const double shift = place.distance(vertex);
-        place_of_slot.push_back(
+        place_of_node.push_back(
           shift > least_bend * size && shift < farthest_bend * size ? place
                                                                     : vertex);
       }
@@ -160,17 +160,19 @@ namespace Keyblock
   ContactSearch<dim>::face_normal(const std::vector<double> &position,
                                   const unsigned int face) const
   {
-    const auto &slots = face_slots[face];
+    const auto &surface_nodes = nodes_of_face[face];
     if constexpr (dim == 2)
       {
         const Vector<2> along =
-          difference<2>(at<2>(position, slots[1]), at<2>(position, slots[0]));
+          difference<2>(at<2>(position, surface_nodes[1]),
+                        at<2>(position, surface_nodes[0]));
         return unit<2>({{along[1], -along[0]}});
       }
     else
-      return unit<3>(cross(
-        difference<3>(at<3>(position, slots[3]), at<3>(position, slots[0])),
-        difference<3>(at<3>(position, slots[2]), at<3>(position, slots[1]))));
+      return unit<3>(cross(difference<3>(at<3>(position, surface_nodes[3]),
+                                         at<3>(position, surface_nodes[0])),
+                           difference<3>(at<3>(position, surface_nodes[2]),
+                                         at<3>(position, surface_nodes[1]))));
   }
 
 
@@ -202,10 +204,10 @@ namespace Keyblock
     for (unsigned int d = 0; d < dim; ++d)
       {
         double low = std::numeric_limits<double>::max(), high = -low;
-        for (const unsigned int slot : face_slots[face])
+        for (const unsigned int node : nodes_of_face[face])
           {
-            low  = std::min(low, position[dim * slot + d]);
-            high = std::max(high, position[dim * slot + d]);
+            low  = std::min(low, position[dim * node + d]);
+            high = std::max(high, position[dim * node + d]);
           }
         corners.first[d]  = low - margin;
         corners.second[d] = high + margin;
@@ -217,12 +219,12 @@ namespace Keyblock
 
   template <int dim>
   bool
-  ContactSearch<dim>::is_on_block(const unsigned int slot,
+  ContactSearch<dim>::is_on_block(const unsigned int node,
                                   const unsigned int block) const
   {
-    return block_of_slot[slot] == block ||
-           std::any_of(faces_of_slot[slot].begin(),
-                       faces_of_slot[slot].end(),
+    return block_of_node[node] == block ||
+           std::any_of(faces_of_node[node].begin(),
+                       faces_of_node[node].end(),
                        [&](const unsigned int f) {
                          return interface.surface[f].block == block;
                        });
@@ -232,16 +234,16 @@ namespace Keyblock
 
   template <int dim>
   double
-  ContactSearch<dim>::start_distance(const unsigned int slot,
+  ContactSearch<dim>::start_distance(const unsigned int node,
                                      const unsigned int face) const
   {
     Vector<dim> center{};
-    for (const unsigned int corner : face_slots[face])
+    for (const unsigned int corner : nodes_of_face[face])
       center = add<dim>(center,
-                        1. / face_slots[face].size(),
+                        1. / nodes_of_face[face].size(),
                         at<dim>(start_position, corner));
     return dot<dim>(face_normal(start_position, face),
-                    difference<dim>(at<dim>(start_position, slot), center));
+                    difference<dim>(at<dim>(start_position, node), center));
   }
 
 
@@ -274,12 +276,12 @@ namespace Keyblock
   template <int dim>
   bool
   ContactSearch<dim>::can_stand_on(const std::vector<double> &position,
-                                   const unsigned int slot,
+                                   const unsigned int node,
                                    const Vector<dim> &normal) const
   {
-    const Vector<dim> end = at<dim>(position, slot);
-    for (const unsigned int f : faces_of_slot[slot])
-      for (const unsigned int other : face_slots[f])
+    const Vector<dim> end = at<dim>(position, node);
+    for (const unsigned int f : faces_of_node[node])
+      for (const unsigned int other : nodes_of_face[f])
         {
           const Vector<dim> edge =
             difference<dim>(at<dim>(position, other), end);
@@ -304,14 +306,14 @@ namespace Keyblock
       return none;
     };
     const auto has_slave = [](const SurfaceContact<dim> &contact,
-                              const unsigned int slot) {
-      return contact.slave < slot;
+                              const unsigned int node) {
+      return contact.slave < node;
     };
     // contacts are in the order of their slaves
     const auto is_mirror = [&](const SurfaceContact<dim> &contact) {
       const unsigned int corner = corner_of(contact);
       if (corner == none ||
-          is_slave_block(block_of_slot[contact.slave], contact.master_block))
+          is_slave_block(block_of_node[contact.slave], contact.master_block))
         return false;
       for (auto other = std::lower_bound(
              contacts.begin(), contacts.end(), corner, has_slave);
@@ -342,7 +344,7 @@ namespace Keyblock
     const std::vector<bool> &has_changed)
   {
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
-    for (unsigned int f = 0; f < face_slots.size(); ++f)
+    for (unsigned int f = 0; f < nodes_of_face.size(); ++f)
       boxes.emplace_back(box_of(position, f, skin_width), f);
     const auto tree = dealii::pack_rtree(boxes);
 
@@ -350,41 +352,42 @@ namespace Keyblock
     candidates.clear();
     auto kept     = before.begin();
     namespace bgi = boost::geometry::index;
-    for (unsigned int slot = 0; slot < n_slots(); ++slot)
+    for (unsigned int node = 0; node < n_surface_nodes(); ++node)
       {
-        while (kept != before.end() && kept->slave < slot)
+        while (kept != before.end() && kept->slave < node)
           ++kept;
-        if (!has_changed.empty() && !has_changed[slot])
+        if (!has_changed.empty() && !has_changed[node])
           {
-            if (kept != before.end() && kept->slave == slot)
+            if (kept != before.end() && kept->slave == node)
               candidates.push_back(*kept);
             continue;
           }
         dealii::Point<dim> p;
         for (unsigned int d = 0; d < dim; ++d)
-          p[d] = position[dim * slot + d];
-        Candidate candidate{slot, {}, {}};
-        const unsigned int block = block_of_slot[slot];
+          p[d] = position[dim * node + d];
+        Candidate candidate{node, {}, {}};
+        const unsigned int block = block_of_node[node];
         const auto is_a_slave_on = [&](const unsigned int f) {
           return is_slave_block(block, interface.surface[f].block) ||
-                 (is_sharp[slot] &&
-                  can_stand_on(position, slot, face_normal(position, f)));
+                 (is_sharp[node] &&
+                  can_stand_on(position, node, face_normal(position, f)));
         };
         for (const auto &hit :
              tree | bgi::adaptors::queried(bgi::intersects(p)))
           {
-            const unsigned int f     = hit.second;
-            const unsigned int other = interface.surface[f].block;
-            const auto &slots        = face_slots[f];
-            if (std::find(slots.begin(), slots.end(), slot) != slots.end() ||
+            const unsigned int f      = hit.second;
+            const unsigned int other  = interface.surface[f].block;
+            const auto &surface_nodes = nodes_of_face[f];
+            if (std::find(surface_nodes.begin(), surface_nodes.end(), node) !=
+                  surface_nodes.end() ||
                 (is_rigid_block[block] && is_rigid_block[other]))
               continue;
             if (block == other && interface.surface[f].joint == none)
               continue;
-            const bool has_pair = is_paired(slot, f);
+            const bool has_pair = is_paired(node, f);
             if (!has_pair && !is_a_slave_on(f))
               continue;
-            const CandidateFace face = make_candidate(position, slot, f);
+            const CandidateFace face = make_candidate(position, node, f);
             if (face.clearance >= 0.)
               (has_pair ? candidate.paired_faces : candidate.faces)
                 .push_back(face);
@@ -405,30 +408,30 @@ namespace Keyblock
 
   template <int dim>
   std::vector<unsigned int>
-  ContactSearch<dim>::candidate_slots() const
+  ContactSearch<dim>::candidate_nodes() const
   {
-    std::vector<bool> is_used(n_slots(), false);
+    std::vector<bool> is_used(n_surface_nodes(), false);
     for (const Candidate &candidate : candidates)
       {
         is_used[candidate.slave] = true;
         // the slave's own faces tell which side of it is outside
-        for (const unsigned int f : faces_of_slot[candidate.slave])
-          for (const unsigned int slot : face_slots[f])
-            is_used[slot] = true;
+        for (const unsigned int f : faces_of_node[candidate.slave])
+          for (const unsigned int node : nodes_of_face[f])
+            is_used[node] = true;
         for (const CandidateFace &candidate_face : candidate.faces)
-          for (const unsigned int slot : face_slots[candidate_face.face])
-            is_used[slot] = true;
+          for (const unsigned int node : nodes_of_face[candidate_face.face])
+            is_used[node] = true;
       }
     for (const RidgePair &pair : ridge_pairs)
       for (const unsigned int r : {pair.master, pair.slave})
         for (const unsigned int f : ridges[r].faces)
-          for (const unsigned int slot : face_slots[f])
-            is_used[slot] = true;
-    std::vector<unsigned int> slots;
-    for (unsigned int slot = 0; slot < n_slots(); ++slot)
-      if (is_used[slot])
-        slots.push_back(slot);
-    return slots;
+          for (const unsigned int node : nodes_of_face[f])
+            is_used[node] = true;
+    std::vector<unsigned int> surface_nodes;
+    for (unsigned int node = 0; node < n_surface_nodes(); ++node)
+      if (is_used[node])
+        surface_nodes.push_back(node);
+    return surface_nodes;
   }
 
 

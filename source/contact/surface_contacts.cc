@@ -37,8 +37,8 @@ namespace Keyblock
   void
   SurfaceContacts<dim>::put_masters_into(ContactPoint<dim> &point) const
   {
-    const auto hangs = [&](const unsigned int slot) {
-      return split.is_hanging(search.vertex_of_slot[slot]);
+    const auto hangs = [&](const unsigned int node) {
+      return split.is_hanging(search.vertex_of_node[node]);
     };
     if (std::none_of(point.node.begin(),
                      point.node.begin() + point.n_nodes,
@@ -46,10 +46,10 @@ namespace Keyblock
       return;
     std::map<unsigned int, double> shares;
     for (int k = 0; k < point.n_nodes; ++k)
-      split.for_each_carrier(search.vertex_of_slot[point.node[k]],
+      split.for_each_carrier(search.vertex_of_node[point.node[k]],
                              [&](const unsigned int vertex,
                                  const double share) {
-                               shares[search.slot_of_vertex[vertex]] +=
+                               shares[search.node_of_vertex[vertex]] +=
                                  share * point.weight[k];
                              });
     AssertThrow(shares.size() <= point.node.size(),
@@ -57,9 +57,9 @@ namespace Keyblock
                   "A contact point has more nodes than there is room for; "
                   "refine the faces on both sides of the joint alike."));
     point.n_nodes = 0;
-    for (const auto &[slot, weight] : shares)
+    for (const auto &[node, weight] : shares)
       {
-        point.node[point.n_nodes]     = slot;
+        point.node[point.n_nodes]     = node;
         point.weight[point.n_nodes++] = weight;
       }
   }
@@ -71,9 +71,9 @@ namespace Keyblock
   SurfaceContacts<dim>::find_reach(const double step) const
   {
     double speed = 0.;
-    for (const unsigned int slot : memory.mobile_slots)
+    for (const unsigned int node : memory.surface_contact_nodes)
       for (int d = 0; d < dim; ++d)
-        speed = std::max(speed, std::abs(nodes.velocity[dim * slot + d]));
+        speed = std::max(speed, std::abs(nodes.velocity[dim * node + d]));
     return 2. * dim * speed * step + 1e-6 * search.skin();
   }
 
@@ -92,7 +92,7 @@ namespace Keyblock
           memory.contacts.end(),
           [&](const SurfaceContact<dim> &contact) {
             return memory.is_removed_block[contact.master_block] ||
-                   memory.is_removed_block[search.block_of_slot[contact.slave]];
+                   memory.is_removed_block[search.block_of_node[contact.slave]];
           }),
         memory.contacts.end());
   }
@@ -137,10 +137,10 @@ namespace Keyblock
   {
     const std::vector<SurfaceContact<dim>> previous = memory.contacts;
     double square                                   = 0.;
-    for (const unsigned int slot : memory.mobile_slots)
+    for (const unsigned int node : memory.surface_contact_nodes)
       {
         double way = 0.;
-        for (unsigned int i = dim * slot; i < dim * (slot + 1); ++i)
+        for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
           way += (nodes.position[i] - memory.searched_position[i]) *
                  (nodes.position[i] - memory.searched_position[i]);
         square = std::max(square, way);
@@ -178,7 +178,7 @@ namespace Keyblock
     const unsigned int g = topology.group_of_node[contact.slave];
     if (g == none)
       return {};
-    const unsigned int v = search.vertex_of_slot[contact.slave];
+    const unsigned int v = search.vertex_of_node[contact.slave];
     for (unsigned int p = interface.group_pairs_begin[g];
          p < interface.group_pairs_begin[g + 1];
          ++p)
@@ -210,7 +210,7 @@ namespace Keyblock
   std::vector<unsigned int>
   SurfaceContacts<dim>::list_pairs(const ContactStep &step)
   {
-    std::vector<bool> is_touched(search.n_slots(), false);
+    std::vector<bool> is_touched(search.n_surface_nodes(), false);
     for (const SurfaceContact<dim> &contact : memory.contacts)
       for (int k = 0; k < contact.point.n_nodes; ++k)
         if (can_move(contact.point, k))
@@ -220,8 +220,8 @@ namespace Keyblock
     for (unsigned int g = 0; g < interface.n_groups(); ++g)
       {
         const unsigned int p = interface.group_pairs_begin[g];
-        if (memory.is_mobile_group[g] && !memory.state[p].is_converted &&
-            !memory.state[p].is_removed &&
+        if (memory.is_surface_contact_group[g] &&
+            !memory.state[p].is_converted && !memory.state[p].is_removed &&
             topology.is_single(g, nodes.projection))
           pairs.push_back(p);
       }
@@ -235,7 +235,7 @@ namespace Keyblock
   SurfaceContacts<dim>::group_points(
     const std::vector<ContactPoint<dim>> &points) const
   {
-    DisjointSets sets(search.n_slots());
+    DisjointSets sets(search.n_surface_nodes());
     std::vector<unsigned int> first(points.size(), none);
     for (unsigned int i = 0; i < points.size(); ++i)
       for (int k = 0; k < points[i].n_nodes; ++k)
@@ -247,7 +247,7 @@ namespace Keyblock
               sets.join(first[i], points[i].node[k]);
           }
     std::vector<std::vector<unsigned int>> groups;
-    std::vector<unsigned int> group_of_root(search.n_slots(), none);
+    std::vector<unsigned int> group_of_root(search.n_surface_nodes(), none);
     for (unsigned int i = 0; i < points.size(); ++i)
       if (first[i] != none)
         {
@@ -286,9 +286,9 @@ namespace Keyblock
           {
             const Pair<dim> &pair = interface.pairs[p];
             const bool is_plus =
-              contact.slave == search.slot_of_vertex[pair.plus];
+              contact.slave == search.node_of_vertex[pair.plus];
             const bool is_minus =
-              contact.slave == search.slot_of_vertex[pair.minus];
+              contact.slave == search.node_of_vertex[pair.minus];
             if (!memory.state[p].is_converted || (!is_plus && !is_minus) ||
                 contact.joint != pair.joint)
               continue;
@@ -420,17 +420,17 @@ namespace Keyblock
       }
     if (!is_needed)
       return;
-    for (const unsigned int slot : memory.mobile_slots)
-      if (nodes.local_node[slot] != none && nodes.projection[slot] == nullptr)
+    for (const unsigned int node : memory.surface_contact_nodes)
+      if (nodes.local_node[node] != none && nodes.projection[node] == nullptr)
         for (int d = 0; d < dim; ++d)
           {
-            const double length    = shift[dim * slot + d];
-            const unsigned int dof = dim * nodes.local_node[slot] + d;
+            const double length    = shift[dim * node + d];
+            const unsigned int dof = dim * nodes.local_node[node] + d;
             if (length == 0.)
               continue;
             fields.shifts.emplace_back(dof, length);
             // what the shift puts into the elastic energy
-            if (nodes.local_node[slot] < topology.numbering.n_owned())
+            if (nodes.local_node[node] < topology.numbering.n_owned())
               tally.work.penetration -= fields.internal_force[dof] * length;
           }
   }

@@ -13,7 +13,7 @@ namespace Keyblock
   {
     for (auto *values :
          {&velocity, &old_velocity, &displacement, &position, &impulse})
-      values->assign(dim * search.n_slots(), 0.);
+      values->assign(dim * search.n_surface_nodes(), 0.);
     measure();
   }
 
@@ -22,43 +22,43 @@ namespace Keyblock
   void
   SurfaceNodes<dim>::measure()
   {
-    local_node.resize(search.n_slots());
-    projection.assign(search.n_slots(), nullptr);
-    inverse_mass.assign(search.n_slots(), 0.);
-    std::vector<double> held(search.n_slots() * dim * dim, 0.);
-    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+    local_node.resize(search.n_surface_nodes());
+    projection.assign(search.n_surface_nodes(), nullptr);
+    inverse_mass.assign(search.n_surface_nodes(), 0.);
+    std::vector<double> held(search.n_surface_nodes() * dim * dim, 0.);
+    for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
       {
-        const unsigned int node =
-          numbering.local_node(search.vertex_of_slot[slot]);
-        local_node[slot] = node;
-        if (node >= numbering.n_owned())
+        const unsigned int local =
+          numbering.local_node(search.vertex_of_node[node]);
+        local_node[node] = local;
+        if (local >= numbering.n_owned())
           continue;
-        inverse_mass[slot] = fields.inverse_mass[node];
-        const int support  = fields.support_of_node[node];
+        inverse_mass[node] = fields.inverse_mass[local];
+        const int support  = fields.support_of_node[local];
         if (support >= 0 && !fields.supports[support].is_fixed())
           for (unsigned int k = 0; k < fields.supports[support].n_directions;
                ++k)
             for (int d = 0; d < dim; ++d)
               for (int e = 0; e < dim; ++e)
-                held[(slot * dim + d) * dim + e] +=
+                held[(node * dim + d) * dim + e] +=
                   fields.supports[support].directions[k][d] *
                   fields.supports[support].directions[k][e];
       }
     sum_lists(inverse_mass);
     sum_lists(held);
 
-    projection_storage.resize(search.n_slots());
-    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
+    projection_storage.resize(search.n_surface_nodes());
+    for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
       {
         bool is_held = false;
         for (int i = 0; i < dim * dim; ++i)
           {
-            const double h              = held[slot * dim * dim + i];
+            const double h              = held[node * dim * dim + i];
             is_held                     = is_held || h != 0.;
-            projection_storage[slot][i] = (i % (dim + 1) == 0 ? 1. : 0.) - h;
+            projection_storage[node][i] = (i % (dim + 1) == 0 ? 1. : 0.) - h;
           }
         if (is_held)
-          projection[slot] = projection_storage[slot].data();
+          projection[node] = projection_storage[node].data();
       }
     view = {velocity.data(), inverse_mass.data(), &projection};
   }
@@ -70,9 +70,9 @@ namespace Keyblock
   SurfaceNodes<dim>::activate(const std::vector<bool> &is_active)
   {
     active.clear();
-    for (unsigned int slot = 0; slot < is_active.size(); ++slot)
-      if (is_active[slot])
-        active.push_back(slot);
+    for (unsigned int node = 0; node < is_active.size(); ++node)
+      if (is_active[node])
+        active.push_back(node);
   }
 
 
@@ -82,10 +82,10 @@ namespace Keyblock
   {
     const auto copy = [&](const std::vector<double> &from,
                           std::vector<double> &to) {
-      for (const unsigned int slot : active)
-        if (local_node[slot] != none)
+      for (const unsigned int node : active)
+        if (local_node[node] != none)
           for (int d = 0; d < dim; ++d)
-            to[dim * slot + d] = from[dim * local_node[slot] + d];
+            to[dim * node + d] = from[dim * local_node[node] + d];
       if (n_ranks() == 1 || shared.empty())
         return;
       std::vector<double> buffer(dim * shared.size(), 0.);
@@ -103,15 +103,15 @@ namespace Keyblock
     copy(fields.velocity, velocity);
     copy(fields.old_velocity, old_velocity);
     copy(fields.displacement, displacement);
-    for (const unsigned int slot : active)
+    for (const unsigned int node : active)
       {
-        const Point<dim> &x = search.place_of_slot[slot];
+        const Point<dim> &x = search.place_of_node[node];
         for (int d = 0; d < dim; ++d)
-          position[dim * slot + d] = x[d] + displacement[dim * slot + d];
+          position[dim * node + d] = x[d] + displacement[dim * node + d];
       }
-    for (const unsigned int slot : active)
+    for (const unsigned int node : active)
       for (int d = 0; d < dim; ++d)
-        impulse[dim * slot + d] = 0.;
+        impulse[dim * node + d] = 0.;
   }
 
 
@@ -120,13 +120,13 @@ namespace Keyblock
   void
   SurfaceNodes<dim>::scatter(const double kick)
   {
-    for (const unsigned int slot : active)
-      if (local_node[slot] != none)
+    for (const unsigned int node : active)
+      if (local_node[node] != none)
         for (int d = 0; d < dim; ++d)
           {
-            const unsigned int dof    = dim * local_node[slot] + d;
-            fields.velocity[dof]      = velocity[dim * slot + d];
-            fields.contact_force[dof] = impulse[dim * slot + d] / kick;
+            const unsigned int dof    = dim * local_node[node] + d;
+            fields.velocity[dof]      = velocity[dim * node + d];
+            fields.contact_force[dof] = impulse[dim * node + d] / kick;
           }
   }
 
@@ -136,13 +136,13 @@ namespace Keyblock
   std::vector<double>
   SurfaceNodes<dim>::gather_positions() const
   {
-    std::vector<double> position(dim * search.n_slots(), 0.);
-    for (unsigned int slot = 0; slot < search.n_slots(); ++slot)
-      if (local_node[slot] < numbering.n_owned())
+    std::vector<double> position(dim * search.n_surface_nodes(), 0.);
+    for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
+      if (local_node[node] < numbering.n_owned())
         for (int d = 0; d < dim; ++d)
-          position[dim * slot + d] =
-            search.place_of_slot[slot][d] +
-            fields.displacement[dim * local_node[slot] + d];
+          position[dim * node + d] =
+            search.place_of_node[node][d] +
+            fields.displacement[dim * local_node[node] + d];
     if (n_ranks() > 1)
       sum_lists(position);
     return position;

@@ -310,10 +310,11 @@ namespace Keyblock
                 }
             }
           AssertThrow(n_hits > 0,
-                      InputError("The excavation '" + excavation->name +
-                                 "' contains no cell that is not dug before; "
-                                 "check 'Excavations/" +
-                                 excavation->name + "' against the domain."));
+                      InputError(
+                        "The excavation '" + excavation->name +
+                        "' contains no cell that is not excavated before; "
+                        "check 'Excavations/" +
+                        excavation->name + "' against the domain."));
         }
     }
 
@@ -327,8 +328,8 @@ namespace Keyblock
                   const unsigned int cell,
                   const unsigned int number)
     {
-      const unsigned int dug = mesh.excavation_stage[cell];
-      if (dug == 0 || dug > number)
+      const unsigned int excavated = mesh.excavation_stage[cell];
+      if (excavated == 0 || excavated > number)
         return !scene.materials[mesh.material[cell]]->is_rigid();
       const std::string &filled =
         scene.excavations[mesh.excavation[cell]]->backfill_stage;

@@ -133,7 +133,7 @@ namespace Keyblock
         AssertThrow(block != none,
                     InputError("The monitor '" + monitor.name +
                                "' is of kind block, but there is no block: all "
-                               "rock is dug later; correct 'Monitors/" +
+                               "rock is excavated later; correct 'Monitors/" +
                                monitor.name + "/Kind'."));
         look_for_location(monitor, least);
       }

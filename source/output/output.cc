@@ -209,7 +209,7 @@ namespace Keyblock
     if (has_plastic)
       rock.add_data_vector(plastic_strain, "plastic_strain");
     rock.set_cell_selection([&](const auto &cell) {
-      // not those that are dug
+      // not those that are excavated
       if (!cell->is_locally_owned())
         return false;
       const unsigned int c = numbering.mesh_cell_of(cell);

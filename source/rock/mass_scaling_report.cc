@@ -42,7 +42,7 @@ namespace Keyblock
         const std::string name =
           b < blocks.blocks.size()
             ? "block " + std::to_string(blocks.blocks[b].id)
-            : "rock that is dug later";
+            : "rock that is excavated later";
         text << "        " << name << ": " << 100. * block.added_fraction()
              << " % to " << block.n_cells << " cells\n";
         if (block.is_at_bound)

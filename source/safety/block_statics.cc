@@ -136,7 +136,7 @@ namespace Keyblock
         for (const std::string &name : moved)
           add() << "motion of " << name << " left out";
         if (around.is_attached)
-          add() << "joined to rock that is not dug yet, left out";
+          add() << "joined to rock that is not excavated yet, left out";
         if (around.is_on_fill)
           add() << "joined to fill, left out";
         for (const auto &support : scene.supports)
@@ -174,7 +174,7 @@ namespace Keyblock
         const unsigned int other = ground.split.block_of_cell[first->face.cell];
         add() << "meets ";
         if (other == none)
-          last << "rock that is not dug yet";
+          last << "rock that is not excavated yet";
         else if (blocks.blocks[other].is_infinite)
           last << "the rock";
         else

@@ -10,11 +10,11 @@ namespace Keyblock
 {
   namespace
   {
-    /** Looks in a row that must agree: joints that slip in fits and starts show
-     * a different frequency at each. */
-    constexpr unsigned int n_looks = 3;
-    constexpr double tolerance     = 0.2; ///< of two frequencies [-]
-  }                                       // namespace
+    /** Checks in a row that must agree: joints that slip in fits and starts
+     * show a different frequency at each. */
+    constexpr unsigned int n_checks = 3;
+    constexpr double tolerance      = 0.2; ///< of two frequencies [-]
+  }                                        // namespace
 
 
 
@@ -48,7 +48,7 @@ namespace Keyblock
 
   template <int dim>
   double
-  SlowMode<dim>::look()
+  SlowMode<dim>::check()
   {
     // omega^2 = -du.dr / (du.M du)
     Sample now = take_sample();
@@ -70,7 +70,7 @@ namespace Keyblock
     else
       n_alike = 1;
     last_frequency = frequency;
-    return n_alike >= n_looks ? frequency : 0.;
+    return n_alike >= n_checks ? frequency : 0.;
   }
 
   template class SlowMode<2>;

@@ -321,7 +321,7 @@ namespace Keyblock
                           trial);
         if (scene.safety.adaptive_damping)
           {
-            slowest = creep.look();
+            slowest = creep.check();
             run.step.set_mass_damping(
               slowest > 0.
                 ? std::min(full_damping, 2. * creep_damping * slowest)

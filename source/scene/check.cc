@@ -384,17 +384,19 @@ namespace Keyblock
             continue;
           const unsigned int number =
             scene.stage_number(excavation->backfill_stage);
-          require(number < scene.stages.size() + 2 &&
-                    number > scene.stage_number(excavation->stage),
-                  "The entry 'Excavations/" + excavation->name +
-                    "/Backfill stage' is '" + excavation->backfill_stage +
-                    "', which is not a stage after the one that digs it; name "
-                    "a later one of 'Stages/Names'.");
-          require(excavation->stage != "start",
-                  "The excavation '" + excavation->name +
-                    "' is filled, but dug before the first stage, so that its "
-                    "cells are not kept; set 'Excavations/" +
-                    excavation->name + "/Stage' to the name of a stage.");
+          require(
+            number < scene.stages.size() + 2 &&
+              number > scene.stage_number(excavation->stage),
+            "The entry 'Excavations/" + excavation->name +
+              "/Backfill stage' is '" + excavation->backfill_stage +
+              "', which is not a stage after the one that excavates it; name "
+              "a later one of 'Stages/Names'.");
+          require(
+            excavation->stage != "start",
+            "The excavation '" + excavation->name +
+              "' is filled, but excavated before the first stage, so that its "
+              "cells are not kept; set 'Excavations/" +
+              excavation->name + "/Stage' to the name of a stage.");
           require(scene.material_index(excavation->backfill_material) <
                     scene.materials.size(),
                   "The entry 'Excavations/" + excavation->name +

@@ -163,7 +163,7 @@ namespace Keyblock
       "Formula",
       formula,
       "A formula in x, y (z) that is positive at the centres of "
-      "the cells dug out.");
+      "the cells excavated out.");
     prm.add_parameter("Vertices", vertices, "Corners in order [m].");
     prm.add_parameter("Corner",
                       corner,
@@ -406,9 +406,9 @@ namespace Keyblock
     prm.add_parameter("Method",
                       method,
                       "Solution of contact. exact: coupled points, iterated to "
-                      "Tolerance; paper: one pass without coupling, as "
-                      "published, for comparison; none: joints are ignored.",
-                      Selection("exact|paper|none"));
+                      "Tolerance; published: one pass without coupling, "
+                      "for comparison; none: joints are ignored.",
+                      Selection("exact|published|none"));
     prm.add_parameter(
       "Default friction angle",
       default_friction_angle,
@@ -613,8 +613,8 @@ namespace Keyblock
                       "Whether trials divide the strength of mohr_coulomb rock "
                       "by the factor as well.");
     prm.add_parameter(
-      "Teams",
-      teams,
+      "Rank groups",
+      rank_groups,
       "Number of rank groups that look for the safety factors of different "
       "blocks at the same time; all ranks compute the stages together. It has "
       "to divide the number of ranks. Unless a signal stops the run, "

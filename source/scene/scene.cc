@@ -304,7 +304,7 @@ namespace Keyblock
   std::vector<std::string>
   Scene<dim>::warnings() const
   {
-    std::vector<std::string> found;
+    std::vector<std::string> found = old_names;
     for (const auto &material : materials)
       if (material->is_plastic() &&
           material->tensile_strength > material->apex())
@@ -363,6 +363,7 @@ namespace Keyblock
   {
     file = file_name;
     const SceneText text(file_name, overrides);
+    old_names = text.warnings;
     ParameterHandler names;
     declare_names(names);
     text.parse(names, true);

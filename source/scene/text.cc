@@ -3,6 +3,7 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/mpi.h>
+#include <keyblock/scene/old_names.h>
 #include <keyblock/scene/text.h>
 
 #include <boost/algorithm/string.hpp>
@@ -38,6 +39,16 @@ namespace Keyblock
                              "out."));
     }
   } // namespace
+
+
+
+  std::string
+  significant_part(std::string line)
+  {
+    line.erase(std::min(line.find('#'), line.size()));
+    boost::trim_all(line, std::locale::classic());
+    return line;
+  }
 
 
 
@@ -160,15 +171,6 @@ namespace Keyblock
       return text;
     }
 
-    /** A line without comment, with single blanks only, as it is parsed. */
-    std::string
-    significant(std::string line)
-    {
-      line.erase(std::min(line.find('#'), line.size()));
-      boost::trim_all(line, std::locale::classic());
-      return line;
-    }
-
     /** Whether a line begins with @p word, in small or capital letters. */
     bool
     begins_with(const std::string &line, const std::string &word)
@@ -193,7 +195,7 @@ namespace Keyblock
       std::string all;
       for (std::string line; std::getline(lines, line);)
         {
-          const std::string words = significant(line);
+          const std::string words = significant_part(line);
           all += begins_with(words, "include ")
                    ? include_file(words.substr(8), chain)
                    : line;
@@ -232,7 +234,7 @@ namespace Keyblock
       for (std::string line; std::getline(lines, line); previous = line)
         {
           ++number;
-          const std::string words = significant(line);
+          const std::string words = significant_part(line);
           const bool is_continued = boost::ends_with(previous, "\\");
           const bool opens = !is_continued && begins_with(words, "subsection ");
           const bool closes =
@@ -285,6 +287,8 @@ namespace Keyblock
       text += set;
       for (unsigned int i = 0; i + 1 < parts.size(); ++i)
         text += "end\n";
+      for (const std::string &warning : replace_old_names(text))
+        scene.warnings.push_back(warning);
       scene.overrides.push_back({assignment, text});
     }
   } // namespace
@@ -296,6 +300,7 @@ namespace Keyblock
     : file_name(file_name)
     , text(include_files(read_file(file_name, "scene file"), {file_name}))
   {
+    warnings = replace_old_names(text);
     set_joints_apart(*this);
     for (const std::string &assignment : overrides)
       add_override(assignment, *this);

@@ -267,7 +267,7 @@ namespace Keyblock
       {unbalanced, n_free, loads, reactions, internal}};
     sum_lists(sums);
     largest      = max_over_ranks(largest);
-    double scale = carried_sum;
+    double scale = out_of_balance_sum;
     if (scale == 0.)
       scale = sums[2] > 0. ? sums[2] : sums[3] > 0. ? sums[3] : sums[4];
     unbalanced_ratio    = scale > 0. ? sums[0] / scale : 0.;

@@ -175,8 +175,8 @@ namespace Keyblock
         for (int d = 0; d < dim; ++d)
           fields.load[dim * entry.node + d] += entry.area * t[d];
       }
-    for (unsigned int i = 0; i < carried_force.size(); ++i)
-      fields.load[i] += left * carried_force[i];
+    for (unsigned int i = 0; i < out_of_balance_force.size(); ++i)
+      fields.load[i] += left * out_of_balance_force[i];
     return true;
   }
 
@@ -187,8 +187,8 @@ namespace Keyblock
   Loads<dim>::start_ramp(const std::vector<double> &force,
                          const double duration)
   {
-    carried_force = force;
-    ramp          = Ramp::over(duration);
+    out_of_balance_force = force;
+    ramp                 = Ramp::over(duration);
     forget_load();
   }
 

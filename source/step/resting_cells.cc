@@ -228,8 +228,8 @@ namespace Keyblock
 
   template <int dim>
   double
-  RestingCells<dim>::look(const RestLimit &limit,
-                          const std::vector<unsigned int> &touched)
+  RestingCells<dim>::check(const RestLimit &limit,
+                           const std::vector<unsigned int> &touched)
   {
     rests = false;
     // mostly nothing rests: a few nodes tell

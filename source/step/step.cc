@@ -171,7 +171,7 @@ namespace Keyblock
 
   template <int dim>
   std::vector<double>
-  ExplicitStep<dim>::dig(const unsigned int number)
+  ExplicitStep<dim>::excavate(const unsigned int number)
   {
     update_forces();
     const double before = elastic_energy<dim>(cells, positions());
@@ -179,25 +179,29 @@ namespace Keyblock
     conditions.set_damping(stage.damping_ratio);
     excavated_energy = before - elastic_energy<dim>(cells, positions());
     update_forces();
-    std::vector<double> carried(dim * numbering.n_owned(), 0.);
+    std::vector<double> out_of_balance(dim * numbering.n_owned(), 0.);
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       if (fields.inverse_mass[node] > 0.)
         for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
-          carried[i] =
+          out_of_balance[i] =
             fields.internal_force[i] - fields.load[i] - fields.contact_force[i];
-    conditions.supports.remove_held_components(carried);
+    conditions.supports.remove_held_components(out_of_balance);
     // a block that is taken away later in the stage carries less
-    carried_sum = std::max(carried_sum, sum_of_sizes(carried));
-    return carried;
+    out_of_balance_sum =
+      std::max(out_of_balance_sum, sum_of_sizes(out_of_balance));
+    return out_of_balance;
   }
 
 
 
   template <int dim>
   double
-  ExplicitStep<dim>::share_of_dug(const std::vector<double> &carried) const
+  ExplicitStep<dim>::share_of_excavated(
+    const std::vector<double> &out_of_balance) const
   {
-    return carried_sum > 0. ? sum_of_sizes(carried) / carried_sum : 0.;
+    return out_of_balance_sum > 0.
+             ? sum_of_sizes(out_of_balance) / out_of_balance_sum
+             : 0.;
   }
 
 

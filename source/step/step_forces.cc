@@ -60,10 +60,11 @@ namespace Keyblock
         square = std::max(square, sum);
       }
     const double fastest = std::sqrt(max_over_ranks(square));
-    const double stopped = resting.look(
+    const double stopped = resting.check(
       {kick, scene.time_stepping.rest_speed * fastest, has_damping_force()},
-      contact ? contact->list_mobile_nodes() : std::vector<unsigned int>());
-    // the energy that a stage starts with is measured behind the look
+      contact ? contact->list_surface_contact_nodes()
+              : std::vector<unsigned int>());
+    // the energy that a stage starts with is measured after the check
     if (!is_first)
       sums.local_damping += stopped;
   }

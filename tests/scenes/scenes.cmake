@@ -72,10 +72,10 @@ keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
 # safety factors of blocks on inclines: friction angle, dip
 keyblock_scene(verification/factor_incline)
 keyblock_scene(verification/factor_incline REFERENCES factor_incline_teams
-  RANKS 2 SET "Safety factor/Teams=2")
+  RANKS 2 SET "Safety factor/Rank groups=2")
 # a slot between two blocks, one for each team
 keyblock_scene(verification/factor_incline REFERENCES factor_incline_two_blocks
-  RANKS 2 4 SET "Safety factor/Teams=2"
+  RANKS 2 4 SET "Safety factor/Rank groups=2"
   "Excavations/Names=uphill, downhill, slot" "Excavations/slot/Shape=box"
   "Excavations/slot/Corner=-0.05, 0" "Excavations/slot/Size=0.1, 0.1")
 # two blocks that lean on each other, and the factor of both
@@ -167,7 +167,7 @@ keyblock_scene(verification/corner REFERENCES corner_crossing RANKS 1
 keyblock_scene(verification/corner REFERENCES corner_crossing_overhang RANKS 1
   SET ${overhang} ${crossing} "Joints/front/Normal=1, -0.363970234266")
 # the study in the plane, all stages and factors: one to two minutes
-keyblock_scene(study/powerhouse RANKS 2 SLOW SET "Safety factor/Teams=2")
+keyblock_scene(study/powerhouse RANKS 2 SLOW SET "Safety factor/Rank groups=2")
 # blocks of the powerhouse in 3D and when they are exposed; nothing is computed
 set(without_motion "Contact/Method=none" "Initial state/Equilibrium=none"
   "Safety factor/Blocks=none" "Output/Write VTU=false")

@@ -23,7 +23,7 @@ BOOST_AUTO_TEST_CASE(sweep_order_of_box)
   MPI_Barrier(world());
   Simulation<2> simulation(name + ".prm", {}, name);
   simulation.validate();
-  const Mesh<2> &mesh = simulation.geometry().mesh;
+  const Mesh<2> &mesh = simulation.state().split.mesh;
 
   const auto order = sweep_order<2>(mesh, 0, mesh.n_cells());
   BOOST_REQUIRE(order.size() == 40u);

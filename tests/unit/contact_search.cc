@@ -44,7 +44,7 @@ namespace
       blocks = find_blocks(mesh, scene);
       split  = split_mesh(mesh, blocks, scene);
       search = std::make_unique<ContactSearch<dim>>(split, blocks, scene);
-      for (const Point<dim> &place : search->place_of_slot)
+      for (const Point<dim> &place : search->place_of_node)
         for (unsigned int d = 0; d < dim; ++d)
           position.push_back(place[d]);
     }
@@ -95,13 +95,14 @@ BOOST_AUTO_TEST_CASE(no_contact_through_rock)
       const Set<3> set("acute", "4, 4, 4", acute_planes(random), 0.8);
       // there are nodes right behind joint faces of their own block
       unsigned int n_behind = 0, n_through = 0;
-      for (unsigned int f = 0; f < set.search->face_slots.size(); ++f)
+      for (unsigned int f = 0; f < set.search->nodes_of_face.size(); ++f)
         {
           const SurfaceFace<3> &face = set.split.interface.surface[f];
-          for (unsigned int slot = 0; slot < set.search->n_slots(); ++slot)
+          for (unsigned int node = 0; node < set.search->n_surface_nodes();
+               ++node)
             n_behind += face.joint != none &&
-                        set.search->block_of_slot[slot] == face.block &&
-                        set.search->start_distance(slot, f) < -1e-2;
+                        set.search->block_of_node[node] == face.block &&
+                        set.search->start_distance(node, f) < -1e-2;
         }
       const auto contacts = set.contacts();
       for (const SurfaceContact<3> &contact : contacts)
@@ -129,7 +130,7 @@ BOOST_AUTO_TEST_CASE(kinked_joint_keeps_its_partners)
                          end + "\n end\n",
                        0.2);
       BOOST_TEST(set.blocks.blocks.size() == 1);
-      std::vector<unsigned int> n_contacts(set.search->n_slots(), 0);
+      std::vector<unsigned int> n_contacts(set.search->n_surface_nodes(), 0);
       for (const SurfaceContact<2> &contact : set.contacts())
         {
           BOOST_TEST(std::abs(contact.point.gap) < 1e-6);
@@ -140,7 +141,7 @@ BOOST_AUTO_TEST_CASE(kinked_joint_keeps_its_partners)
         for (const unsigned int v : {pair.minus, pair.plus})
           {
             ++n_on_joints;
-            n_alone += n_contacts[set.search->slot_of_vertex[v]] == 0;
+            n_alone += n_contacts[set.search->node_of_vertex[v]] == 0;
           }
       BOOST_TEST(n_on_joints > 10);
       // the node on the convex side of the kink may leave it to its partner
@@ -163,11 +164,11 @@ BOOST_AUTO_TEST_CASE(overlaps_add_up)
       const double x               = i == 0 ? 0. : shift(random);
       const double y               = i == 0 ? 0. : shift(random);
       std::vector<double> position = set.position;
-      for (unsigned int slot = 0; slot < set.search->n_slots(); ++slot)
-        if (set.search->block_of_slot[slot] == 1)
+      for (unsigned int node = 0; node < set.search->n_surface_nodes(); ++node)
+        if (set.search->block_of_node[node] == 1)
           {
-            position[3 * slot] += x;
-            position[3 * slot + 1] += y;
+            position[3 * node] += x;
+            position[3 * node + 1] += y;
           }
       double area = 0., shares = 0.;
       for (const auto &overlap : set.search->list_overlaps(position, {true}))
@@ -194,13 +195,13 @@ BOOST_AUTO_TEST_CASE(overlap_is_found_and_measured)
   BOOST_TEST(
     set.search->find_largest_overlap(set.position, none_removed).depth < 1e-12);
   std::vector<double> position = set.position;
-  for (unsigned int slot = 0; slot < set.search->n_slots(); ++slot)
+  for (unsigned int node = 0; node < set.search->n_surface_nodes(); ++node)
     {
-      const Point<2> &place = set.search->place_of_slot[slot];
+      const Point<2> &place = set.search->place_of_node[node];
       const bool is_upper =
-        set.blocks.blocks[set.search->block_of_slot[slot]].centroid[1] > 1.1;
+        set.blocks.blocks[set.search->block_of_node[node]].centroid[1] > 1.1;
       if (is_upper)
-        position[2 * slot + 1] -= 1e-3 * place[0];
+        position[2 * node + 1] -= 1e-3 * place[0];
     }
   const Overlap<2> overlap =
     set.search->find_largest_overlap(position, none_removed);

@@ -162,7 +162,7 @@ namespace
     Simulation<2> simulation(name + ".prm", {}, name);
     simulation.run();
     const double c_p   = mode.pressure_speed();
-    const double bound = simulation.stable_step() * c_p;
+    const double bound = simulation.state().stable_step() * c_p;
     BOOST_TEST(std::abs(bound - std::sqrt(1. - mode.poisson)) < 1e-4);
     if (!is_root())
       return;

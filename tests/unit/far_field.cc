@@ -110,8 +110,8 @@ namespace
   check_stiffness(const unsigned int n, const double tolerance)
   {
     const auto simulation = make_box<dim>(n);
-    const auto &numbering = simulation->node_numbering();
-    const auto &mesh      = simulation->geometry().mesh;
+    const auto &numbering = *simulation->state().numbering;
+    const auto &mesh      = simulation->state().split.mesh;
     const KelvinFields<dim> kelvin{2., 3.};
     std::vector<typename FarField<dim>::Face> faces;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
@@ -123,7 +123,7 @@ namespace
                            Point<dim>(),
                            kelvin.lambda,
                            kelvin.mu});
-    const FarField<dim> far_field(faces, simulation->geometry(), numbering);
+    const FarField<dim> far_field(faces, simulation->state().split, numbering);
     BOOST_TEST(far_field.is_coupled());
     for (unsigned int m = 0; m < KelvinFields<dim>::n; ++m)
       {

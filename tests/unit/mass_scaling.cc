@@ -85,9 +85,9 @@ namespace
   std::array<double, 2>
   mass_and_velocity(const Simulation<2> &simulation)
   {
-    const Fields<2> &fields = simulation.nodal_fields();
+    const Fields<2> &fields = simulation.state().fields;
     std::vector<double> sums(3, 0.);
-    for (unsigned int i = 0; i < simulation.node_numbering().n_owned(); ++i)
+    for (unsigned int i = 0; i < simulation.state().numbering->n_owned(); ++i)
       {
         sums[0] += fields.weighing_mass[i];
         sums[1] += fields.mass[i] - fields.weighing_mass[i];
@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(shares_of_mass)
   BOOST_TEST(text.find("block 7: 0.96 % to 1 cells") != std::string::npos);
   BOOST_TEST(text.find("block 8") == std::string::npos);
   BOOST_TEST(
-    text.find("The stable step of rock that is dug later is 0.699 s") !=
+    text.find("The stable step of rock that is excavated later is 0.699 s") !=
     std::string::npos);
   BOOST_TEST(text.find("step of block 7") == std::string::npos);
   BOOST_TEST(describe_mass_scaling({found[1]}, blocks, 1.).empty());
@@ -200,13 +200,13 @@ BOOST_AUTO_TEST_CASE(bar_with_thin_cells_falls_freely)
       // at the last half step
       const double expected = -gravity * duration * (1. - 0.5 / n[0]);
       BOOST_TEST(std::abs(velocity / expected - 1.) < 1e-12);
-      BOOST_TEST(simulation.stable_step() <=
+      BOOST_TEST(simulation.state().stable_step() <=
                  2. / highest_frequency_of_mesh(simulation, 2000));
       if (!is_scaled)
-        step_before = simulation.stable_step();
+        step_before = simulation.state().stable_step();
       else
-        BOOST_TEST(std::abs(simulation.stable_step() / wanted_step - 1.) <
-                   1e-14);
+        BOOST_TEST(std::abs(simulation.state().stable_step() / wanted_step -
+                            1.) < 1e-14);
     }
   BOOST_TEST(step_before < 0.5 * wanted_step);
 }
@@ -216,16 +216,17 @@ BOOST_AUTO_TEST_CASE(added_mass_within_its_bound)
   const std::string name = write_bar("", wanted_step, 0.01, 0.01);
   Simulation<2> simulation(name + ".prm", {}, name);
   simulation.run();
-  const MassScaling &block = simulation.mass_scaling().front();
+  const MassScaling &block =
+    simulation.state().conditions->active_cells.mass_scaling.front();
   BOOST_TEST_MESSAGE("added " << block.added_fraction() << ", step "
-                              << simulation.stable_step() / wanted_step
+                              << simulation.state().stable_step() / wanted_step
                               << " of the wanted one");
   BOOST_TEST(block.is_at_bound);
   BOOST_TEST(block.n_cells == 2u);
   BOOST_TEST(block.added_fraction() <= 0.01);
   BOOST_TEST(block.added_fraction() > 0.009);
-  BOOST_TEST(simulation.stable_step() < 0.9 * wanted_step);
-  BOOST_TEST(simulation.stable_step() > 0.5 * wanted_step);
+  BOOST_TEST(simulation.state().stable_step() < 0.9 * wanted_step);
+  BOOST_TEST(simulation.state().stable_step() > 0.5 * wanted_step);
   BOOST_TEST(std::abs(mass_and_velocity(simulation)[0]) < 1e-14);
 }
 

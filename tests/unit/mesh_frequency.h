@@ -19,9 +19,9 @@ namespace Keyblock
   highest_frequency_of_mesh(const Simulation<dim> &simulation,
                             const unsigned int n_iterations)
   {
-    CellArrays<dim> cells        = simulation.cell_arrays();
-    const Fields<dim> &fields    = simulation.nodal_fields();
-    const Numbering<dim> &number = simulation.node_numbering();
+    CellArrays<dim> cells        = simulation.state().cells;
+    const Fields<dim> &fields    = simulation.state().fields;
+    const Numbering<dim> &number = *simulation.state().numbering;
     for (MohrCoulomb &strength : cells.strengths)
       strength.peak.uniaxial       = strength.peak.tension =
         strength.residual.uniaxial = strength.residual.tension = 1e100;

@@ -44,7 +44,7 @@ namespace
     simulation.run();
     const std::array<double, 4> exact = {{0., -1e6, -0.25e6, 0.}};
     double largest                    = 0.;
-    const auto &cells                 = simulation.cell_arrays();
+    const auto &cells                 = simulation.state().cells;
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       for (unsigned int i = 0; i < 16; ++i)
         largest =
@@ -105,7 +105,7 @@ namespace
     MPI_Barrier(world());
     Simulation<2> simulation(name + ".prm", {}, name);
     simulation.run();
-    const auto &cells = simulation.cell_arrays();
+    const auto &cells = simulation.state().cells;
     double largest = 0., square = 0., n_points = 0.;
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       for (unsigned int q = 0; q < 4; ++q)

@@ -50,10 +50,11 @@ namespace
       stage + " end\nend\n");
     Simulation<dim> simulation(name + ".prm", {}, name);
     simulation.run();
-    BOOST_TEST(simulation.geometry().hanging.size() > 4);
-    const auto &mesh                = simulation.geometry().mesh;
-    const std::vector<double> found = simulation.vertex_displacements();
-    double largest                  = 0.;
+    BOOST_TEST(simulation.state().split.hanging.size() > 4);
+    const auto &mesh                = simulation.state().split.mesh;
+    const std::vector<double> found = simulation.state().values_by_vertex(
+      simulation.state().fields.displacement);
+    double largest = 0.;
     for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
       {
         const Point<dim> &p               = mesh.vertices[v];

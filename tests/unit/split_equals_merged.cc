@@ -140,21 +140,23 @@ end
                              "end\nend\nsubsection Initial state\n set "
                              "Gravity = " +
                              gravity + "\nend\n";
-    const auto split  = run<dim>(text, {"Contact/Tie all joints=true"});
-    const auto u      = split->vertex_displacements();
+    const auto split = run<dim>(text, {"Contact/Tie all joints=true"});
+    const auto u =
+      split->state().values_by_vertex(split->state().fields.displacement);
     const auto merged = run<dim>(text, {"Contact/Method=none"});
-    const auto w      = merged->vertex_displacements();
-    BOOST_TEST(split->geometry().mesh.vertices.size() >
-               merged->geometry().mesh.vertices.size());
+    const auto w =
+      merged->state().values_by_vertex(merged->state().fields.displacement);
+    BOOST_TEST(split->state().split.mesh.vertices.size() >
+               merged->state().split.mesh.vertices.size());
     double difference = 0.;
-    for (unsigned int c = 0; c < split->geometry().mesh.n_cells(); ++c)
+    for (unsigned int c = 0; c < split->state().split.mesh.n_cells(); ++c)
       for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
         for (unsigned int d = 0; d < dim; ++d)
           difference =
             std::max(difference,
                      std::abs(
-                       u[dim * split->geometry().mesh.cells[c][v] + d] -
-                       w[dim * merged->geometry().mesh.cells[c][v] + d]));
+                       u[dim * split->state().split.mesh.cells[c][v] + d] -
+                       w[dim * merged->state().split.mesh.cells[c][v] + d]));
     BOOST_TEST_MESSAGE("split against merged: " << difference / largest(w));
     BOOST_TEST(difference <= 1e-12 * largest(w));
   }
@@ -229,14 +231,17 @@ end
     // velocity that the stress of 2 MPa would drive: stress / (rho c)
     const double scale = 2e6 / (2700. * 2581.);
     BOOST_TEST_MESSAGE(
-      "velocity in situ: " << largest(simulation->vertex_velocities()) / scale);
-    BOOST_TEST(largest(simulation->vertex_velocities()) <= 1e-11 * scale);
-    const auto states = simulation->interface_contact()->gather_pairs();
+      "velocity in situ: " << largest(simulation->state().values_by_vertex(
+                                simulation->state().fields.velocity)) /
+                                scale);
+    BOOST_TEST(largest(simulation->state().values_by_vertex(
+                 simulation->state().fields.velocity)) <= 1e-11 * scale);
+    const auto states = simulation->state().contact->gather_pairs();
     const auto forces =
-      exact_forces(simulation->geometry(),
+      exact_forces(simulation->state().split,
                    Expression<dim>(stress, n_stress<dim>, "stress"));
-    const double kick    = simulation->interface_contact()->present_kick();
-    const auto &pairs    = simulation->geometry().interface.pairs;
+    const double kick    = simulation->state().contact->present_kick();
+    const auto &pairs    = simulation->state().split.interface.pairs;
     double error         = 0.;
     unsigned int n_slips = 0;
     for (unsigned int p = 0; p < pairs.size(); ++p)
@@ -246,7 +251,7 @@ end
         for (unsigned int d = 0; d < dim; ++d)
           {
             const double x =
-              simulation->geometry().mesh.vertices[pairs[p].minus][d];
+              simulation->state().split.mesh.vertices[pairs[p].minus][d];
             const double length = dim == 3 ? 2. : (d == 0 ? 4. : 3.);
             is_held             = is_held || x < 1e-9 || x > length - 1e-9;
           }

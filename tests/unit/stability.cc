@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(time_step_limit)
     const std::string name = write_plate(0.9, 1);
     Simulation<2> simulation(name + ".prm", {}, name);
     simulation.run();
-    bound = simulation.stable_step();
+    bound = simulation.state().stable_step();
     limit = 2. / highest_frequency_of_mesh(simulation, 20000);
   }
   // h sqrt(1 - nu) / c_p is the bound of a square cell, and a free plate of
@@ -64,7 +64,8 @@ BOOST_AUTO_TEST_CASE(time_step_limit)
     Simulation<2> simulation(name + ".prm", {}, name);
     simulation.run();
     double largest = 0.;
-    for (const double v : simulation.vertex_velocities())
+    for (const double v : simulation.state().values_by_vertex(
+           simulation.state().fields.velocity))
       largest = std::max(largest, std::abs(v));
     BOOST_TEST(largest < 0.1);
   }
@@ -84,7 +85,8 @@ BOOST_AUTO_TEST_CASE(jointed_rock_in_equilibrium_stays_at_rest)
          "20\nend\nsubsection Mesh\n set Generator = gmsh\n set Size = "
          "1.5\nend\nsubsection Excavations\n set Names = hole\n subsection "
          "hole\n set Vertices = -3, -3; 3, -3; 3, 3; -3, 3\n set Stage = "
-         "dig\n end\nend\nsubsection Joints\n set Names = a, b\n subsection "
+         "excavate\n end\nend\nsubsection Joints\n set Names = a, b\n "
+         "subsection "
          "a\n set Extent = polygon\n set Vertices = -2.5, 3; 0, 7\n set "
          "Friction angle = 40\n end\n subsection b\n set Extent = polygon\n "
          "set Vertices = 2.5, 3; 0, 7\n set Friction angle = 40\n "
@@ -98,8 +100,10 @@ BOOST_AUTO_TEST_CASE(jointed_rock_in_equilibrium_stays_at_rest)
          "bottom\n end\nend\nsubsection Initial state\n set Gravity = 0; "
          "-9.81\n set Surface elevation = 10\n set Surface stress = 0\n set "
          "Vertical stress gradient = 26487\n set Equilibrium = "
-         "static\nend\nsubsection Stages\n set Names = rest, dig\n subsection "
-         "rest\n set Maximum steps = 1000\n end\n subsection dig\n set Maximum "
+         "static\nend\nsubsection Stages\n set Names = rest, excavate\n "
+         "subsection "
+         "rest\n set Maximum steps = 1000\n end\n subsection excavate\n set "
+         "Maximum "
          "steps = 300\n end\nend\nsubsection Monitors\n set Names = all\n "
          "subsection all\n set Kind = region\n end\nend\nsubsection Output\n "
          "set Write VTU = false\nend\n";
@@ -118,5 +122,5 @@ BOOST_AUTO_TEST_CASE(jointed_rock_in_equilibrium_stays_at_rest)
                          << std::sqrt(rest / peak));
       BOOST_TEST(std::sqrt(rest / peak) < 1e-9);
     }
-  BOOST_TEST(simulation.geometry().interface.pairs.size() > 5);
+  BOOST_TEST(simulation.state().split.interface.pairs.size() > 5);
 }

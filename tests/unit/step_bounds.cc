@@ -20,9 +20,9 @@ namespace
     std::cout.setstate(std::ios::failbit);
     simulation.validate();
     std::cout.clear();
-    if (simulation.cell_arrays().nodes.empty())
+    if (simulation.state().cells.nodes.empty())
       return;
-    const double bound = simulation.stable_step();
+    const double bound = simulation.state().stable_step();
     const double limit = 2. / highest_frequency_of_mesh(simulation, 1000);
     BOOST_TEST_MESSAGE(name << ": bound over limit " << bound / limit);
     BOOST_TEST(bound <= limit * (1. + 1e-9), name);

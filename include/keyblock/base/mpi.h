@@ -12,8 +12,8 @@
 
 namespace Keyblock
 {
-  /** All ranks that share this mesh: those of the run, or within a TeamScope
-   * those of this rank's team (base/teams.h). */
+  /** All ranks that share this mesh: those of the run, or within a
+   * RankGroupScope those of this rank's rank group (base/rank_groups.h). */
   MPI_Comm world();
 
   unsigned int n_ranks();

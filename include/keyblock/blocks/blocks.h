@@ -15,7 +15,7 @@ namespace Keyblock
   /** What a block is at one stage of the excavation. */
   enum class BlockClass
   {
-    attached, ///< joined to rock that is not dug yet
+    attached, ///< joined to rock that is not excavated yet
     exposed,  ///< finite, with a free face
     hidden,   ///< finite, without a free face
     infinite, ///< touches the truncated boundary of the model
@@ -99,7 +99,8 @@ namespace Keyblock
   {
     std::vector<Block<dim>> blocks;
 
-    /** Index into blocks of each cell; `none` for cells that are dug out. */
+    /** Index into blocks of each cell; `none` for cells that are excavated out.
+     */
     std::vector<unsigned int> block_of_cell;
 
     unsigned int n_stages = 0; ///< of excavation

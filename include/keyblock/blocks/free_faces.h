@@ -42,7 +42,7 @@ namespace Keyblock
     /** Indices into faces, by block. */
     const std::vector<unsigned int> &of_block(const unsigned int block) const;
 
-    /** Cells of the split mesh that belong to a block, dug ones too. */
+    /** Cells of the split mesh that belong to a block, excavated ones too. */
     const std::vector<unsigned int> &
     cells_of_block(const unsigned int block) const;
 

@@ -7,8 +7,8 @@
 namespace Keyblock
 {
   /**
-   * What is there at a stage: what has been dug, filled and taken away, and
-   * which faces are free. From the scene and the mesh alone.
+   * What is there at a stage: what has been excavated, filled and taken away,
+   * and which faces are free. From the scene and the mesh alone.
    */
   template <int dim>
   struct Ground
@@ -27,7 +27,7 @@ namespace Keyblock
     unsigned int material_of(const unsigned int cell) const;
   };
 
-  /** Whether stage @p number digs, fills, loads or changes anything. */
+  /** Whether stage @p number excavates, fills, loads or changes anything. */
   template <int dim>
   bool is_changing(const Scene<dim> &scene, const unsigned int number);
 

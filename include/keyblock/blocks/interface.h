@@ -20,7 +20,8 @@ namespace Keyblock
      * normal but for faces that the mesh has bent [m^(dim-1)]. */
     Tensor<1, dim> area_vector;
 
-    /** Excavation stage until which undug rock welds it; 0: not welded. */
+    /** Excavation stage until which unexcavated rock welds it; 0: not welded.
+     */
     unsigned int unwelding_stage = 0;
   };
 
@@ -69,7 +70,7 @@ namespace Keyblock
   {
     Mesh<dim> mesh;
 
-    /** Index into Blocks::blocks; `none` for cells that are dug later. */
+    /** Index into Blocks::blocks; `none` for cells that are excavated later. */
     std::vector<unsigned int> block_of_cell;
     Interface<dim> interface;
 
@@ -110,11 +111,11 @@ namespace Keyblock
   };
 
   /**
-   * Give every vertex one copy per fan of cells around it that are joined
+   * Give every vertex one copy per cluster of cells around it that are joined
    * through faces on no active joint, and list the pairs this makes. The
-   * copies of joint tips stay one vertex. Cells dug before the first stage are
-   * dropped; joints inside rock that is dug later are welded, and so are the
-   * pairs on its outline until it is dug.
+   * copies of joint tips stay one vertex. Cells excavated before the first
+   * stage are dropped; joints inside rock that is excavated later are welded,
+   * and so are the pairs on its outline until it is excavated.
    */
   template <int dim>
   SplitMesh<dim> split_mesh(const Mesh<dim> &mesh,

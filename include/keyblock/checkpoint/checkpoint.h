@@ -12,7 +12,8 @@ namespace Keyblock
   /**
    * The state of a run in lists over the whole mesh, so that it can be taken up
    * by another number of ranks: nodal fields by vertex of the split mesh,
-   * stresses by cell, contact by pair and surface slot (all collective).
+   * stresses by cell, contact by pair and surface node (all
+   * collective).
    *
    * Masses, supports and other things that follow from the scene and the stage
    * are not saved but made anew.
@@ -68,10 +69,10 @@ namespace Keyblock
                 std::vector<SafetyFactor> &factors);
   void exchange(StateFile &file, const std::string &group, History &history);
 
-  /** What all teams found in a stage, by block; @p mine: what this one did
-   * (collective over all ranks of all teams). */
+  /** What all rank groups found in a stage, by block; @p mine: what this one
+   * did (collective over all ranks of all rank groups). */
   std::vector<SafetyFactor>
-  gather_from_teams(const std::vector<SafetyFactor> &mine);
+  gather_from_rank_groups(const std::vector<SafetyFactor> &mine);
 
   /** A number that changes with the vertices, cells and pairs of a mesh, as
    * text. */

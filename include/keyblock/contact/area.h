@@ -88,11 +88,11 @@ namespace Keyblock
                           const bool with_opened) const;
 
     /** Whether the pair of a surface node on @p joint has opened. */
-    bool has_opened(const unsigned int slot, const unsigned int joint) const;
+    bool has_opened(const unsigned int node, const unsigned int joint) const;
 
     /** Whether a closed unconverted pair of a surface node on @p joint joins it
      * to a block. */
-    bool has_pair(const unsigned int slot,
+    bool has_pair(const unsigned int node,
                   const unsigned int joint,
                   const unsigned int block) const;
 

@@ -43,7 +43,8 @@ namespace Keyblock
 
     /**
      * Prepare for stage @p number of the excavation: masses, supports and cells
-     * may have changed, and pairs that rock dug by then had welded are let go.
+     * may have changed, and pairs that rock excavated by then had welded are
+     * let go.
      */
     void begin_stage(const unsigned int number);
 
@@ -126,7 +127,7 @@ namespace Keyblock
 
     /** Local nodes that are solved on all ranks: those that have slid, and
      * those that may meet a face. They change when tally.n_searches does. */
-    std::vector<unsigned int> list_mobile_nodes() const;
+    std::vector<unsigned int> list_surface_contact_nodes() const;
 
     ContactTally tally;
 

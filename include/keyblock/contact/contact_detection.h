@@ -54,12 +54,12 @@ namespace Keyblock
     void list_candidates(const bool is_moved);
 
     /** Whether a pair stands for the contact of a node with a face. */
-    bool is_paired(const unsigned int slot,
+    bool is_paired(const unsigned int node,
                    const unsigned int face,
                    const std::vector<bool> &has_converted) const;
 
     /** Which nodes and groups are solved on all ranks, after a search. */
-    void mark_mobile();
+    void mark_surface_contacts();
 
     /** Whether a group has a converted pair, by group. */
     std::vector<bool> list_converted_groups() const;

@@ -6,17 +6,18 @@
 
 #include <vector>
 
-// Vector algebra of the search for contacts; positions are dim values a slot.
+// Vector algebra of the search for contacts; positions are dim values a surface
+// node.
 namespace Keyblock
 {
-  /** Position of a slot. */
+  /** Position of a surface node. */
   template <int dim>
   Vector<dim>
-  at(const std::vector<double> &position, const unsigned int slot)
+  at(const std::vector<double> &position, const unsigned int node)
   {
     Vector<dim> p;
     for (int d = 0; d < dim; ++d)
-      p[d] = position[dim * slot + d];
+      p[d] = position[dim * node + d];
     return p;
   }
 

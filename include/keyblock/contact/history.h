@@ -40,8 +40,8 @@ namespace Keyblock
 
   private:
     /** That of a node, none so far if it is not listed. */
-    JointHistory find(const unsigned int slot, const unsigned int joint) const;
-    JointHistory &at(const unsigned int slot, const unsigned int joint);
+    JointHistory find(const unsigned int node, const unsigned int joint) const;
+    JointHistory &at(const unsigned int node, const unsigned int joint);
 
     /** Velocity of a pair's plus side from its minus side [m/s]; false if this
      * rank does not have both. */

@@ -38,7 +38,7 @@ namespace Keyblock
     void activate_nodes();
 
     /** List those of groups that are solved on all ranks in the memory. */
-    void list_mobile_groups();
+    void list_surface_contact_groups();
 
     /** Force on their pairs from present stresses (collective). */
     void

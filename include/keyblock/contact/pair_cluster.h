@@ -27,12 +27,12 @@ namespace Keyblock
      * Of the impulses that add up to @p needed at the nodes, those nearest to
      * what the pairs have, by area; where nodes are held, the support takes its
      * share.
-     * @param needed dim values for each of slots [N s] */
+     * @param needed dim values for each of surface nodes [N s] */
     void recover_impulses(const PairTopology<dim> &topology,
                           const double *needed,
                           std::vector<PairState<dim>> &state) const;
 
-    /** Whether node @p i of slots moves along an axis. */
+    /** Whether node @p i of surface nodes moves along an axis. */
     bool
     is_free(const unsigned int i, const unsigned int axis) const
     {
@@ -40,7 +40,7 @@ namespace Keyblock
     }
 
     unsigned int group;
-    std::vector<unsigned int> slots; ///< its surface nodes
+    std::vector<unsigned int> surface_nodes; ///< its surface nodes
 
     /** Held in directions that are no axes: it is no cluster then. */
     bool is_oblique = false;

@@ -16,8 +16,9 @@ namespace Keyblock
   template <int dim>
   struct SurfaceContact
   {
-    unsigned int slave; ///< slot; of ridges the first of the slave ridge
-    unsigned int face;  ///< index into Interface::surface; one of the ridge's
+    unsigned int
+      slave;           ///< surface node; of ridges the first of the slave ridge
+    unsigned int face; ///< index into Interface::surface; one of the ridge's
     unsigned int joint; ///< of the face, or `none`
     unsigned int master_block;
     bool is_ridge = false;
@@ -45,11 +46,12 @@ namespace Keyblock
 
   /**
    * Finds which surface node meets which face. All surface nodes of the split
-   * mesh are numbered as `slots`, the same on every rank; positions of slots
-   * are given by the caller. The broad phase (search) lists candidate faces for
-   * the nodes by an R-tree over bounding boxes widened by a skin, and stays
-   * valid until something has moved by half the skin; the narrow phase
-   * (evaluate) measures gaps, normals and weights of the candidates.
+   * mesh are numbered as `surface nodes`, the same on every rank; positions of
+   * surface nodes are given by the caller. The broad phase (search) lists
+   * candidate faces for the nodes by an R-tree over bounding boxes widened by a
+   * skin, and stays valid until something has moved by half the skin; the
+   * narrow phase (evaluate) measures gaps, normals and weights of the
+   * candidates.
    *
    * In 3D also ridges (convex edges between faces that differ by more than 20
    * degrees) that cross: where both closest points are inside the ridges, and
@@ -68,9 +70,9 @@ namespace Keyblock
                   const Scene<dim> &scene);
 
     unsigned int
-    n_slots() const
+    n_surface_nodes() const
     {
-      return vertex_of_slot.size();
+      return vertex_of_node.size();
     }
 
     /** Distance [m] that nodes may move, twice, before the candidates expire.
@@ -82,19 +84,19 @@ namespace Keyblock
     }
 
     /**
-     * List candidates for the present @p position (dim per slot).
-     * @param is_paired whether the pair contact of a slot with a face stands
-     *   for it, so that the face is not to be searched
-     * @param has_changed slots for which that has changed since a search at the
-     *   same position, which the others need not repeat; empty: all
+     * List candidates for the present @p position (dim per surface node).
+     * @param is_paired whether the pair contact of a surface node with a face
+     * stands for it, so that the face is not to be searched
+     * @param has_changed surface nodes for which that has changed since a
+     * search at the same position, which the others need not repeat; empty: all
      */
     void
     search(const std::vector<double> &position,
            const std::function<bool(unsigned int, unsigned int)> &is_paired,
            const std::vector<bool> &has_changed = {});
 
-    /** Slots of all candidate slaves and of the faces they may meet. */
-    std::vector<unsigned int> candidate_slots() const;
+    /** Surface nodes of all candidate slaves and of the faces they may meet. */
+    std::vector<unsigned int> candidate_nodes() const;
 
     bool
     has_candidates() const
@@ -104,7 +106,7 @@ namespace Keyblock
 
     /**
      * Contacts nearer than @p reach [m] at the present @p position.
-     * @param travelled how far candidate_slots() are from where they were at
+     * @param travelled how far candidate_nodes() are from where they were at
      *   the search, at most [m]; faces too far away for that are not looked at
      */
     void evaluate(const std::vector<double> &position,
@@ -126,25 +128,26 @@ namespace Keyblock
     find_largest_overlap(const std::vector<double> &position,
                          const std::vector<bool> &is_removed_block) const;
 
-    /** Whether a slot is on a face of @p block. Blocks that stay welded share
-     * their slots. */
-    bool is_on_block(const unsigned int slot, const unsigned int block) const;
+    /** Whether a surface node is on a face of @p block. Blocks that stay welded
+     * share their surface nodes. */
+    bool is_on_block(const unsigned int node, const unsigned int block) const;
 
-    /** How far a slot lay in front of a face's plane at the start [m]. */
-    double start_distance(const unsigned int slot,
+    /** How far a surface node lay in front of a face's plane at the start [m].
+     */
+    double start_distance(const unsigned int node,
                           const unsigned int face) const;
 
-    std::vector<unsigned int> vertex_of_slot;
-    std::vector<unsigned int> slot_of_vertex;
-    std::vector<unsigned int> block_of_slot; ///< one of them, see is_on_block()
+    std::vector<unsigned int> vertex_of_node;
+    std::vector<unsigned int> node_of_vertex;
+    std::vector<unsigned int> block_of_node; ///< one of them, see is_on_block()
 
-    /** Where each slot is at the start [m]: its vertex, but in the planes of
-     * the joints of its faces, which the mesh may have bent. So bent faces do
-     * not interlock. */
-    std::vector<Point<dim>> place_of_slot;
+    /** Where each surface node is at the start [m]: its vertex, but in the
+     * planes of the joints of its faces, which the mesh may have bent. So bent
+     * faces do not interlock. */
+    std::vector<Point<dim>> place_of_node;
 
-    /** Slots of each surface face, outward by the right-hand rule. */
-    std::vector<typename Mesh<dim>::FaceVertices> face_slots;
+    /** Surface nodes of each surface face, outward by the right-hand rule. */
+    std::vector<typename Mesh<dim>::FaceVertices> nodes_of_face;
 
     /** Outward unit normal of a face at its centre, present position. */
     Vector<dim> face_normal(const std::vector<double> &position,
@@ -170,7 +173,7 @@ namespace Keyblock
     /** A convex edge of the surface (3D). */
     struct Ridge
     {
-      std::array<unsigned int, 2> slots, faces;
+      std::array<unsigned int, 2> surface_nodes, faces;
     };
 
     /** Indices into ridges. */
@@ -180,7 +183,7 @@ namespace Keyblock
       double largest_overlap; ///< as in CandidateFace [m]
     };
 
-    void place_slots(const Mesh<dim> &mesh, const Scene<dim> &scene);
+    void place_surface_nodes(const Mesh<dim> &mesh, const Scene<dim> &scene);
 
     void find_ridges();
 
@@ -220,10 +223,11 @@ namespace Keyblock
                                  const unsigned int slave,
                                  const unsigned int face) const;
 
-    /** Whether the block around a slot lies in front of a plane through it with
-     * @p normal, so that the slot can stand on that plane. */
+    /** Whether the block around a surface node lies in front of a plane through
+     * it with
+     * @p normal, so that the surface node can stand on that plane. */
     bool can_stand_on(const std::vector<double> &position,
-                      const unsigned int slot,
+                      const unsigned int node,
                       const Vector<dim> &normal) const;
 
     /** Drop contacts of a master's nodes on a slave's face where the slave has
@@ -267,15 +271,15 @@ namespace Keyblock
     /** Whether nodes of block @p a are slaves on faces of block @p b. */
     bool is_slave_block(const unsigned int a, const unsigned int b) const;
 
-    /** The feet of a slot on the faces for which its pairs stand. */
+    /** The feet of a surface node on the faces for which its pairs stand. */
     std::vector<Projection> feet_on_pairs(const std::vector<double> &position,
-                                          const unsigned int slot) const;
+                                          const unsigned int node) const;
 
-    /** How deep a slot is in a block with @p faces near it, beyond how deep it
-     * was at the start [m]; not above 0 if it is outside, or if a pair holds it
-     * on the plane of the face. */
+    /** How deep a surface node is in a block with @p faces near it, beyond how
+     * deep it was at the start [m]; not above 0 if it is outside, or if a pair
+     * holds it on the plane of the face. */
     double overlap_with(const std::vector<double> &position,
-                        const unsigned int slot,
+                        const unsigned int node,
                         const std::vector<unsigned int> &faces) const;
 
     bool opposes(const std::vector<double> &position,
@@ -286,9 +290,9 @@ namespace Keyblock
     std::vector<double> block_face_size; ///< mean [m]
     std::vector<double> block_volume;
     std::vector<bool> is_rigid_block;
-    std::vector<bool> is_sharp;         ///< slot on an edge or corner
-    std::vector<double> start_position; ///< place_of_slot, dim values each
-    std::vector<std::vector<unsigned int>> faces_of_slot;
+    std::vector<bool> is_sharp;         ///< surface node on an edge or corner
+    std::vector<double> start_position; ///< place_of_node, dim values each
+    std::vector<std::vector<unsigned int>> faces_of_node;
     std::vector<Candidate> candidates;
     std::vector<Ridge> ridges;
     std::vector<RidgePair> ridge_pairs;

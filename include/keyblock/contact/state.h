@@ -16,7 +16,7 @@ namespace Keyblock
     ContactStatus status = ContactStatus::sticking;
     bool is_intact       = false;
     bool is_converted    = false; ///< point-to-surface from now on
-    bool is_welded       = false; ///< by rock that is dug later
+    bool is_welded       = false; ///< by rock that is excavated later
     bool is_removed      = false; ///< with one of its blocks
     bool has_opened      = false; ///< so that cohesion is gone
 
@@ -33,7 +33,7 @@ namespace Keyblock
    * its partners. */
   struct NodeHistory
   {
-    unsigned int slot, joint;
+    unsigned int node, joint;
     JointHistory history;
   };
 
@@ -65,13 +65,16 @@ namespace Keyblock
   {
     std::vector<PairState<dim>> state;
     std::vector<Vector<dim>> normal; ///< of each pair, present
-    std::vector<bool> is_removed_block, is_mobile_group, is_mobile_slot;
-    std::vector<unsigned int> mobile_slots;
-    std::vector<unsigned int> mobile_corners;  ///< of the list of corners
+    std::vector<bool> is_removed_block, is_surface_contact_group,
+      is_surface_contact_node;
+    std::vector<unsigned int> surface_contact_nodes;
+    std::vector<unsigned int>
+      surface_contact_groups;                  ///< of the list of corners
     std::vector<SurfaceContact<dim>> contacts; ///< of the last step
 
     /** What joints' laws remember, if one does: of each pair, and of nodes that
-     * have met others than their partners, by slot and joint, sorted. */
+     * have met others than their partners, by surface node and joint, sorted.
+     */
     std::vector<JointHistory> pair_histories;
     std::vector<NodeHistory> node_histories;
     unsigned int n_steps = 0;
@@ -79,8 +82,8 @@ namespace Keyblock
 
     // when surface contacts were searched, and when they are to be again
     std::vector<double> searched_position;
-    bool is_search_due     = true;
-    unsigned int next_look = 0; ///< step at which motion is measured
+    bool is_search_due             = true;
+    unsigned int next_normal_check = 0; ///< step at which motion is measured
 
     /** How far a pair's slip has opened it [m]. */
     double

@@ -8,9 +8,10 @@ namespace Keyblock
 {
 
   /**
-   * What pairs bear for a while beyond their joint's strength: what rock dug in
-   * a stage held together, and what only the mesh makes slide, where it has
-   * bent a joint's faces. Both are taken away along the stage's ramp.
+   * What pairs bear for a while beyond their joint's strength: what rock
+   * excavated in a stage held together, and what only the mesh makes slide,
+   * where it has bent a joint's faces. Both are taken away along the stage's
+   * ramp.
    */
   template <int dim>
   class StrengthLoans

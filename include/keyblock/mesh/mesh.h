@@ -57,7 +57,8 @@ namespace Keyblock
     /** Index into Scene::materials of each cell. */
     std::vector<unsigned int> material;
 
-    /** Number of the stage that digs each cell (Scene::stage_number); 0: none.
+    /** Number of the stage that excavates each cell (Scene::stage_number); 0:
+     * none.
      */
     std::vector<unsigned int> excavation_stage;
 
@@ -65,7 +66,7 @@ namespace Keyblock
      * per cell; empty: there are none. */
     std::vector<std::vector<unsigned int>> later_materials;
 
-    /** Index into Scene::excavations of the one that digs each cell. */
+    /** Index into Scene::excavations of the one that excavates each cell. */
     std::vector<unsigned int> excavation;
 
     /** Ids of outer faces, where the generator gave any. */

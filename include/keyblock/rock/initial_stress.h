@@ -11,7 +11,7 @@
 namespace Keyblock
 {
   /**
-   * The stress before anything is dug, tension positive: by formulas, or
+   * The stress before anything is excavated, tension positive: by formulas, or
    * growing with depth below a ground surface, with lateral stresses in ratio
    * to the vertical one and, in 3D, turned to an azimuth.
    */

@@ -57,7 +57,7 @@ namespace Keyblock
     BlockLoads<dim> loads;
     double largest_bend = 0.;   ///< of a face against its joint's plane [deg]
     std::string bent;           ///< name of that joint
-    bool is_attached   = false; ///< to rock that is not dug yet
+    bool is_attached   = false; ///< to rock that is not excavated yet
     bool is_on_fill    = false;
     bool has_free_face = false; ///< that touches another one
   };

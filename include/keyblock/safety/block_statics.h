@@ -45,7 +45,7 @@ namespace Keyblock
                                 const unsigned int block,
                                 const double time);
 
-  /** Whether the rock is under stress before anything is dug, which limit
+  /** Whether the rock is under stress before anything is excavated, which limit
    * equilibrium leaves out. */
   template <int dim>
   bool has_initial_stress(const Scene<dim> &scene);

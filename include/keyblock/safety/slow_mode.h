@@ -10,19 +10,19 @@ namespace Keyblock
 {
   /**
    * Tells the frequency of the mode by which some nodes creep to rest: the
-   * Rayleigh quotient of how far they moved between two looks, and of how the
-   * forces on them changed (Underwood 1983: adaptive dynamic relaxation).
+   * Rayleigh quotient of how far they moved within a check interval, and of how
+   * the forces on them changed (Underwood 1983: adaptive dynamic relaxation).
    */
   template <int dim>
   class SlowMode
   {
   public:
-    /** Look at owned @p nodes (local numbers), now for the first time. */
+    /** Check owned @p nodes (local numbers), now for the first time. */
     SlowMode(const Fields<dim> &fields, const std::vector<unsigned int> &nodes);
 
     /** Angular frequency [rad/s], with the masses in use, of a mode that the
-     * last looks agree on; 0 if they do not (collective). */
-    double look();
+     * last checks agree on; 0 if they do not (collective). */
+    double check();
 
   private:
     struct Sample
@@ -37,7 +37,7 @@ namespace Keyblock
     const std::vector<unsigned int> &nodes;
     Sample before;
     double last_frequency = 0.;
-    unsigned int n_alike  = 0; ///< looks in a row
+    unsigned int n_alike  = 0; ///< checks in a row
   };
 } // namespace Keyblock
 

@@ -22,7 +22,7 @@ namespace Keyblock
   using dealii::Point;
   using dealii::Tensor;
 
-  /** The body of ground that is modelled, before anything is dug. */
+  /** The body of ground that is modelled, before anything is excavated. */
   template <int dim>
   struct Domain
   {
@@ -69,7 +69,7 @@ namespace Keyblock
     void declare(ParameterHandler &prm);
   };
 
-  /** A region that is dug out in one stage. */
+  /** A region that is excavated out in one stage. */
   template <int dim>
   struct Excavation
   {
@@ -315,7 +315,7 @@ namespace Keyblock
     bool
     is_published_variant() const
     {
-      return method == "paper";
+      return method == "published";
     }
 
     void declare(ParameterHandler &prm);
@@ -343,7 +343,7 @@ namespace Keyblock
   };
 
   /** A stretch of time with its own damping, or a way to a new equilibrium;
-   * excavations that name it are dug at its start. */
+   * excavations that name it are excavated at its start. */
   struct Stage
   {
     std::string name;
@@ -403,8 +403,8 @@ namespace Keyblock
     bool true_masses           = false;
     double reach               = 3.;
     std::vector<double> seismic_coefficient;
-    double removal_slip = 0.05;
-    unsigned int teams  = 1;
+    double removal_slip      = 0.05;
+    unsigned int rank_groups = 1;
 
     bool
     is_wanted() const
@@ -555,6 +555,7 @@ namespace Keyblock
     std::string print_entries(const bool has_descriptions) const;
 
     std::shared_ptr<ParameterHandler> prm; ///< as read, all but the joints
+    std::vector<std::string> old_names;    ///< sentences on those in the file
   };
 
   /** The value of `Dimension` in the file: 2 or 3. Throws InputError. */

@@ -12,6 +12,9 @@ namespace dealii
 
 namespace Keyblock
 {
+  /** A line without comment, with single blanks only, as it is parsed. */
+  std::string significant_part(std::string line);
+
   /**
    * Parse lines of a parameter file from @p file_name (for line numbers).
    * Throws InputError, one sentence that begins with @p source, for whatever
@@ -53,6 +56,7 @@ namespace Keyblock
     std::string file_name;
     std::string text; ///< blank lines in place of joints' subsections
     std::vector<Override> overrides;
+    std::vector<std::string> warnings; ///< of names that have changed
 
     std::vector<JointPassage> joint_subsections;
     std::vector<JointPassage> joint_overrides;

@@ -30,8 +30,8 @@ namespace Keyblock
     double mass_damping      = 0.;
     double local_damping     = 0.;
     double plastic           = 0.; ///< dissipated by plastic strains
-    double excavated         = 0.; ///< elastic, left with the cells dug first
-    double start = 0.; ///< kinetic and elastic at the start of the stage
+    double excavated = 0.; ///< elastic, left with the cells excavated first
+    double start     = 0.; ///< kinetic and elastic at the start of the stage
 
     void
     add(const NodeWork &work)

@@ -26,7 +26,8 @@ namespace Keyblock
   struct LoadState
   {
     Ramp ramp;
-    std::vector<double> carried_force; ///< by owned degree of freedom [N]
+    std::vector<double>
+      out_of_balance_force; ///< by owned degree of freedom [N]
   };
 
   /** Gravity, tractions, water in joints, and forces that are taken away over

@@ -18,7 +18,8 @@ namespace Keyblock
   };
 
   /**
-   * Cells in which nothing moves, left out of the steps between two looks.
+   * Cells in which nothing moves, left out of the steps within a check
+   * interval.
    *
    * In a step the motion of a node reaches the nodes of its own cells and no
    * others. Cells farther than n_steps layers from all that moves, and from all
@@ -35,7 +36,7 @@ namespace Keyblock
   class RestingCells
   {
   public:
-    /** Steps from one look to the next. */
+    /** Steps from one check to the next. */
     static constexpr unsigned int n_steps = 10;
 
     RestingCells(const SplitMesh<dim> &split,
@@ -44,18 +45,18 @@ namespace Keyblock
                  Fields<dim> &fields,
                  const ForceElements<dim> &elements);
 
-    /** Cells, nodes that move or supports have changed: start anew, with a look
-     * at the next step. */
+    /** Cells, nodes that move or supports have changed: start anew, with a
+     * check at the next step. */
     void forget();
 
-    /** Nothing rests until the next look. */
+    /** Nothing rests until the next check. */
     void
     wake()
     {
       rests = false;
     }
 
-    /** Whether it is time to look. */
+    /** Whether it is time to check. */
     bool
     is_due() const
     {
@@ -70,13 +71,13 @@ namespace Keyblock
     }
 
     /**
-     * Choose what rests until the next look. Forces are those of the present
+     * Choose what rests until the next check. Forces are those of the present
      * displacements, of all cells; call it before the kick.
      * @param touched local nodes that contact may set in motion by then
      * @return kinetic energy of this rank's nodes that were stopped [J]
      */
-    double look(const RestLimit &limit,
-                const std::vector<unsigned int> &touched);
+    double check(const RestLimit &limit,
+                 const std::vector<unsigned int> &touched);
 
     /** Cells that do not rest, or null if none rests. */
     const std::vector<CellRange> *

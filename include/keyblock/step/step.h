@@ -23,8 +23,8 @@ namespace Keyblock
     Energies energies; ///< as of the last sampled step
 
     /** Sum of |unbalanced force| on free nodes over the sum of |driving force|,
-     * as last sampled [-]. What drives is what dug cells carried, in a stage
-     * that digs; else loads, else reactions. */
+     * as last sampled [-]. What drives is what excavated cells carried, in a
+     * stage that excavates; else loads, else reactions. */
     double unbalanced_ratio = 0.;
 
     /** Largest unbalanced force of a node over the mean force, the same [-]. */
@@ -46,7 +46,7 @@ namespace Keyblock
     ContactWork contact_work_at_start;
     double plastic_work_at_start = 0.;
     double excavated_energy      = 0.;
-    double carried_sum           = 0.; ///< of |force| of the cells dug [N]
+    double out_of_balance_sum = 0.; ///< of |force| of the cells excavated [N]
   };
 
   /**
@@ -67,8 +67,8 @@ namespace Keyblock
                  Fields<dim> &fields,
                  Contact<dim> *contact);
 
-    /** Prepare (after `dig`, if it digs) stage @p number (Scene::stage_number);
-     * returns the length of its steps [s]. */
+    /** Prepare (after `excavate`, if it excavates) stage @p number
+     * (Scene::stage_number); returns the length of its steps [s]. */
     double begin_stage(const Stage &stage, const unsigned int number);
 
     /** Go on within stage @p number, in a state read from a file. */
@@ -83,20 +83,20 @@ namespace Keyblock
 
     /**
      * Go to stage @p number (Conditions::excavate). Returns the forces that
-     * keep the owned degrees of freedom balanced all the same: what dug cells
-     * carried, what new loads ask for [N].
+     * keep the owned degrees of freedom balanced all the same: what excavated
+     * cells carried, what new loads ask for [N].
      */
-    std::vector<double> dig(const unsigned int number);
+    std::vector<double> excavate(const unsigned int number);
 
-    /** Size of @p carried (as from `dig`) over the largest of this stage
-     * (collective) [-]. */
-    double share_of_dug(const std::vector<double> &carried) const;
+    /** Size of @p out_of_balance (as from `excavate`) over the largest of this
+     * stage (collective) [-]. */
+    double share_of_excavated(const std::vector<double> &out_of_balance) const;
 
-    /** The next stage has dug nothing yet. */
+    /** The next stage has excavated nothing yet. */
     void
-    forget_dug_cells()
+    forget_excavated_cells()
     {
-      carried_sum = excavated_energy = 0.;
+      out_of_balance_sum = excavated_energy = 0.;
     }
 
     /** Add the elastic response to the displacement increment @p change (local
@@ -166,7 +166,7 @@ namespace Keyblock
      * rests is chosen anew from time to time. */
     void update_internal_force(const bool of_all);
     void compute_internal_force(const bool with_resting = true);
-    /** Whether cells at rest stay so until the next look, and can be told. */
+    /** Whether cells at rest stay so until the next check, and can be told. */
     bool may_rest() const;
     /** Whether forces by velocities act: stiffness damping, dashpots. */
     bool has_damping_force() const;
@@ -175,7 +175,7 @@ namespace Keyblock
     double stored_energy() const;
     /** What plastic strains of this rank have dissipated, ever [J]. */
     double plastic_work() const;
-    /** Choose the cells to leave out until the next look. */
+    /** Choose the cells to leave out until the next check. */
     void look_for_rest();
     /** Kick all nodes; with @p moves_inner the inner ones move as well. */
     void predict_nodes(const bool moves_inner);
@@ -218,7 +218,7 @@ namespace Keyblock
     file.exchange(group + "starts_at_rest", starts_at_rest);
     file.exchange(group + "is_first", is_first);
     file.exchange(group + "is_stress_current", is_stress_current);
-    file.exchange(group + "carried_sum", carried_sum);
+    file.exchange(group + "out_of_balance_sum", out_of_balance_sum);
 
     const auto sampled = energies.as_array();
     std::vector<double> list(sampled.begin(), sampled.end());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Jobs shared out to teams: the longest first.
+// Jobs shared out to rank groups: the longest first.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/teams.h>
+#include <keyblock/base/rank_groups.h>
 
 using namespace Keyblock;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/teams.h>
+#include <keyblock/base/rank_groups.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -15,10 +15,10 @@ namespace Keyblock
 {
   namespace
   {
-    MPI_Comm team           = MPI_COMM_WORLD;
-    MPI_Comm in_use         = MPI_COMM_WORLD;
-    unsigned int team_count = 1;
-    unsigned int my_team    = 0;
+    MPI_Comm group           = MPI_COMM_WORLD;
+    MPI_Comm in_use          = MPI_COMM_WORLD;
+    unsigned int group_count = 1;
+    unsigned int my_group    = 0;
   } // namespace
 
 
@@ -32,47 +32,47 @@ namespace Keyblock
 
 
   void
-  form_teams(const unsigned int wanted)
+  form_rank_groups(const unsigned int wanted)
   {
     const unsigned int n_all =
       dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
     const unsigned int rank =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
     AssertThrow(n_all % wanted == 0,
-                InputError("The entry 'Safety factor/Teams' is " +
+                InputError("The entry 'Safety factor/Rank groups' is " +
                            std::to_string(wanted) + ", and the run has " +
                            std::to_string(n_all) +
                            " ranks, which cannot be shared out evenly; give "
                            "a divisor of the number of ranks."));
-    if (team != MPI_COMM_WORLD)
-      MPI_Comm_free(&team);
-    team       = MPI_COMM_WORLD;
-    team_count = wanted;
-    my_team    = rank / (n_all / wanted);
+    if (group != MPI_COMM_WORLD)
+      MPI_Comm_free(&group);
+    group       = MPI_COMM_WORLD;
+    group_count = wanted;
+    my_group    = rank / (n_all / wanted);
     if (wanted > 1)
-      MPI_Comm_split(MPI_COMM_WORLD, my_team, rank, &team);
+      MPI_Comm_split(MPI_COMM_WORLD, my_group, rank, &group);
   }
 
 
 
   unsigned int
-  n_teams()
+  n_rank_groups()
   {
-    return team_count;
+    return group_count;
   }
 
 
 
   unsigned int
-  this_team()
+  this_rank_group()
   {
-    return my_team;
+    return my_group;
   }
 
 
 
   std::vector<unsigned int>
-  share_out(const std::vector<double> &costs, const unsigned int n_teams)
+  share_out(const std::vector<double> &costs, const unsigned int n_rank_groups)
   {
     std::vector<unsigned int> order(costs.size());
     std::iota(order.begin(), order.end(), 0);
@@ -81,29 +81,29 @@ namespace Keyblock
                      [&](const unsigned int a, const unsigned int b) {
                        return costs[a] > costs[b];
                      });
-    std::vector<unsigned int> team(costs.size());
-    std::vector<double> load(n_teams, 0.);
+    std::vector<unsigned int> group(costs.size());
+    std::vector<double> load(n_rank_groups, 0.);
     for (const unsigned int job : order)
       {
         const auto least = std::min_element(load.begin(), load.end());
-        team[job]        = least - load.begin();
+        group[job]       = least - load.begin();
         *least += costs[job];
       }
-    return team;
+    return group;
   }
 
 
 
-  TeamScope::TeamScope()
+  RankGroupScope::RankGroupScope()
   {
-    in_use = team;
-    if (my_team > 0)
-      std::cout.setstate(std::ios::failbit); // the first team prints
+    in_use = group;
+    if (my_group > 0)
+      std::cout.setstate(std::ios::failbit); // the first rank group prints
   }
 
 
 
-  TeamScope::~TeamScope()
+  RankGroupScope::~RankGroupScope()
   {
     in_use = MPI_COMM_WORLD;
     std::cout.clear();
@@ -112,7 +112,7 @@ namespace Keyblock
 
 
   void
-  wait_for_all_teams()
+  wait_for_all_rank_groups()
   {
     MPI_Request request;
     MPI_Ibarrier(MPI_COMM_WORLD, &request);

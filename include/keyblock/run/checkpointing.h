@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_run_checkpointing_h
+#define keyblock_run_checkpointing_h
+
+#include <keyblock/base/stop_request.h>
+#include <keyblock/checkpoint/checkpoint.h>
+#include <keyblock/run/finite_check.h>
+#include <keyblock/run/run_record.h>
+
+namespace Keyblock
+{
+  /** When a run is saved, what a checkpoint contains, and how it is taken up
+   * (all collective). */
+  template <int dim>
+  class Checkpointing
+  {
+  public:
+    /** @param folder of output, with '/' at its end
+     * @param command that starts the run anew */
+    Checkpointing(Model<dim> &model,
+                  Monitors<dim> &monitors,
+                  Output<dim> &output,
+                  FiniteCheck<dim> &finite_check,
+                  RunRecord<dim> &record,
+                  const std::string &folder,
+                  const std::string &command);
+
+    /** Save the run if that is due. Throws StopRequest if a signal asks for an
+     * end. */
+    void save_if_due();
+    void save_and_stop(const StopRequest &request);
+
+    /** Go on from @p file, called @p name. */
+    void resume(StateFile &file, const std::string &name);
+
+    /** Add all that restore() needs to @p file. */
+    void put_state(StateFile &file);
+    void restore(StateFile &file);
+
+    /** A sentence about where the last complete checkpoint is; empty if there
+     * is none. */
+    std::string name_last_checkpoint() const;
+
+  private:
+    void save();
+    void exchange_progress(StateFile &file);
+    void exchange_results(StateFile &file);
+
+    /** Remember the checkpoint called @p name as the last complete one. */
+    void note_checkpoint(const std::string &name);
+
+    Model<dim> &model;
+    Monitors<dim> &monitors;
+    Output<dim> &output;
+    FiniteCheck<dim> &finite_check;
+    RunRecord<dim> &record;
+    std::string folder, command;
+    std::string last_checkpoint, restart_command; ///< of the run, if any
+    double last_saved = 0.; ///< wall time of the last checkpoint [s]
+  };
+
+  /** Throw InputError unless a @p file called @p name was written by a run of
+   * the same scene, as far as it had come. */
+  template <int dim>
+  void check_origin(StateFile &file,
+                    const std::string &name,
+                    const Scene<dim> &scene);
+
+  /** The same for the mesh. */
+  template <int dim>
+  void check_mesh(StateFile &file,
+                  const std::string &name,
+                  const SplitMesh<dim> &split);
+} // namespace Keyblock
+
+#endif

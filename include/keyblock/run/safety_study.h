@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_run_safety_study_h
+#define keyblock_run_safety_study_h
+
+#include <keyblock/run/checkpointing.h>
+#include <keyblock/run/stage_observer.h>
+
+namespace Keyblock
+{
+  /** Safety factors of the blocks at the end of a stage (all collective). */
+  template <int dim>
+  class SafetyStudy
+  {
+  public:
+    SafetyStudy(Model<dim> &model,
+                FiniteCheck<dim> &finite_check,
+                Checkpointing<dim> &checkpointing,
+                RunRecord<dim> &record);
+
+    /** Blocks whose factor after the present stage is wanted and not known. */
+    std::vector<unsigned int> list_wanted_blocks() const;
+
+    /** Find the factors of those that this rank group looks at. The state is
+     * the same afterwards. */
+    void find_remaining_factors();
+
+  private:
+    std::vector<unsigned int> list_blocks_of_rank_group() const;
+    bool is_class_wanted(const unsigned int block) const;
+
+    /** Factor of a block that was removed in the stage. */
+    SafetyFactor factor_of_failed_block(StrengthReductionSearch<dim> &search,
+                                        const unsigned int block);
+    SafetyFactor factor_of_standing_block(StrengthReductionSearch<dim> &search,
+                                          const unsigned int block);
+
+    /** Whether a block that failed in the present stage holds in it with the
+     * highest strength that is tried. */
+    bool holds_when_strong(const unsigned int block);
+
+    Model<dim> &model;
+    FiniteCheck<dim> &finite_check;
+    Checkpointing<dim> &checkpointing;
+    RunRecord<dim> &record;
+  };
+
+  /** The line about a factor on the screen. */
+  template <int dim>
+  void print_factor(std::ostream &out,
+                    const SafetyFactor &factor,
+                    const Blocks<dim> &blocks,
+                    const Scene<dim> &scene);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_run_stage_recorder_h
+#define keyblock_run_stage_recorder_h
+
+#include <keyblock/run/checkpointing.h>
+#include <keyblock/run/stage_observer.h>
+
+namespace Keyblock
+{
+  /** Writes down what happens in a stage: histories, VTU, progress on the
+   * screen, checkpoints, time spent. */
+  template <int dim>
+  class StageRecorder : public StageObserver<dim>
+  {
+  public:
+    StageRecorder(const Model<dim> &model,
+                  Monitors<dim> &monitors,
+                  Output<dim> &output,
+                  Checkpointing<dim> &checkpointing,
+                  RunRecord<dim> &record);
+
+    void started() override;
+    void sampled(const StageProgress<dim> &progress) override;
+    void stepped(StageProgress<dim> &progress, const Stage &stage) override;
+    void save_point(StageProgress<dim> &progress) override;
+    void ended(StageProgress<dim> &progress, const Stage &stage) override;
+
+  private:
+    bool writes_vtu() const;
+    void write_vtu(StageProgress<dim> &progress);
+    void book_time();
+    void print_progress(const StageProgress<dim> &progress);
+
+    const Model<dim> &model;
+    Monitors<dim> &monitors;
+    Output<dim> &output;
+    Checkpointing<dim> &checkpointing;
+    RunRecord<dim> &record;
+    double loop_start   = 0.; ///< wall time [s]
+    double last_printed = 0.; ///< wall time of the last line of progress [s]
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_run_stage_runner_h
+#define keyblock_run_stage_runner_h
+
+#include <keyblock/run/finite_check.h>
+#include <keyblock/run/model.h>
+#include <keyblock/run/stage_observer.h>
+
+namespace Keyblock
+{
+  /**
+   * Runs one stage: excavates, then steps until the stage's end, or solves for
+   * equilibrium. Whoever wants to see more than the model's state afterwards
+   * observes.
+   */
+  template <int dim>
+  class StageRunner
+  {
+  public:
+    StageRunner(Model<dim> &model,
+                FiniteCheck<dim> &finite_check,
+                StageObserver<dim> &observer);
+
+    /** Take cells away, change loads and supports, as the stage asks for. */
+    void begin(const StageProgress<dim> &progress);
+
+    /** From begin(), or from where a checkpoint was written, to the end. */
+    void complete(StageProgress<dim> &progress);
+
+  private:
+    void step_through(const Stage &stage, StageProgress<dim> &progress);
+
+    /** Whether any was there to be removed. */
+    bool remove_failed_blocks(const Stage &stage, StageProgress<dim> &progress);
+
+    /** Blocks that have slipped too far, or at a steady speed. */
+    std::vector<unsigned int> list_failed_blocks(StageProgress<dim> &progress);
+    void pace_ramp(const Stage &stage);
+    double ramp_duration_of(const Stage &stage) const;
+
+    Model<dim> &model;
+    FiniteCheck<dim> &finite_check;
+    StageObserver<dim> &observer;
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/mpi.h>
+#include <keyblock/run/model.h>
+#include <keyblock/scene/step_count.h>
+
+#include <tuple>
+
+namespace Keyblock
+{
+  template <int dim>
+  Model<dim>::Model(const std::string &scene_file,
+                    const std::vector<std::string> &overrides)
+  {
+    scene.read(scene_file, overrides);
+  }
+
+
+
+  template <int dim>
+  void
+  Model<dim>::make_geometry()
+  {
+    Mesh<dim> mesh;
+    std::tie(mesh, blocks) = make_mesh_for_blocks(scene);
+    quality                = measure_quality(mesh);
+    mesh_report            = mesh.report;
+    split                  = split_mesh(mesh, blocks, scene);
+  }
+
+
+  template <int dim>
+  void
+  Model<dim>::set_up()
+  {
+    numbering  = std::make_unique<Numbering<dim>>(scene, split);
+    conditions = std::make_unique<Conditions<dim>>(
+      scene, split, *numbering, cells, fields);
+    if (scene.contact.method != "none")
+      contact = std::make_unique<Contact<dim>>(
+        scene, split, blocks, *numbering, cells, fields);
+    step = std::make_unique<ExplicitStep<dim>>(scene,
+                                               split,
+                                               blocks,
+                                               *numbering,
+                                               *conditions,
+                                               cells,
+                                               fields,
+                                               contact.get());
+    if (!scene.initial_state.measured_points.empty())
+      geostress =
+        invert_measured_stress(scene, split, *numbering, cells, fields);
+    count_cells();
+    check_durations();
+  }
+
+
+  template <int dim>
+  void
+  Model<dim>::count_cells()
+  {
+    n_cells_global = sum_over_ranks<unsigned long long>(cells.nodes.size());
+  }
+
+
+  template <int dim>
+  void
+  Model<dim>::check_durations() const
+  {
+    for (const auto &stage : scene.stages)
+      if (stage->duration > 0. && n_cells_global > 0)
+        count_steps(*stage, step->longest_step(*stage));
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  Model<dim>::values_by_vertex(const std::vector<double> &field) const
+  {
+    std::vector<double> values(dim * split.mesh.vertices.size(), 0.);
+    for (unsigned int node = 0; node < numbering->n_owned(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        values[dim * numbering->vertex_of_node[node] + d] =
+          field[dim * node + d];
+    sum_lists(values);
+    return values;
+  }
+
+  template class Model<2>;
+  template class Model<3>;
+} // namespace Keyblock

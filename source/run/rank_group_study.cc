@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/mpi.h>
+#include <keyblock/base/rank_groups.h>
+#include <keyblock/run/rank_group_study.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace Keyblock
+{
+  template <int dim>
+  RankGroupStudy<dim>::Copy::Copy(const Model<dim> &original,
+                                  const std::string &scene_file,
+                                  const std::vector<std::string> &overrides)
+    : model(scene_file, overrides)
+  {
+    model.scene.output.write_vtu           = false;
+    model.scene.output.checkpoint_interval = 0.;
+    model.blocks                           = original.blocks;
+    model.split                            = original.split;
+    model.set_up();
+    run = std::make_unique<Run<dim>>(model, "", "");
+  }
+
+
+
+  template <int dim>
+  RankGroupStudy<dim>::RankGroupStudy(Model<dim> &model,
+                                      Run<dim> &run,
+                                      const std::string &scene_file,
+                                      const std::vector<std::string> &overrides)
+    : model(model)
+    , run(run)
+    , scene_file(scene_file)
+    , overrides(overrides)
+  {}
+
+
+
+  template <int dim>
+  typename RankGroupStudy<dim>::Result
+  RankGroupStudy<dim>::find_factors_of_this_group(std::vector<char> &image)
+  {
+    Result result;
+    const RankGroupScope scope;
+    try
+      {
+        if (copy == nullptr)
+          copy = std::make_unique<Copy>(model, scene_file, overrides);
+        {
+          StateFile state(image);
+          copy->run->checkpointing.restore(state);
+        }
+        result.n_capped = copy->model.contact->tally.n_capped;
+        copy->run->safety.find_remaining_factors();
+      }
+    catch (const StopRequest &request)
+      {
+        result.signal = request.signal;
+      }
+    catch (const ComputationError &error)
+      {
+        result.failure = error.message;
+      }
+    if (copy == nullptr)
+      return result;
+    result.n_capped = copy->model.contact->tally.n_capped - result.n_capped;
+    const std::vector<SafetyFactor> &found = copy->run->record.safety_factors;
+    const std::size_t n_known              = run.record.safety_factors.size();
+    if (found.size() > n_known)
+      result.factors.assign(found.begin() + n_known, found.end());
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  RankGroupStudy<dim>::find_factors()
+  {
+    if (run.safety.list_wanted_blocks().empty())
+      return;
+    std::vector<char> image;
+    {
+      StateFile file;
+      run.checkpointing.put_state(file);
+      image = file.image();
+    }
+    const Result mine = find_factors_of_this_group(image);
+    model.contact->tally.n_capped += mine.n_capped;
+
+    // what one group found is not lost where another was stopped
+    wait_for_all_rank_groups();
+    for (const SafetyFactor &factor : gather_from_rank_groups(mine.factors))
+      {
+        run.record.safety_factors.push_back(factor);
+        const bool is_mine = std::any_of(mine.factors.begin(),
+                                         mine.factors.end(),
+                                         [&](const SafetyFactor &other) {
+                                           return other.block == factor.block;
+                                         });
+        if (!is_mine && is_root()) // those were printed as they were found
+          print_factor(std::cout, factor, model.blocks, model.scene);
+      }
+    const std::string failure = any_text(mine.failure);
+    AssertThrow(failure.empty(), ComputationError(failure));
+    const int signal = max_over_ranks(mine.signal);
+    if (signal > 0)
+      throw StopRequest{signal};
+    run.checkpointing.save_if_due();
+  }
+
+  template class RankGroupStudy<2>;
+  template class RankGroupStudy<3>;
+} // namespace Keyblock

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/mpi.h>
+#include <keyblock/base/rank_groups.h>
+#include <keyblock/blocks/block_resolution.h>
+#include <keyblock/run/safety_study.h>
+#include <keyblock/run/stage_runner.h>
+#include <keyblock/safety/block_statics.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Looks for signals only: a stage that is run on trial leaves no trace. */
+    template <int dim>
+    class SignalWatch : public StageObserver<dim>
+    {
+    public:
+      void
+      save_point(StageProgress<dim> &) override
+      {
+        const int signal = max_over_ranks(signal_received());
+        if (signal > 0)
+          throw StopRequest{signal};
+      }
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  SafetyStudy<dim>::SafetyStudy(Model<dim> &model,
+                                FiniteCheck<dim> &finite_check,
+                                Checkpointing<dim> &checkpointing,
+                                RunRecord<dim> &record)
+    : model(model)
+    , finite_check(finite_check)
+    , checkpointing(checkpointing)
+    , record(record)
+  {}
+
+
+
+  template <int dim>
+  bool
+  SafetyStudy<dim>::is_class_wanted(const unsigned int block) const
+  {
+    const Block<dim> &b = model.blocks.blocks[block];
+    if (!model.scene.safety.wants_block(b.id) || b.is_infinite || b.is_rigid)
+      return false;
+    const BlockClass now =
+      b.class_of_stage[std::min<std::size_t>(record.present.number(),
+                                             b.class_of_stage.size() - 1)];
+    return now == BlockClass::exposed || now == BlockClass::hidden;
+  }
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  SafetyStudy<dim>::list_wanted_blocks() const
+  {
+    std::vector<unsigned int> wanted;
+    for (unsigned int b = 0; b < model.blocks.blocks.size(); ++b)
+      {
+        const bool is_known =
+          std::any_of(record.safety_factors.begin(),
+                      record.safety_factors.end(),
+                      [&](const SafetyFactor &factor) {
+                        return factor.block == b &&
+                               factor.stage ==
+                                 model.scene.stages[record.present.index]->name;
+                      });
+        if (is_class_wanted(b) && !is_known &&
+            (record.present.removal_stage[b] == 0 ||
+             record.present.removal_stage[b] >= record.present.number()))
+          wanted.push_back(b);
+      }
+    return wanted;
+  }
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  SafetyStudy<dim>::list_blocks_of_rank_group() const
+  {
+    // a block costs what it did last time; one never tried, as much as any
+    const std::vector<unsigned int> wanted = list_wanted_blocks();
+    std::map<unsigned int, double> steps;
+    double most = 1.;
+    for (const SafetyFactor &earlier : record.safety_factors)
+      {
+        double &sum = steps[earlier.block];
+        sum         = 0.;
+        for (const Trial &trial : earlier.trials)
+          sum += trial.n_steps;
+        most = std::max(most, sum);
+      }
+    std::vector<double> costs;
+    for (const unsigned int b : wanted)
+      // the stage is run again for one that failed in it
+      costs.push_back(
+        (steps.count(b) > 0 ? steps[b] : most) +
+        (record.present.removal_stage[b] == record.present.number()
+           ? record.present.n_done
+           : 0));
+
+    const std::vector<unsigned int> group = share_out(costs, n_rank_groups());
+    std::vector<unsigned int> mine;
+    for (unsigned int i = 0; i < wanted.size(); ++i)
+      if (group[i] == this_rank_group())
+        mine.push_back(wanted[i]);
+    return mine;
+  }
+
+
+  template <int dim>
+  SafetyFactor
+  SafetyStudy<dim>::factor_of_failed_block(StrengthReductionSearch<dim> &search,
+                                           const unsigned int block)
+  {
+    const double lowest = model.scene.safety.lowest;
+    SafetyFactor result;
+    if (holds_when_strong(block))
+      {
+        typename StrengthReductionSearch<dim>::Known known;
+        known.stable   = lowest;
+        known.unstable = 1.;
+        known.start    = lowest;
+        search.add_cheap_answers(block, result);
+        if (std::isfinite(result.limit_factor))
+          known.limit = result.limit_factor;
+        result = search.find(block, record.present.number(), known);
+      }
+    else
+      {
+        result.block        = block;
+        result.outcome      = SafetyFactor::Outcome::falls_freely;
+        result.upper        = lowest;
+        result.failure_mode = "falling";
+        recall(record.before, model.parts());
+        model.step->excavate(record.present.number());
+        search.add_cheap_answers(block, result);
+      }
+    model.contact->reduce_strength(StrengthReduction());
+    return result;
+  }
+
+
+  template <int dim>
+  SafetyFactor
+  SafetyStudy<dim>::factor_of_standing_block(
+    StrengthReductionSearch<dim> &search,
+    const unsigned int block)
+  {
+    const Stage &stage = *model.scene.stages[record.present.index];
+    typename StrengthReductionSearch<dim>::Known known;
+    for (const SafetyFactor &earlier : record.safety_factors)
+      if (earlier.block == block)
+        known.hint = earlier.outcome == SafetyFactor::Outcome::bracketed
+                       ? earlier.value()
+                       : 0.;
+    if (record.present.is_converged && stage.friction_angle_override < 0. &&
+        stage.unbalanced_ratio > 0.)
+      known.stable = 1.;
+    SafetyFactor cheap;
+    search.add_cheap_answers(block, cheap);
+    if (known.stable > 0.)
+      known.onset = cheap.stress_ratio;
+    if (std::isfinite(cheap.limit_factor))
+      known.limit = cheap.limit_factor;
+    if (known.hint == 0.)
+      known.hint =
+        known.limit > 0. && known.onset > 1. ? known.onset : known.limit;
+    // only rest at the joints' own strength is a start at factor 1
+    if (known.stable == 0.)
+      known.start = std::max(model.scene.safety.lowest, 0.5 * known.hint);
+    return search.find(block, record.present.number(), known);
+  }
+
+
+  template <int dim>
+  bool
+  SafetyStudy<dim>::holds_when_strong(const unsigned int block)
+  {
+    recall(record.before, model.parts());
+    StrengthReduction strong;
+    strong.blocks = {block};
+    strong.share  = 1. / model.scene.safety.lowest;
+    model.contact->reduce_strength(strong);
+    SignalWatch<dim> observer;
+    StageRunner<dim> runner(model, finite_check, observer);
+    StageProgress<dim> trial;
+    trial.index = record.present.index;
+    trial.removal_stage.assign(model.blocks.blocks.size(), 0);
+    runner.begin(trial);
+    runner.complete(trial);
+    return trial.removal_stage[block] == 0;
+  }
+
+
+  template <int dim>
+  void
+  SafetyStudy<dim>::find_remaining_factors()
+  {
+    const Snapshot<dim> after = take_snapshot(model.parts());
+    StrengthReductionSearch<dim> search(
+      model.scene, model.split, model.blocks, *model.numbering, model.parts());
+    try
+      {
+        for (const unsigned int b : list_blocks_of_rank_group())
+          {
+            SafetyFactor result =
+              record.present.removal_stage[b] == record.present.number()
+                ? factor_of_failed_block(search, b)
+                : factor_of_standing_block(search, b);
+            recall(after, model.parts());
+            result.stage = model.scene.stages[record.present.index]->name;
+            finite_check.check_factor(result);
+            record.safety_factors.push_back(result);
+            if (is_root())
+              print_factor(std::cout, result, model.blocks, model.scene);
+            model.count_cells();
+            checkpointing.save_if_due();
+          }
+      }
+    catch (const StopRequest &)
+      {
+        // what is saved is the end of the stage, and the factors found; all
+        // ranks are stopped together, as recall() asks for
+        recall(after, model.parts());
+        throw;
+      }
+  }
+
+
+  template <int dim>
+  void
+  print_factor(std::ostream &out,
+               const SafetyFactor &factor,
+               const Blocks<dim> &blocks,
+               const Scene<dim> &scene)
+  {
+    double seconds = 0.;
+    for (const Trial &trial : factor.trials)
+      seconds += trial.seconds;
+    out << "Factor  block " << blocks.blocks[factor.block].id << " after "
+        << factor.stage << ": " << std::setprecision(5);
+    if (factor.outcome == SafetyFactor::Outcome::bracketed)
+      out << factor.value() << " [" << factor.lower << ", " << factor.upper
+          << "]";
+    else
+      out << describe_outcome(factor);
+    if (factor.undecided_upper > 0.)
+      out << ", undecided from " << factor.undecided_lower << " to "
+          << factor.undecided_upper;
+    if (!factor.failure_mode.empty())
+      out << ", " << factor.failure_mode;
+    if (!factor.group.empty())
+      {
+        out << "; blocks ";
+        for (unsigned int i = 0; i < factor.group.size(); ++i)
+          out << (i > 0 ? ", " : "") << factor.group[i];
+        out << " move together: "
+            << 0.5 * (factor.group_lower + factor.group_upper) << " ["
+            << factor.group_lower << ", " << factor.group_upper << "]";
+      }
+    out << "; limit equilibrium "
+        << (has_initial_stress(scene) ? "without in-situ clamping " : "")
+        << factor.limit_factor << " (" << factor.limit_mode
+        << (factor.limit_remark.empty() ? "" : "; ") << factor.limit_remark
+        << ")";
+    if (factor.stress_ratio > 0.)
+      out << ", stress ratio " << factor.stress_ratio;
+    const Block<dim> &block = blocks.blocks[factor.block];
+    unsigned int n_broken   = 0;
+    for (const Trial &trial : factor.trials)
+      if (trial.is_stable && !trial.is_of_group && trial.factor == factor.lower)
+        n_broken = trial.n_broken;
+    if (n_broken > 0)
+      out << "; " << n_broken << " bonds broke in the last that held";
+    if (is_too_coarse(block, scene))
+      out << "; only " << std::setprecision(2) << block.cells_across()
+          << " cells across, not " << scene.meshing.cells_across;
+    out << "; " << factor.trials.size() << " trials, " << std::setprecision(3)
+        << seconds << " s" << std::endl;
+  }
+
+  template class SafetyStudy<2>;
+  template class SafetyStudy<3>;
+  template void print_factor(std::ostream &,
+                             const SafetyFactor &,
+                             const Blocks<2> &,
+                             const Scene<2> &);
+  template void print_factor(std::ostream &,
+                             const SafetyFactor &,
+                             const Blocks<3> &,
+                             const Scene<3> &);
+} // namespace Keyblock

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/mpi.h>
+#include <keyblock/run/set_up_report.h>
+#include <keyblock/safety/block_theory.h>
+#include <keyblock/step/initial_tension.h>
+#include <keyblock/step/step_spread.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <set>
+#include <sstream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Least over median step of the cells that is not warned of [-]. */
+    constexpr double least_step_ratio = 0.05;
+
+    /** A warning if there are joints but no pair of them, or empty. */
+    template <int dim>
+    std::string
+    warning_of_welded_joints(const Scene<dim> &scene,
+                             const SplitMesh<dim> &split)
+    {
+      if (scene.joints.empty() || scene.contact.method == "none" ||
+          !split.interface.pairs.empty())
+        return "";
+      std::set<unsigned int> joints;
+      for (const auto &of_cell : split.mesh.joint)
+        for (const unsigned int j : of_cell)
+          if (j != none)
+            joints.insert(j);
+      std::string names;
+      unsigned int n = 0;
+      for (const unsigned int j : joints)
+        if (n++ < 8)
+          names += (names.empty() ? "" : ", ") + scene.joints[j]->name;
+      if (n == 0)
+        return "";
+      return "All joints stay welded, with 0 pairs, because the blocks beside "
+             "them "
+             "are infinite or not closed: " +
+             names + (n > 8 ? ", ..." : "") +
+             "; let joints and outer boundaries enclose blocks, name fewer of "
+             "them in "
+             "'Domain/Truncated boundaries', or set 'Contact/Weld infinite "
+             "blocks' to "
+             "false.";
+    }
+
+
+
+    /** Names of the joints that touch the vertices of a cell, or empty. */
+    template <int dim>
+    std::string
+    names_of_joints_at(const Mesh<dim> &mesh,
+                       const unsigned int cell,
+                       const Scene<dim> &scene)
+    {
+      std::set<unsigned int> joints;
+      const auto touches = [&](const unsigned int vertex) {
+        const auto &corners = mesh.cells[cell];
+        return std::any_of(corners.begin(), corners.end(), [&](const auto v) {
+          return mesh.vertices[v] == mesh.vertices[vertex];
+        });
+      };
+      if (cell != none)
+        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+            if (mesh.joint[c][f] != none && joints.count(mesh.joint[c][f]) == 0)
+              {
+                const auto vertices = mesh.face_vertices(c, f);
+                if (std::any_of(vertices.begin(), vertices.end(), touches))
+                  joints.insert(mesh.joint[c][f]);
+              }
+      std::string names;
+      for (const unsigned int j : joints)
+        names += (names.empty() ? "" : ", ") + scene.joints[j]->name;
+      return names;
+    }
+
+
+
+    template <int dim>
+    void
+    print_stable_step(std::ostream &out,
+                      const Model<dim> &model,
+                      const RunReport &report)
+    {
+      const TimeStepping &stepping = model.scene.time_stepping;
+      out << "        stable time step " << model.stable_step()
+          << " s, set by the cell at (" << report.stable_step_place << ")"
+          << (report.stable_step_joints.empty()
+                ? ""
+                : " beside " + report.stable_step_joints)
+          << "\n        least over median step of "
+          << "the cells " << report.step_ratio << '\n';
+      if (report.step_ratio < least_step_ratio)
+        out << "Warning: The least stable step of a cell is "
+            << report.step_ratio
+            << " times the median one, and sets the time model.step; improve "
+               "the mesh "
+               "there"
+            << (stepping.least_step == 0.
+                  ? ", or set 'Time stepping/Least step'"
+                  : "")
+            << ".\n";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_set_up(const Model<dim> &model, const Monitors<dim> &monitors)
+  {
+    std::vector<std::string> warnings = monitors.warnings;
+    for (const std::string &warning :
+         {warning_of_tension(model.scene, model.split, model.cells),
+          warning_of_welded_joints(model.scene, model.split)})
+      if (!warning.empty())
+        warnings.push_back(warning);
+    return warnings;
+  }
+
+
+
+  template <int dim>
+  void
+  report_stable_step(const Model<dim> &model, RunReport &report)
+  {
+    std::ostringstream place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place << (d ? ", " : "") << model.conditions->stable_step.place[d];
+    report.stable_step_place = place.str();
+    const StepSpread<dim> spread =
+      measure_step_spread(model.conditions->active_cells.frequency,
+                          model.cells.mesh_cell,
+                          model.split.mesh);
+    report.step_ratio = spread.ratio();
+    report.stable_step_joints =
+      names_of_joints_at(model.split.mesh, spread.cell, model.scene);
+  }
+
+
+
+  template <int dim>
+  void
+  print_set_up(std::ostream &out,
+               const Model<dim> &model,
+               const RunReport &report,
+               const std::vector<std::string> &warnings,
+               const std::string &mass_scaling)
+  {
+    out << "Mesh    " << model.split.mesh.n_cells() << " model.cells ("
+        << model.n_cells_global << " deformable), "
+        << model.numbering->n_global() << " nodes, "
+        << model.split.interface.pairs.size()
+        << " pairs; least scaled Jacobian " << std::setprecision(3)
+        << model.quality.minimum_scaled_jacobian << "\n";
+    if (model.n_cells_global > 0)
+      print_stable_step(out, model, report);
+    print_mesh_report(out, model.mesh_report, model.scene);
+    for (const std::string &warning : warnings)
+      out << "Warning: " << warning << '\n';
+    out << mass_scaling;
+    print_block_table(out, model.blocks, model.scene);
+    if (model.scene.block_theory.report)
+      print_block_theory(out,
+                         find_block_theory(model.scene,
+                                           model.scene.block_theory));
+    out << std::flush;
+  }
+
+  template std::vector<std::string> warnings_of_set_up(const Model<2> &,
+                                                       const Monitors<2> &);
+  template std::vector<std::string> warnings_of_set_up(const Model<3> &,
+                                                       const Monitors<3> &);
+  template void report_stable_step(const Model<2> &, RunReport &);
+  template void report_stable_step(const Model<3> &, RunReport &);
+  template void print_set_up(std::ostream &,
+                             const Model<2> &,
+                             const RunReport &,
+                             const std::vector<std::string> &,
+                             const std::string &);
+  template void print_set_up(std::ostream &,
+                             const Model<3> &,
+                             const RunReport &,
+                             const std::vector<std::string> &,
+                             const std::string &);
+} // namespace Keyblock

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/mpi.h>
+#include <keyblock/run/stage_reporter.h>
+#include <keyblock/run/static_stage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Slip over the size of a block since about half of the stage with which
+     * it is on its way, however slow [-]. */
+    constexpr double least_creep = 1e-5;
+
+    /** Overlaps from this share of the largest displacement on are told [-]. */
+    constexpr double notable_overlap = 0.02;
+
+    std::string
+    short_number(const double value)
+    {
+      std::ostringstream text;
+      text << std::setprecision(2) << value;
+      return text.str();
+    }
+
+
+
+    template <int dim>
+    std::string
+    name_what_moves(const Model<dim> &model, const StageProgress<dim> &progress)
+    {
+      // mean displacement and velocity of each block in this stage
+      const unsigned int n_blocks = model.blocks.blocks.size();
+      std::vector<double> sums(n_blocks * (1 + 2 * dim), 0.);
+      for (unsigned int c = 0; c < model.cells.nodes.size(); ++c)
+        {
+          const unsigned int b =
+            model.split.block_of_cell[model.cells.mesh_cell[c]];
+          if (b == none)
+            continue;
+          double *const sum = sums.data() + b * (1 + 2 * dim);
+          for (const unsigned int node : model.cells.nodes[c])
+            {
+              sum[0] += 1.;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  const unsigned int i = dim * node + d;
+                  sum[1 + d] += model.fields.displacement[i] -
+                                progress.start_displacement[i];
+                  sum[1 + dim + d] += model.fields.velocity[i];
+                }
+            }
+        }
+      sum_lists(sums);
+      struct Mover
+      {
+        double way;
+        unsigned int id;
+        bool is_moving;
+        double speed; ///< of a steady slip [m/s]; 0: not measured
+      };
+      std::vector<Mover> movers;
+      for (unsigned int b = 0; b < n_blocks; ++b)
+        {
+          const double *const sum = sums.data() + b * (1 + 2 * dim);
+          if (sum[0] == 0. || model.blocks.blocks[b].is_infinite)
+            continue;
+          double way = 0., along = 0.;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              way += sum[1 + d] * sum[1 + d];
+              along += sum[1 + d] * sum[1 + dim + d];
+            }
+          way = std::sqrt(way) / sum[0];
+          // a thousandth of its size and still going, or far, and come to rest
+          const double size = model.blocks.blocks[b].size;
+          const bool is_moving =
+            way > 1e-3 * size && along > 0. && !progress.is_converged;
+          // or slowly, but as fast as ever
+          const auto motion =
+            model.contact == nullptr
+              ? SlipRecord::Motion{0., 0}
+              : progress.slips.motion_since(
+                  b,
+                  progress.n_done,
+                  norm<dim>(model.contact->report().mean_slip(b)));
+          const bool creeps =
+            !progress.is_converged && motion.way > least_creep * size;
+          const double speed =
+            creeps ? motion.way / (motion.n_steps * model.step->dt) : 0.;
+          if (is_moving || creeps || way > 0.05 * size)
+            movers.push_back(
+              {way, model.blocks.blocks[b].id, is_moving || creeps, speed});
+        }
+      // those that went farthest
+      std::stable_sort(movers.begin(),
+                       movers.end(),
+                       [](const Mover &a, const Mover &b) {
+                         return a.way > b.way;
+                       });
+      constexpr unsigned int n_named = 8;
+      std::ostringstream text;
+      for (unsigned int i = 0; i < movers.size() && i < n_named; ++i)
+        text << (i == 0 ? "" : "; ") << "block " << movers[i].id
+             << (movers[i].is_moving ? " is moving off (" : " moved off (")
+             << std::setprecision(3) << movers[i].way << " m"
+             << (movers[i].speed > 0.
+                   ? ", " + short_number(movers[i].speed) + " m/s)"
+                   : ")");
+      if (movers.size() > n_named)
+        text << "; and " << movers.size() - n_named << " more";
+      return text.str();
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  note_overlap(const Model<dim> &model, StageProgress<dim> &progress)
+  {
+    if (!model.contact)
+      return;
+    const Overlap<dim> overlap = model.contact->report().largest_overlap();
+    if (overlap.depth > progress.overlap.depth)
+      progress.overlap = overlap;
+  }
+
+
+
+  template <int dim>
+  StageReport
+  report_stage(const Model<dim> &model, StageProgress<dim> &progress)
+  {
+    const Stage &stage = *model.scene.stages[progress.index];
+    StageReport result;
+    result.name                = stage.name;
+    result.steps               = progress.n_done;
+    result.time_step           = model.step->dt;
+    result.unbalanced_ratio    = model.step->unbalanced_ratio;
+    result.largest_nodal_ratio = model.step->largest_nodal_ratio;
+    result.energies            = model.step->energies;
+    result.is_converged        = progress.is_converged;
+    result.cells               = model.n_cells_global;
+    result.plastic_cells =
+      sum_over_ranks<unsigned int>(model.cells.strength.size());
+    result.yielding_points = sum_over_ranks(model.cells.n_yielding);
+    if (model.contact)
+      {
+        const JointSums<dim> points = model.contact->report().count_points();
+        result.points               = {points.n_open,
+                                       points.n_sliding,
+                                       points.n_sticking,
+                                       points.n_intact};
+        result.through_rock = model.contact->report().count_through_rock();
+        note_overlap(model, progress);
+        result.largest_overlap = progress.overlap.depth;
+        std::copy_n(progress.overlap.place.begin(),
+                    dim,
+                    result.overlap_place.begin());
+      }
+    result.remark = name_what_moves(model, progress);
+    for (unsigned int b = 0; b < progress.removal_stage.size(); ++b)
+      if (progress.removal_stage[b] == model.scene.stage_number(stage.name))
+        result.remark += (result.remark.empty() ? "" : "; ") +
+                         std::string("block ") +
+                         std::to_string(model.blocks.blocks[b].id) +
+                         " failed and was taken away";
+    if (result.remark.empty() && !progress.is_converged)
+      result.remark = "no block is moving off; more steps may do";
+    double largest = 0.;
+    for (unsigned int node = 0; node < model.numbering->n_owned(); ++node)
+      {
+        double square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          square += std::pow(model.fields.displacement[dim * node + d], 2);
+        if (model.fields.mass[node] > 0.) // else its cells are gone
+          largest = std::max(largest, square);
+      }
+    result.max_displacement = std::sqrt(max_over_ranks(largest));
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  print_stage(std::ostream &out,
+              const Model<dim> &model,
+              const Stage &stage,
+              const StageReport &report)
+  {
+    out << "Stage   " << stage.name << ": " << report.steps << " steps, "
+        << std::setprecision(6) << model.step->time << " s, unbalanced ratio "
+        << report.unbalanced_ratio << ", largest displacement "
+        << report.max_displacement << " m, energy residual "
+        << report.energies.relative_residual() << '\n';
+    if (!report.is_converged)
+      out << "        not in balance ("
+          << (stage.is_static() ? static_tolerance : stage.unbalanced_ratio)
+          << " wanted) after " << report.steps << " steps: " << report.remark
+          << '\n';
+    else if (!report.remark.empty())
+      out << "        " << report.remark << '\n';
+    if (report.largest_overlap > notable_overlap * report.max_displacement)
+      {
+        out << "        a node was up to " << std::setprecision(3)
+            << report.largest_overlap << " m inside another block, at (";
+        for (unsigned int d = 0; d < dim; ++d)
+          out << (d ? ", " : "") << report.overlap_place[d];
+        out << ')' << '\n';
+      }
+    if (report.through_rock > 0)
+      out << "Warning: " << report.through_rock
+          << " contacts act through the rock of a block." << '\n';
+    out << std::flush;
+  }
+
+  template void note_overlap(const Model<2> &, StageProgress<2> &);
+  template void note_overlap(const Model<3> &, StageProgress<3> &);
+  template StageReport report_stage(const Model<2> &, StageProgress<2> &);
+  template StageReport report_stage(const Model<3> &, StageProgress<3> &);
+  template void print_stage(std::ostream &,
+                            const Model<2> &,
+                            const Stage &,
+                            const StageReport &);
+  template void print_stage(std::ostream &,
+                            const Model<3> &,
+                            const Stage &,
+                            const StageReport &);
+} // namespace Keyblock

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/stage_runner.h>
+#include <keyblock/run/static_stage.h>
+#include <keyblock/scene/step_count.h>
+#include <keyblock/step/equilibrium.h>
+
+#include <algorithm>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Steps from check to check for numbers that are not finite. */
+    constexpr unsigned int finite_check_interval = 50;
+
+    /** Steps between measurements while forces are brought into balance. */
+    constexpr unsigned int quasi_static_interval = 25;
+
+    /** Steps between adjustments of the pace of a ramp. */
+    constexpr unsigned int pace_interval = 10;
+
+    /** Steps from check to check for blocks that have failed. */
+    constexpr unsigned int removal_interval = 100;
+
+    /** Steps from check to check whether the run is to be saved or stopped. */
+    constexpr unsigned int save_interval = 10;
+
+    /** Slip over the size in the second half of the time so far, at a steady
+     * speed, by which a block has failed [-]. */
+    constexpr double steady_slip = 1e-3;
+  } // namespace
+
+
+
+  template <int dim>
+  StageRunner<dim>::StageRunner(Model<dim> &model,
+                                FiniteCheck<dim> &finite_check,
+                                StageObserver<dim> &observer)
+    : model(model)
+    , finite_check(finite_check)
+    , observer(observer)
+  {}
+
+
+
+  template <int dim>
+  void
+  StageRunner<dim>::begin(const StageProgress<dim> &progress)
+  {
+    const Stage &stage        = *model.scene.stages[progress.index];
+    const unsigned int number = progress.number();
+    std::vector<double> out_of_balance;
+    const bool changes = model.conditions->changes(number);
+    model.step->forget_excavated_cells();
+    if (changes)
+      {
+        out_of_balance = model.step->excavate(number);
+        model.count_cells();
+      }
+    model.step->begin_stage(stage, number);
+    if (model.contact &&
+        (changes || !(stage.is_quasi_static() || stage.is_static())))
+      model.contact->release_bent_points();
+    bool is_ramped = changes;
+    for (const auto &support : model.scene.supports)
+      is_ramped = is_ramped || (!support->displacement.empty() && number == 2);
+    if (!is_ramped || stage.is_static())
+      {
+        model.conditions->loads.start_ramp({}, 0.);
+        return;
+      }
+    model.conditions->loads.start_ramp(out_of_balance, ramp_duration_of(stage));
+  }
+
+
+  template <int dim>
+  void
+  StageRunner<dim>::complete(StageProgress<dim> &progress)
+  {
+    const Stage &stage = *model.scene.stages[progress.index];
+    observer.started();
+    if (stage.is_static())
+      {
+        solve_for_equilibrium(model);
+        progress.is_converged = model.step->unbalanced_ratio < static_tolerance;
+        model.step->settle_contact();
+      }
+    else
+      step_through(stage, progress);
+    observer.ended(progress, stage);
+  }
+
+
+  template <int dim>
+  void
+  StageRunner<dim>::step_through(const Stage &stage,
+                                 StageProgress<dim> &progress)
+  {
+    if (progress.n_done == 0)
+      progress.n_planned = plan_steps(stage, model.step->dt);
+    const std::uint64_t n_steps = progress.n_planned;
+    const unsigned int interval =
+      stage.is_quasi_static()
+        ? std::max(model.scene.output.history_interval, quasi_static_interval)
+        : model.scene.output.history_interval;
+    progress.is_converged = stage.unbalanced_ratio == 0. || stage.duration > 0.;
+    while (progress.n_done < n_steps)
+      {
+        const std::uint64_t i = ++progress.n_done;
+        const bool is_last    = i == n_steps;
+        const bool is_sample =
+          i % interval == 0 || is_last || i == 1 || progress.has_removed;
+        model.step->advance(is_sample);
+        if (is_sample)
+          {
+            finite_check.check_sample();
+            observer.sampled(progress);
+          }
+        // the ledger starts anew when a block is taken away
+        progress.has_removed = stage.is_quasi_static() &&
+                               i % removal_interval == 0 &&
+                               remove_failed_blocks(stage, progress);
+        if (stage.is_quasi_static() && i % pace_interval == 0 &&
+            model.conditions->loads.is_ramping())
+          pace_ramp(stage);
+        if (i % finite_check_interval == 0 || is_last)
+          finite_check.check_motion();
+        observer.stepped(progress, stage);
+        if (is_sample && i > 10 && stage.unbalanced_ratio > 0. &&
+            !model.conditions->loads.is_ramping() &&
+            model.step->unbalanced_ratio < stage.unbalanced_ratio)
+          {
+            progress.is_converged = true;
+            break;
+          }
+        if (i % save_interval == 0)
+          observer.save_point(progress);
+      }
+  }
+
+
+  template <int dim>
+  void
+  StageRunner<dim>::pace_ramp(const Stage &stage)
+  {
+    // plastic rock answers more slowly than its lowest elastic mode; a ramp
+    // that outruns it overshoots for good
+    model.step->sample_unbalanced_force();
+    model.conditions->loads.set_ramp_pace(
+      std::min(1., stage.ramp_unbalance / model.step->unbalanced_ratio));
+  }
+
+
+  template <int dim>
+  double
+  StageRunner<dim>::ramp_duration_of(const Stage &stage) const
+  {
+    if (stage.ramp_duration > 0. || !stage.is_quasi_static())
+      return stage.ramp_duration;
+    StaticSolver<dim> solver(model.split,
+                             *model.numbering,
+                             model.cells,
+                             model.fields,
+                             model.fields.supports,
+                             model.conditions->elements);
+    return 4. * solver.lowest_period();
+  }
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  StageRunner<dim>::list_failed_blocks(StageProgress<dim> &progress)
+  {
+    if (model.contact == nullptr || model.scene.safety.removal_slip == 0.)
+      return {};
+    std::vector<unsigned int> failed;
+    std::vector<double> slip(model.blocks.blocks.size(), 0.);
+    const auto can_fail = [&](const unsigned int b) {
+      return !model.blocks.blocks[b].is_infinite &&
+             !model.conditions->active_cells.is_removed_block(b);
+    };
+    for (unsigned int b = 0; b < model.blocks.blocks.size(); ++b)
+      if (can_fail(b))
+        slip[b] = norm<dim>(model.contact->report().mean_slip(b));
+    if (model.conditions->loads.is_ramping())
+      progress.slips.restart(progress.n_done);
+    const bool is_recorded = progress.slips.offer(progress.n_done, slip);
+    for (unsigned int b = 0; b < model.blocks.blocks.size(); ++b)
+      if (can_fail(b) &&
+          (slip[b] >
+             model.scene.safety.removal_slip * model.blocks.blocks[b].size ||
+           (is_recorded && progress.slips.is_steady(
+                             b, steady_slip * model.blocks.blocks[b].size))))
+        failed.push_back(b);
+    return failed;
+  }
+
+
+  template <int dim>
+  bool
+  StageRunner<dim>::remove_failed_blocks(const Stage &stage,
+                                         StageProgress<dim> &progress)
+  {
+    const std::vector<unsigned int> failed = list_failed_blocks(progress);
+    if (failed.empty())
+      return false;
+    progress.slips.restart(progress.n_done);
+    const unsigned int number = progress.number();
+    for (const unsigned int b : failed)
+      {
+        model.conditions->active_cells.remove_block(b);
+        model.contact->remove_block(b);
+        progress.removal_stage[b] = number;
+      }
+    const std::vector<double> out_of_balance = model.step->excavate(number);
+    model.step->begin_stage(stage, number);
+    // a block that has come off carries nothing that a ramp would take away
+    const bool is_free =
+      model.step->share_of_excavated(out_of_balance) < stage.unbalanced_ratio;
+    model.conditions->loads.start_ramp(out_of_balance,
+                                       is_free ? 0. : ramp_duration_of(stage));
+    model.count_cells();
+    return true;
+  }
+
+  template class StageRunner<2>;
+  template class StageRunner<3>;
+} // namespace Keyblock
