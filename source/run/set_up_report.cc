@@ -99,7 +99,7 @@ namespace Keyblock
       if (report.step_ratio < least_step_ratio)
         out << "Warning: The least stable step of a cell is "
             << report.step_ratio
-            << " times the median one, and sets the time model.step; improve "
+            << " times the median one, and sets the time step; improve "
                "the mesh "
                "there"
             << (stepping.least_step == 0.
@@ -153,7 +153,7 @@ namespace Keyblock
                const std::vector<std::string> &warnings,
                const std::string &mass_scaling)
   {
-    out << "Mesh    " << model.split.mesh.n_cells() << " model.cells ("
+    out << "Mesh    " << model.split.mesh.n_cells() << " cells ("
         << model.n_cells_global << " deformable), "
         << model.numbering->n_global() << " nodes, "
         << model.split.interface.pairs.size()
