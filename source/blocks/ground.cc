@@ -72,6 +72,9 @@ namespace Keyblock
     for (const auto &traction : scene.tractions)
       if (scene.stage_number(traction->stage) == number)
         return true;
+    for (const auto &set : scene.bolts)
+      if (scene.stage_number(set->stage) == number)
+        return true;
     for (const auto &material : scene.materials)
       if (!material->stage.empty() &&
           scene.stage_number(material->stage) == number)

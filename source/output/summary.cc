@@ -72,6 +72,28 @@ namespace Keyblock
     }
 
     Json
+    bolts_as_json(const std::vector<BoltFigures> &bolts)
+    {
+      Json list = Json::array();
+      for (const BoltFigures &bolt : bolts)
+        {
+          list.push_back({{"set", bolt.set},
+                          {"head", bolt.head},
+                          {"end", bolt.end},
+                          {"largest_axial_force", bolt.largest_axial_force},
+                          {"place_of_largest", bolt.place},
+                          {"plate_force", bolt.plate_force},
+                          {"largest_bond_slip", bolt.largest_slip},
+                          {"dowel_force", bolt.dowel_force},
+                          {"joints_crossed", bolt.n_crossings},
+                          {"is_broken", bolt.is_broken}});
+          if (!bolt.limit.empty())
+            list.back()["governed_by"] = bolt.limit;
+        }
+      return list;
+    }
+
+    Json
     energies_as_json(const Energies &energies)
     {
       Json json = Json::object();
@@ -414,18 +436,20 @@ namespace Keyblock
     if (geostress != nullptr)
       root["geostress"] = geostress_as_json(*geostress);
     root["program"] = program_as_json();
-    root["scene"]   = {{"name", scene.file},
-                       {"title", scene.title},
-                       {"digest", digest_of(scene)},
-                       {"seeds", seeds_as_json(scene)},
-                       {"dimension", dim},
-                       {"cells", split.mesh.n_cells()},
-                       {"nodes", numbering.n_global()},
-                       {"joints", scene.joints.size()},
-                       {"sign_codes", blocks.n_sign_codes},
-                       {"pairs", split.interface.pairs.size()},
-                       {"minimum_scaled_jacobian",
-                        quality.minimum_scaled_jacobian}};
+    if (!run.bolts.empty())
+      root["bolts"] = bolts_as_json(run.bolts);
+    root["scene"] = {{"name", scene.file},
+                     {"title", scene.title},
+                     {"digest", digest_of(scene)},
+                     {"seeds", seeds_as_json(scene)},
+                     {"dimension", dim},
+                     {"cells", split.mesh.n_cells()},
+                     {"nodes", numbering.n_global()},
+                     {"joints", scene.joints.size()},
+                     {"sign_codes", blocks.n_sign_codes},
+                     {"pairs", split.interface.pairs.size()},
+                     {"minimum_scaled_jacobian",
+                      quality.minimum_scaled_jacobian}};
     if (!mesh_report.way.empty())
       root["mesh"] = mesh_report_as_json(mesh_report, scene);
     root["run"]                      = run_as_json(run);

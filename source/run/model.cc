@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/mpi.h>
+#include <keyblock/blocks/bolt_layout.h>
 #include <keyblock/run/model.h>
 #include <keyblock/scene/step_count.h>
 
@@ -25,6 +26,7 @@ namespace Keyblock
     quality                = measure_quality(mesh);
     mesh_report            = mesh.report;
     split                  = split_mesh(mesh, blocks, scene);
+    split.bolts            = lay_out_bolts(scene, split);
   }
 
 

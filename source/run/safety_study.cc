@@ -147,6 +147,7 @@ namespace Keyblock
         search.add_cheap_answers(block, result);
       }
     model.contact->reduce_strength(StrengthReduction());
+    model.conditions->reduce_strength(StrengthReduction());
     return result;
   }
 
@@ -192,6 +193,7 @@ namespace Keyblock
     strong.blocks = {block};
     strong.share  = 1. / model.scene.safety.lowest;
     model.contact->reduce_strength(strong);
+    model.conditions->reduce_strength(strong);
     SignalWatch<dim> observer;
     StageRunner<dim> runner(model, finite_check, observer);
     StageProgress<dim> trial;

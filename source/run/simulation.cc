@@ -48,7 +48,8 @@ namespace Keyblock
                                                     parts->monitors,
                                                     parts->output,
                                                     parts->checkpointing,
-                                                    parts->record);
+                                                    parts->record,
+                                                    folder);
     stages =
       std::make_unique<StageRunner<dim>>(model, parts->finite_check, *recorder);
     rank_groups              = std::make_unique<RankGroupStudy<dim>>(model,
@@ -278,7 +279,8 @@ namespace Keyblock
     report.contact_time   = model.step->contact_seconds;
     report.force_time     = model.step->force_seconds;
     report.mass_scaling   = model.conditions->active_cells.mass_scaling;
-    report.skipped_steps  = sum_over_ranks(model.step->n_skipped);
+    report.bolts = list_figures(model.conditions->report_bolts(), model.scene);
+    report.skipped_steps = sum_over_ranks(model.step->n_skipped);
     report.capped_groups =
       sum_over_ranks(model.contact ? model.contact->tally.n_capped : 0);
     report.solved_groups =

@@ -16,12 +16,14 @@ namespace Keyblock
                                     Monitors<dim> &monitors,
                                     Output<dim> &output,
                                     Checkpointing<dim> &checkpointing,
-                                    RunRecord<dim> &record)
+                                    RunRecord<dim> &record,
+                                    const std::string &folder)
     : model(model)
     , monitors(monitors)
     , output(output)
     , checkpointing(checkpointing)
     , record(record)
+    , folder(folder)
   {}
 
 
@@ -75,7 +77,7 @@ namespace Keyblock
       {
         sampled(progress);
         if (writes_vtu())
-          output.write_vtu(model.step->time);
+          write_state();
         return;
       }
     if (writes_vtu() && stage.is_quasi_static())
@@ -99,10 +101,22 @@ namespace Keyblock
   StageRecorder<dim>::write_vtu(StageProgress<dim> &progress)
   {
     book_time();
-    output.write_vtu(model.step->time);
+    write_state();
     ++progress.n_vtu;
     note_overlap(model, progress);
     loop_start = MPI_Wtime();
+  }
+
+
+
+  template <int dim>
+  void
+  StageRecorder<dim>::write_state()
+  {
+    output.write_vtu(model.step->time);
+    on_root([&]() {
+      write_bolts(folder, output.records, model.conditions->report_bolts());
+    });
   }
 
 

@@ -38,6 +38,7 @@ namespace Keyblock
         , block(blocks.blocks[block])
         , around(statics.around)
         , limit(statics.limit)
+        , bolts(statics.bolts)
         , remarks(statics.remarks)
       {}
 
@@ -58,6 +59,32 @@ namespace Keyblock
                                       depends_on_time(traction->expression));
         if (is_varying)
           add() << "loads of t = " << time << " s";
+      }
+
+      void
+      add_support()
+      {
+        if (!bolts.pulls.empty())
+          add() << "with " << bolts.describe() << ", "
+                << scene.safety.bolt_convention;
+        if (scene.safety.wanted == 0.)
+          return;
+        const SupportDemand demand =
+          find_demand(ground, free, index, around, bolts, scene.safety.wanted);
+        if (demand.force == 0.)
+          return;
+        add() << "a factor of " << scene.safety.wanted;
+        if (!std::isfinite(demand.force))
+          {
+            last << " is in reach of no pressure on its free faces";
+            return;
+          }
+        last << " asks for " << 1e-3 * demand.force << " kN"
+             << (dim == 2 ? "/m" : "") << " against its free faces, "
+             << 1e-3 * demand.pressure << " kPa";
+        for (const auto &[name, number] : demand.numbers)
+          last << ", or " << number << " bolts"
+               << (dim == 2 ? " per metre" : "") << " of " << name;
       }
 
       void
@@ -246,6 +273,7 @@ namespace Keyblock
       const Block<dim> &block;
       const BlockSurroundings<dim> &around;
       const LimitEquilibrium<dim> &limit;
+      const BlockBolts<dim> &bolts;
       std::vector<std::string> &remarks;
       std::ostringstream last;
     };
@@ -264,13 +292,21 @@ namespace Keyblock
     BlockStatics<dim> statics;
     statics.around = look_around(ground, free, blocks.blocks[block], time);
     const BlockLoads<dim> &loads = statics.around.loads;
+    statics.bolts                = find_bolts_of_block(ground, block);
     statics.limit =
-      solve_with_laws<dim>(statics.around.faces, loads.without_water());
-    const double factor_of_sliding = statics.limit.factor;
+      solve_with_bolts<dim>(statics.around.faces,
+                            loads.without_water(),
+                            statics.bolts,
+                            ground.scene.safety.bolt_convention == "passive");
+    const double factor_of_sliding      = statics.limit.factor;
+    std::vector<PointForce<dim>> forces = loads.all();
+    for (const auto &pull : statics.bolts.pulls)
+      forces.push_back({pull.place, pull.force * pull.along});
     const Rotation rotation =
-      judge_rotation<dim>(statics.around.faces, loads.all(), statics.limit);
+      judge_rotation<dim>(statics.around.faces, forces, statics.limit);
     Remarks<dim> remarks(ground, free, blocks, block, statics);
     remarks.add_loads(time);
+    remarks.add_support();
     remarks.add_rotation(rotation, factor_of_sliding);
     remarks.add_faces();
     remarks.add_neighbors();

@@ -113,6 +113,7 @@ namespace Keyblock
         reduction.joints[joint] = true;
     reduction.share = 1. / factor;
     run.contact->reduce_strength(reduction);
+    run.conditions.reduce_strength(reduction);
     if (scene.safety.reduces_rock)
       run.conditions.active_cells.reduce_strength(1. / factor);
   }

@@ -615,6 +615,7 @@ namespace Keyblock
     for (const auto &stage : stages)
       check_stage(*stage);
     check_stages_of_excavations(*this);
+    check_bolts(*this);
     check_time_stepping(time_stepping);
     check_initial_state(*this);
     check_expressions(*this);

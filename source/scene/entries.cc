@@ -620,6 +620,20 @@ namespace Keyblock
       "to divide the number of ranks. Unless a signal stops the run, "
       "checkpoints wait until all factors of a stage are found.",
       Integer(1));
+    prm.add_parameter("Wanted",
+                      wanted,
+                      "Factor for which limit equilibrium gives the pressure, "
+                      "and the number of bolts of each set, that a block asks "
+                      "for besides the support it has; 0: none [-].",
+                      not_negative);
+    prm.add_parameter(
+      "Bolt convention",
+      bolt_convention,
+      "How the forces of bolts enter a block's factor. active: they are "
+      "undivided, and taken from what drives the block; passive: their part "
+      "along the plane of sliding is divided by the factor like the joints' "
+      "strength, as a part of what resists.",
+      Selection("active|passive"));
     prm.add_parameter("Method",
                       method,
                       "Search for the factor. bisection: halving of a bracket; "

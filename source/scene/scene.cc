@@ -25,6 +25,7 @@ namespace Keyblock
                                                     "Joint sets",
                                                     "Materials",
                                                     "Supports",
+                                                    "Bolts",
                                                     "Tractions",
                                                     "Stages",
                                                     "Monitors"};
@@ -349,6 +350,7 @@ namespace Keyblock
     declare_items(prm, "Joint sets", joint_sets);
     declare_items(prm, "Materials", materials);
     declare_items(prm, "Supports", supports);
+    declare_items(prm, "Bolts", bolts);
     declare_items(prm, "Tractions", tractions);
     declare_items(prm, "Stages", stages);
     declare_items(prm, "Monitors", monitors);
@@ -371,6 +373,7 @@ namespace Keyblock
     make_items(joint_sets, read_names(names, "Joint sets"));
     make_items(materials, read_names(names, "Materials"));
     make_items(supports, read_names(names, "Supports"));
+    make_items(bolts, read_names(names, "Bolts"));
     make_items(tractions, read_names(names, "Tractions"));
     make_items(stages, read_names(names, "Stages"));
     make_items(monitors, read_names(names, "Monitors"));
@@ -452,6 +455,7 @@ namespace Keyblock
     make_items(scene.joint_sets, {"NAME"});
     make_items(scene.materials, {"NAME"});
     make_items(scene.supports, {"NAME"});
+    make_items(scene.bolts, {"NAME"});
     make_items(scene.tractions, {"NAME"});
     make_items(scene.stages, {"NAME"});
     make_items(scene.monitors, {"NAME"});

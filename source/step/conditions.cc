@@ -44,6 +44,12 @@ namespace Keyblock
         far_field = springs.get();
         elements.push_back(std::move(springs));
       }
+    if (!split.bolts.empty())
+      {
+        auto of_scene = std::make_unique<Bolts<dim>>(scene, split, numbering);
+        bolts         = of_scene.get();
+        elements.push_back(std::move(of_scene));
+      }
   }
 
 
@@ -195,6 +201,16 @@ namespace Keyblock
     far_field->release(fields.internal_force, fields.load);
     loads.forget_load();
     set_up_supports();
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::reduce_strength(const StrengthReduction &reduction)
+  {
+    for (const auto &element : elements)
+      element->reduce_strength(reduction);
   }
 
 

@@ -95,6 +95,26 @@ keyblock_scene(verification/factor_incline REFERENCES factor_incline_rough RANKS
   "Joints/base/Law=barton-bandis" "Joints/base/JRC=10" "Joints/base/JCS=50e6"
   "Joints/base/Residual friction angle=30" "Safety factor/Bracket=0.002"
   "Initial state/Gravity=9.81*sin(63.305*pi/180)@ -9.81*cos(63.305*pi/180)")
+# bolts at three angles from the plane's normal, in both conventions
+set(end_0 "0.05, -0.08")
+set(end_30 "-0.0539230485, -0.08")
+set(end_60 "-0.2617691454, -0.08")
+set(free_0 0.12)
+set(free_30 0.14)
+set(free_60 0.22)
+keyblock_scene(verification/bolted_incline RANKS 1 2)
+foreach(angle 0 60)
+  keyblock_scene(verification/bolted_incline REFERENCES bolted_incline_${angle}
+    RANKS 1 SET "Bolts/anchor/Ends=${end_${angle}}"
+    "Bolts/anchor/Free length=${free_${angle}}")
+endforeach()
+foreach(angle 0 30 60)
+  keyblock_scene(verification/bolted_incline
+    REFERENCES bolted_incline_passive_${angle} RANKS 1
+    SET "Bolts/anchor/Ends=${end_${angle}}"
+    "Bolts/anchor/Free length=${free_${angle}}"
+    "Safety factor/Bolt convention=passive")
+endforeach()
 keyblock_scene(verification/friction_rod_400 RANKS 2)
 foreach(angle 10 20 30 35)
   keyblock_scene(verification/footing_${angle} RANKS 1)

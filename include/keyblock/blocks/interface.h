@@ -3,6 +3,7 @@
 #define keyblock_blocks_interface_h
 
 #include <keyblock/blocks/blocks.h>
+#include <keyblock/blocks/bolt.h>
 
 namespace Keyblock
 {
@@ -77,6 +78,8 @@ namespace Keyblock
     /** Vertices of smaller cells in the middle of larger ones' edges and faces;
      * they carry no mass and are in no pair. */
     std::vector<HangingVertex> hanging;
+
+    std::vector<Bolt<dim>> bolts; ///< of the scene, see lay_out_bolts()
 
     /** Call @p action(vertex, weight) for each vertex that carries what acts at
      * @p vertex: itself, or its masters if it hangs. */

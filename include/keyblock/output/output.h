@@ -3,6 +3,7 @@
 #define keyblock_output_output_h
 
 #include <keyblock/geostress/geostress.h>
+#include <keyblock/output/bolt_output.h>
 #include <keyblock/output/monitors.h>
 #include <keyblock/safety/safety_factor.h>
 
@@ -56,6 +57,7 @@ namespace Keyblock
     std::string stable_step_joints; ///< that touch the cell there
     double step_ratio = 1.; ///< least over median of the cells at the start
     std::vector<MassScaling> mass_scaling; ///< at the end, by block
+    std::vector<BoltFigures> bolts;        ///< at the end
   };
 
   /** Measured quantities of the scene: name and value, in order. */

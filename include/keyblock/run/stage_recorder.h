@@ -17,7 +17,8 @@ namespace Keyblock
                   Monitors<dim> &monitors,
                   Output<dim> &output,
                   Checkpointing<dim> &checkpointing,
-                  RunRecord<dim> &record);
+                  RunRecord<dim> &record,
+                  const std::string &folder);
 
     void started() override;
     void sampled(const StageProgress<dim> &progress) override;
@@ -27,6 +28,7 @@ namespace Keyblock
 
   private:
     bool writes_vtu() const;
+    void write_state();
     void write_vtu(StageProgress<dim> &progress);
     void book_time();
     void print_progress(const StageProgress<dim> &progress);
@@ -36,6 +38,7 @@ namespace Keyblock
     Output<dim> &output;
     Checkpointing<dim> &checkpointing;
     RunRecord<dim> &record;
+    std::string folder;       ///< of output, with '/' at its end
     double loop_start   = 0.; ///< wall time [s]
     double last_printed = 0.; ///< wall time of the last line of progress [s]
   };

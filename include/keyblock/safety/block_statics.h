@@ -2,6 +2,7 @@
 #ifndef keyblock_safety_block_statics_h
 #define keyblock_safety_block_statics_h
 
+#include <keyblock/safety/block_bolts.h>
 #include <keyblock/safety/block_rotation.h>
 
 #include <iosfwd>
@@ -13,6 +14,7 @@ namespace Keyblock
   struct BlockStatics
   {
     BlockSurroundings<dim> around;
+    BlockBolts<dim> bolts;
     LimitEquilibrium<dim> limit;
 
     /** What is special, and what was left out. */

@@ -6,6 +6,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <keyblock/law/joint_strength.h>
+#include <keyblock/scene/bolts.h>
 
 #include <memory>
 #include <string>
@@ -403,8 +404,10 @@ namespace Keyblock
     bool true_masses           = false;
     double reach               = 3.;
     std::vector<double> seismic_coefficient;
-    double removal_slip      = 0.05;
-    unsigned int rank_groups = 1;
+    double removal_slip         = 0.05;
+    std::string bolt_convention = "active";
+    double wanted               = 0.; ///< factor [-]
+    unsigned int rank_groups    = 1;
 
     bool
     is_wanted() const
@@ -512,6 +515,7 @@ namespace Keyblock
     std::vector<std::unique_ptr<Joint<dim>>> joints; ///< from all sources
     std::vector<std::unique_ptr<Material<dim>>> materials;
     std::vector<std::unique_ptr<Support<dim>>> supports;
+    std::vector<std::unique_ptr<BoltSet<dim>>> bolts;
     std::vector<std::unique_ptr<Traction<dim>>> tractions;
     std::vector<std::unique_ptr<Stage>> stages;
     std::vector<std::unique_ptr<Monitor<dim>>> monitors;

@@ -3,6 +3,7 @@
 #define keyblock_step_conditions_h
 
 #include <keyblock/step/active_cells.h>
+#include <keyblock/step/bolts.h>
 #include <keyblock/step/far_field_springs.h>
 #include <keyblock/step/loads.h>
 #include <keyblock/step/supports.h>
@@ -91,6 +92,17 @@ namespace Keyblock
      * dead load; needs the present internal force and load. */
     void release_far_field();
 
+    /** The strength of joints is divided for a trial: what holds blocks besides
+     * may follow. */
+    void reduce_strength(const StrengthReduction &reduction);
+
+    /** Bolts that are installed, and what they do. */
+    std::vector<BoltReport<dim>>
+    report_bolts() const
+    {
+      return bolts ? bolts->report() : std::vector<BoltReport<dim>>();
+    }
+
     /** Set fields.load to all loads at @p time. */
     void set_load(const double time);
 
@@ -121,6 +133,7 @@ namespace Keyblock
     Fields<dim> &fields;
 
     FarFieldSprings<dim> *far_field = nullptr; ///< one of elements, if any
+    Bolts<dim> *bolts               = nullptr; ///< the same
   };
 } // namespace Keyblock
 

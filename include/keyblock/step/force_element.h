@@ -3,6 +3,7 @@
 #define keyblock_step_force_element_h
 
 #include <keyblock/blocks/ground.h>
+#include <keyblock/contact/state.h>
 #include <keyblock/rock/dofs.h>
 #include <keyblock/step/stable_step.h>
 
@@ -59,6 +60,11 @@ namespace Keyblock
     /** Cells have come or gone, or a stage with other ones begins. */
     virtual void
     take_ground(const Ground<dim> &)
+    {}
+
+    /** The strength of joints is divided for a trial, or no longer. */
+    virtual void
+    reduce_strength(const StrengthReduction &)
     {}
 
     /** Owned nodes on which it acts. */

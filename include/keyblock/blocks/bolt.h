@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_blocks_bolt_h
+#define keyblock_blocks_bolt_h
+
+#include <keyblock/mesh/mesh.h>
+
+namespace Keyblock
+{
+  /** A joint face that a bolt goes through. */
+  template <int dim>
+  struct BoltCrossing
+  {
+    double place = 0.; ///< distance from the head [m]
+    std::array<unsigned int, 2> block{{none, none}}; ///< towards head and end
+    unsigned int joint = none;
+    Tensor<1, dim> normal; ///< of the joint there, towards the end
+  };
+
+  /** A bolt: where it is, and of which set. */
+  template <int dim>
+  struct Bolt
+  {
+    unsigned int set = 0; ///< index into Scene::bolts
+    Point<dim> head, end;
+    std::vector<double> places; ///< of its nodes, from the head [m]
+
+    /** Where it goes from one block to another when it is installed. */
+    std::vector<BoltCrossing<dim>> crossings;
+
+    double
+    length() const
+    {
+      return head.distance(end);
+    }
+
+    Tensor<1, dim>
+    direction() const
+    {
+      return (end - head) / length();
+    }
+
+    Point<dim>
+    at(const double s) const
+    {
+      return head + s * direction();
+    }
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_rock_bolt_chain_h
+#define keyblock_rock_bolt_chain_h
+
+#include <limits>
+#include <vector>
+
+namespace Keyblock
+{
+  /** What a bolt is made of and how it is held. */
+  struct BoltProperties
+  {
+    double axial_stiffness = 0.; ///< Young modulus times area [N]
+    double yield_force     = std::numeric_limits<double>::infinity(); ///< [N]
+    double rupture_strain  = 0.; ///< 0: it never breaks [-]
+    double bond_stiffness  = 0.; ///< of the grout, per length [N/m/m]
+    double bond_strength   = 0.; ///< of the grout, per length [N/m]
+    double free_length     = 0.; ///< without grout, from the head [m]
+    double plate_stiffness = 0.; ///< [N/m]
+    double plate_strength  = 0.; ///< 0: there is no plate [N]
+    double pretension      = 0.; ///< [N]
+    double dowel_stiffness = 0.; ///< across a joint [N/m]
+    double dowel_strength  = 0.; ///< across a joint [N]
+  };
+
+  /** What a bolt remembers: enough to go on from it. */
+  struct BoltChainState
+  {
+    std::vector<double> displacement; ///< of its nodes along it [m]
+    std::vector<double> slip;         ///< of the grout at each node [m]
+    std::vector<double> elongation;   ///< plastic, of each segment [m]
+    std::vector<double> is_broken;    ///< 1 or 0, of each segment
+    double plate_shift = 0.;          ///< of the plate on the bolt [m]
+    double dissipated  = 0.;          ///< so far [J]
+  };
+
+  /**
+   * One bolt without mass: axial springs in a row from the head into the rock,
+   * each node tied to the rock by grout, and the head by a plate that can only
+   * push the rock. Grout slips at its strength, the bar yields, and breaks at
+   * its rupture strain. Equilibrium of the nodes is solved for in every step by
+   * Newton's method on a tridiagonal system, so that the bolt does not bear on
+   * the time step.
+   *
+   * Displacements are along the bolt, positive from the head into the rock, and
+   * since it was installed.
+   */
+  class BoltChain
+  {
+  public:
+    /** @param places of the nodes, distances from the head, ascending [m] */
+    BoltChain(const BoltProperties &properties,
+              const std::vector<double> &places);
+
+    unsigned int
+    n_nodes() const
+    {
+      return place.size();
+    }
+
+    /** Nodes of which @p is_held is false have no rock around them. */
+    void set_ground(const std::vector<bool> &is_held);
+
+    /** Pull the head with the pretension against the plate, and lock it. */
+    void tension();
+
+    /** Bring the nodes into equilibrium with the rock displaced by @p rock at
+     * each of them [m]. */
+    void follow(const std::vector<double> &rock);
+
+    /** Force of the bolt on the rock at each node, along it [N]. */
+    const std::vector<double> &
+    force_on_rock() const
+    {
+      return rock_force;
+    }
+
+    /** Axial force of each segment, tension positive [N]. */
+    const std::vector<double> &
+    axial_force() const
+    {
+      return segment_force;
+    }
+
+    /** Of the plate on the rock [N]. */
+    double
+    plate_force() const
+    {
+      return present_plate_force;
+    }
+
+    double stored_energy() const; ///< [J]
+
+    /** No more than this stiffness acts on the rock at each node [N/m]. */
+    std::vector<double> stiffness_bound() const;
+
+    /** Greatest tension it can bear at the distance @p s from the head, and
+     * what limits it. */
+    struct Capacity
+    {
+      enum class Limit
+      {
+        yield,
+        head,  ///< bond and plate between the head and s
+        anchor ///< bond beyond s
+      };
+      double force = 0.; ///< [N]
+      Limit limit  = Limit::yield;
+    };
+    Capacity capacity(const double s) const;
+
+    const BoltProperties &
+    material() const
+    {
+      return properties;
+    }
+
+    const std::vector<double> &
+    places() const
+    {
+      return place;
+    }
+
+    BoltChainState state;
+
+  private:
+    /** Forces at @p w, and how they change with it. */
+    struct Response
+    {
+      std::vector<double> bond, bond_stiffness;       // by node
+      std::vector<double> segment, segment_stiffness; // by segment
+      double plate = 0., plate_stiffness = 0.;
+    };
+    Response respond(const std::vector<double> &w,
+                     const std::vector<double> &rock) const;
+
+    /** Displacements of the nodes in equilibrium. @p jack: pulls the head in
+     * place of the plate, unless it is negative [N] */
+    void solve(const std::vector<double> &rock, const double jack);
+
+    /** Slip and yield for good. */
+    void commit(const std::vector<double> &rock, const Response &response);
+
+    /** Of the grout at a node [N/m]. */
+    double bond_stiffness_of(const unsigned int i) const;
+
+    double
+    segment_length(const unsigned int j) const
+    {
+      return place[j + 1] - place[j];
+    }
+
+    BoltProperties properties;
+    std::vector<double> place;         ///< of the nodes [m]
+    std::vector<double> bonded_length; ///< grouted, of each node [m]
+    std::vector<bool> is_held;         ///< by rock
+    std::vector<double> rock_force, segment_force;
+    double present_plate_force = 0.;
+  };
+} // namespace Keyblock
+
+#endif

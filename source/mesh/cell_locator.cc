@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/mesh/cell_locator.h>
+
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** How far outside the unit cell a point still counts as inside [-]. */
+    constexpr double margin = 1e-7;
+
+    template <int dim>
+    using Weights = std::array<double, Mesh<dim>::n_cell_vertices>;
+
+    /** Linear shape functions at @p unit, and their slopes. */
+    template <int dim>
+    Weights<dim>
+    shape_at(const Point<dim> &unit,
+             std::array<Tensor<1, dim>, Mesh<dim>::n_cell_vertices> &slope)
+    {
+      Weights<dim> weight;
+      for (unsigned int v = 0; v < weight.size(); ++v)
+        {
+          weight[v] = 1.;
+          for (unsigned int d = 0; d < dim; ++d)
+            slope[v][d] = 1.;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const bool is_far = (v >> d) & 1;
+              const double one  = is_far ? unit[d] : 1. - unit[d];
+              weight[v] *= one;
+              for (unsigned int e = 0; e < dim; ++e)
+                slope[v][e] *= e == d ? (is_far ? 1. : -1.) : one;
+            }
+        }
+      return weight;
+    }
+
+    /** Shares of the vertices of a cell in @p point by Newton's method; nothing
+     * if it is outside. */
+    template <int dim>
+    std::optional<Weights<dim>>
+    weights_in(const Mesh<dim> &mesh,
+               const unsigned int cell,
+               const Point<dim> &point)
+    {
+      Point<dim> unit;
+      for (unsigned int d = 0; d < dim; ++d)
+        unit[d] = 0.5;
+      std::array<Tensor<1, dim>, Mesh<dim>::n_cell_vertices> slope;
+      for (unsigned int iteration = 0; iteration < 50; ++iteration)
+        {
+          const Weights<dim> weight = shape_at<dim>(unit, slope);
+          Tensor<1, dim> miss       = point;
+          dealii::Tensor<2, dim> jacobian;
+          for (unsigned int v = 0; v < weight.size(); ++v)
+            {
+              const Point<dim> &x = mesh.vertices[mesh.cells[cell][v]];
+              miss -= weight[v] * x;
+              jacobian += outer_product(x, slope[v]);
+            }
+          const Tensor<1, dim> change = invert(jacobian) * miss;
+          unit += change;
+          if (change.norm() < 1e-12)
+            break;
+          if (unit.norm() > 10.)
+            return {};
+        }
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!(unit[d] >= -margin && unit[d] <= 1. + margin))
+          return {};
+      return shape_at<dim>(unit, slope);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  CellLocator<dim>::CellLocator(
+    const Mesh<dim> &mesh,
+    const std::function<bool(unsigned int)> &is_there)
+    : mesh(mesh)
+  {
+    std::vector<Entry> entries;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      if (is_there(c))
+        {
+          std::pair<Point<dim>, Point<dim>> corners{
+            mesh.vertices[mesh.cells[c][0]], mesh.vertices[mesh.cells[c][0]]};
+          for (const unsigned int v : mesh.cells[c])
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const double x    = mesh.vertices[v][d];
+                corners.first[d]  = std::min(corners.first[d], x);
+                corners.second[d] = std::max(corners.second[d], x);
+              }
+          // the margin, in the size of the cell
+          const double more = margin * corners.first.distance(corners.second);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              corners.first[d] -= more;
+              corners.second[d] += more;
+            }
+          entries.emplace_back(dealii::BoundingBox<dim>(corners), c);
+        }
+    tree = dealii::pack_rtree(entries);
+  }
+
+
+
+  template <int dim>
+  std::optional<typename CellLocator<dim>::Place>
+  CellLocator<dim>::find(const Point<dim> &point) const
+  {
+    std::vector<Entry> near;
+    tree.query(boost::geometry::index::intersects(point),
+               std::back_inserter(near));
+    std::sort(near.begin(), near.end(), [](const Entry &a, const Entry &b) {
+      return a.second < b.second;
+    });
+    for (const Entry &entry : near)
+      if (const auto weight = weights_in<dim>(mesh, entry.second, point))
+        return Place{entry.second, *weight};
+    return {};
+  }
+
+  template class CellLocator<2>;
+  template class CellLocator<3>;
+} // namespace Keyblock

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A grouted bolt pulled out of rigid rock against the closed form of a bar on
+// springs that slip.
+#include <boost/test/unit_test.hpp>
+
+#include <keyblock/rock/bolt_chain.h>
+
+#include <cmath>
+
+using namespace Keyblock;
+
+namespace
+{
+  /** Bond stiffness [N/m/m], strength [N/m], axial stiffness [N]. */
+  constexpr double bond = 112e6, strength = 0.175e6, bar = 181e-6 * 98.6e9;
+
+  BoltProperties
+  properties()
+  {
+    BoltProperties p;
+    p.axial_stiffness = bar;
+    p.yield_force     = 0.5e6;
+    p.bond_stiffness  = bond;
+    p.bond_strength   = strength;
+    p.plate_stiffness = 1e13;
+    p.plate_strength  = 1e15;
+    return p;
+  }
+
+  /** A bolt of which nothing holds the head but a plate, which is pulled. */
+  class Pull
+  {
+  public:
+    Pull(const double length, const unsigned int n_segments)
+      : chain(properties(), places(length, n_segments))
+      , rock(n_segments + 1, 0.)
+      , bonded_head(bond * 0.5 * length / n_segments)
+      , head_strength(strength * 0.5 * length / n_segments)
+    {}
+
+    /** Force at the head displaced by @p u [N]. */
+    double
+    to(const double u)
+    {
+      // the plate is pulled out, and the grout of the first node stays with
+      // it: its share is what the rock there would bear
+      rock[0] = -u;
+      chain.follow(rock);
+      return chain.axial_force()[0] + std::min(bonded_head * u, head_strength);
+    }
+
+    BoltChain chain;
+
+  private:
+    static std::vector<double>
+    places(const double length, const unsigned int n_segments)
+    {
+      std::vector<double> s;
+      for (unsigned int i = 0; i <= n_segments; ++i)
+        s.push_back(length * i / n_segments);
+      return s;
+    }
+
+    std::vector<double> rock;
+    double bonded_head, head_strength;
+  };
+
+  const double lambda = std::sqrt(bond / bar);
+} // namespace
+
+BOOST_AUTO_TEST_CASE(bolt_pull_out_elastic)
+{
+  BOOST_TEST(std::abs(lambda - 2.50514) < 1e-5);
+  // 20 segments per 1/lambda, and second order
+  for (const double length : {17.7, 0.25, 0.5, 1.})
+    {
+      std::vector<double> errors;
+      const double exact = bar * lambda * std::tanh(lambda * length);
+      for (const unsigned int per_length : {20u, 40u})
+        {
+          Pull pull(length, std::ceil(per_length * lambda * length));
+          errors.push_back(pull.to(1e-5) / 1e-5 / exact - 1.);
+        }
+      BOOST_TEST_MESSAGE("stiffness " << exact << ", errors " << errors[0]
+                                      << " " << errors[1]);
+      BOOST_TEST(std::abs(errors[0]) < 5e-4);
+      BOOST_TEST(std::abs(errors[0]) > 3. * std::abs(errors[1]));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(bolt_pull_out_slip)
+{
+  const double length = 17.7;
+  for (const unsigned int per_length : {20u, 80u})
+    {
+      Pull pull(length, std::ceil(per_length * lambda * length));
+      double before = 0.;
+      for (const double debonded : {0., 0.5, 1., 2.})
+        {
+          const double rest  = std::tanh(lambda * (length - debonded));
+          const double force = strength * debonded + strength / lambda * rest;
+          const double u     = strength / bond +
+                           strength / lambda * rest * debonded / bar +
+                           strength * debonded * debonded / (2. * bar);
+          double found = 0.;
+          for (unsigned int i = 1; i <= 20; ++i)
+            found = pull.to(before + (u - before) * i / 20);
+          before = u;
+          BOOST_TEST_MESSAGE("debonded " << debonded << ": " << u << " m, "
+                                         << force << " N, found " << found);
+          BOOST_TEST(std::abs(found / force - 1.) < 0.1 / per_length);
+        }
+      // yields where its force reaches the yield force
+      for (unsigned int i = 1; i <= 100; ++i)
+        pull.to(before + (0.0412 - before) * i / 100);
+      BOOST_TEST(std::abs(pull.chain.axial_force()[0] / 0.5e6 - 1.) < 1e-9);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(bolt_yields_where_it_should)
+{
+  Pull pull(17.7, 1774);
+  double u = 0.;
+  while (pull.to(u) < 0.5e6 * (1. - 1e-9) && u < 0.06)
+    u += 1e-4;
+  BOOST_TEST(std::abs(u / 0.0408049 - 1.) < 5e-3);
+}
+
+BOOST_AUTO_TEST_CASE(bolt_ultimate)
+{
+  for (const double length : {0.25, 0.5, 1.})
+    {
+      Pull pull(length, 40);
+      for (unsigned int i = 1; i <= 50; ++i)
+        pull.to(0.001 * i);
+      BOOST_TEST(std::abs(pull.to(0.05) / (strength * length) - 1.) < 1e-9);
+      BOOST_TEST(std::abs(pull.chain.capacity(0.).force / (strength * length) -
+                          1.) < 1e-12);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(bolt_work_is_stored_or_dissipated)
+{
+  Pull pull(2., 100);
+  double work = 0., force_before = 0., u_before = 0.;
+  const unsigned int n = 4000;
+  for (unsigned int i = 1; i <= n; ++i)
+    {
+      // out, back, and out again
+      const double u = 0.006 * std::sin(4. * i / n);
+      pull.to(u);
+      const double force = pull.chain.force_on_rock()[0];
+      work += 0.5 * (force + force_before) * (u - u_before);
+      u_before     = u;
+      force_before = force;
+    }
+  const double total = pull.chain.stored_energy() + pull.chain.state.dissipated;
+  BOOST_TEST_MESSAGE("work " << work << ", stored and dissipated " << total);
+  BOOST_TEST(pull.chain.state.dissipated > 0.);
+  BOOST_TEST(std::abs(work / total - 1.) < 1e-4);
+}
+
+BOOST_AUTO_TEST_CASE(bolt_pretension_and_rupture)
+{
+  BoltProperties p  = properties();
+  p.free_length     = 2.;
+  p.pretension      = 50e3;
+  p.plate_stiffness = 100. * bar;
+  p.rupture_strain  = 0.01;
+  p.bond_strength   = 1e6;
+  std::vector<double> places;
+  for (unsigned int i = 0; i <= 40; ++i)
+    places.push_back(0.1 * i);
+  BoltChain chain(p, places);
+  chain.tension();
+  for (unsigned int j = 0; j < 20; ++j)
+    BOOST_TEST(std::abs(chain.axial_force()[j] / 50e3 - 1.) < 1e-10);
+  BOOST_TEST(std::abs(chain.plate_force() / 50e3 - 1.) < 1e-10);
+
+  // rock that comes towards the anchor loosens it
+  std::vector<double> rock(41, 0.);
+  std::fill(rock.begin(), rock.begin() + 10, 0.02);
+  chain.follow(rock);
+  BOOST_TEST(std::abs(chain.plate_force()) < 1e-6);
+
+  // and a wide crack breaks it
+  for (unsigned int i = 1; i <= 60; ++i)
+    {
+      std::fill(rock.begin(), rock.begin() + 10, -0.001 * i);
+      chain.follow(rock);
+    }
+  chain.follow(rock);
+  double sum = 0.;
+  for (const double broken : chain.state.is_broken)
+    sum += broken;
+  BOOST_TEST(sum > 0.);
+  BOOST_TEST(std::abs(chain.plate_force()) < 1.);
+}
