@@ -120,7 +120,7 @@ def assert_page(summary, page):
         values = [f["value"] for f in block.get("safety_factor", [])
                   if f["outcome"] == "value"]
         if values:
-            found = re.search(r"([\d.]+) \[", row)
+            found = re.search(r"([\d.]+)&nbsp;\[", row)
             assert abs(float(found[1]) - min(values)) < 1e-3 * min(values)
     for stage in summary["stages"]:
         assert f"<h3>{stage['name']}</h3>" in page

@@ -33,9 +33,11 @@ def block_columns(run):
         ("limit equilibrium", False, lambda r: escape(
             limit_in_words(r["limit"]))),
         ("strength reduction", False, lambda r: escape(
-            f"{in_words(r['factor'])} after {r['factor']['stage']}")
+            f"{in_words(r['factor'])} after {r['factor']['stage']}").replace(
+                ", ", ",&nbsp;").replace(" [", "&nbsp;[")
          if r["factor"] else "–"),
-        ("with its group", False, lambda r: escape(group_text(r["group"]))),
+        ("with its group", False, lambda r: escape(group_text(
+            r["group"])).replace(", ", ",&nbsp;").replace(" [", "&nbsp;[")),
         ("held by clamping", False, lambda r: clamped_text(r["clamped"])),
         ("moved [mm]", True, lambda r: mm(r["displacement"])),
         ("failed in", False, lambda r: escape(
@@ -86,8 +88,9 @@ def blocks_section(run, rows, has_view, files):
     rest = [r for r in rows if r["block"] not in ids]
     text = ["<h2 id=blocks>Blocks, the most dangerous first</h2>",
             "<p>Exposed ones first, then those that failed, then by the least "
-            "factor of all stages. " + ("Click on a row to mark the block in "
-                                        "the view below. " if has_view else "")
+            "factor, alone or of a group, of all stages. "
+            + ("Click on a row to mark the block in the view below. "
+               if has_view else "")
             + f"As tables: {files}.</p>",
             '<div class="wide tall">', table(columns, shown, has_view, empty),
             "</div>"]
@@ -98,7 +101,8 @@ def blocks_section(run, rows, has_view, files):
                  table(columns, rest, has_view, empty), "</div></details>"]
     notes = []
     notes.append("Strength reduction: factor [greatest at which the block "
-                 "held, least at which it failed], the least of all stages; "
+                 "held, least at which it failed], after the stage in which "
+                 "it, or that of the blocks that move together, is least; "
                  "limit equilibrium: the rigid block without in-situ stress, "
                  "after the same stage. Held by clamping: strength reduction "
                  "holds at full strength, limit equilibrium alone is below 1."

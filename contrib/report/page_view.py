@@ -58,7 +58,8 @@ def view_controls(is_plane):
 {box("edges", "outlines")}{box("labels", "numbers of exposed blocks")}</fieldset>
 <fieldset><legend>Colours</legend><select id="colouring">
 <option value="state">of blocks by factor</option>
-<option value="displacement">by displacement</option><option value="joint">by joint</option></select>
+<option value="displacement">by displacement</option>
+<option value="joint">by joint</option></select>
 <div id="states"></div><div id="largest"></div></fieldset>
 <fieldset><legend>Joints as in the scene</legend><div id="groups"></div></fieldset>"""
 
@@ -76,7 +77,8 @@ def view_section(run, packed):
                                                           "<\\/script")
     return f"""<h2 id=in-space>{'View' if run.is_plane else 'View in space'}</h2>
 <p class=faint>{hint} Click on a block for its row in the table.</p>
-<div id="view"><div id="canvas"><div id="labels"></div><div id="scale"></div><div id="chosen" hidden></div></div>
+<div id="view"><div id="canvas"><div id="labels"></div><div id="scale"></div>
+<div id="chosen" hidden></div></div>
 <div id="controls">{view_controls(run.is_plane)}</div></div>
 <script type="application/json" id="view-meta">{meta_text}</script>
 <script type="text/plain" id="view-data">{data}</script>

@@ -6,7 +6,7 @@ import numpy
 
 from .style import (DASHES, GROUP_COLOURS, MARKERS, as_svg, beside,
                     new_figure, plain, pyplot)
-from .tables import STATES, size_of
+from .tables import STATES, size_alone
 
 
 def project(trend, plunge):
@@ -177,7 +177,7 @@ def factors(run, rows):
                       markersize=5, linewidth=1.4, **style)
         for s, r in points:
             if r.get("outcome") != "value":
-                up = size_of(r) > 1.
+                up = size_alone(r) > 1.
                 axes.plot(s + shift, high if up else low,
                           "^" if up else "v", color=style["color"],
                           clip_on=False, markersize=7, zorder=4)
@@ -192,7 +192,7 @@ def factors(run, rows):
         axes.minorticks_off()
     if len("  ".join(run.stages)) > 75:
         axes.tick_params(axis="x", rotation=30)
-    others = [size_of(r) > 1. for _, p in curves for _, r in p
+    others = [size_alone(r) > 1. for _, p in curves for _, r in p
               if r.get("outcome") != "value"]
     handles = list(axes.get_legend_handles_labels()[0])
     for is_high, marker, text in ((True, "^", "immovable or above\nthe highest "

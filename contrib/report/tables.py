@@ -49,7 +49,15 @@ def in_words(result):
 
 
 def size_of(result):
-    """A number to sort by: 0 falls freely, infinite holds whatever is tried."""
+    """A number to sort by: 0 falls freely, infinite holds whatever is tried.
+
+    The least of a block alone and together with those that move with it."""
+    group = result.get("group") or {}
+    return min(size_alone(result), group.get("value", math.inf))
+
+
+def size_alone(result):
+    """The same of the block alone."""
     outcome = result.get("outcome", "value")
     if outcome == "falls freely":
         return 0.
@@ -100,9 +108,10 @@ def state_of(has_failed, factor):
     outcome = factor.get("outcome", "value")
     if outcome == "undecided":
         return "undecided"
-    if outcome == "immovable" or outcome.startswith("above"):
-        return "firm"
     size = size_of(factor)
+    if (outcome == "immovable" or outcome.startswith("above")) and not (
+            factor.get("group")):
+        return "firm"
     return "fails" if size < 1. else "low" if size <= 1.5 else "holds"
 
 
