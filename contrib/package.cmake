@@ -5,6 +5,10 @@ install(FILES doc/keyblock.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
   COMPONENT program)
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock
   COMPONENT program)
+install(PROGRAMS contrib/keyblock-report DESTINATION ${CMAKE_INSTALL_BINDIR}
+  COMPONENT program)
+install(DIRECTORY contrib/report DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock
+  COMPONENT program PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md LICENSE.md CHANGELOG.md doc/parameters.md doc/theory.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
@@ -38,6 +42,8 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME keyblock)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# of keyblock-report
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-matplotlib")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Keyblock developers <keyblock@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

@@ -12,6 +12,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${FOLDER})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/usr)
+run(${FOLDER}/usr/bin/keyblock-report --help)
 run(${FOLDER}/usr/bin/keyblock --help)
 # every option stands in the manual page
 file(READ ${FOLDER}/usr/share/man/man1/keyblock.1 manual)

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The page: its head, its sections in turn, and the settings, as one text."""
+import pathlib
+import time
+
+from .html import download, escape, facts, seconds, source
+from .page_blocks import blocks_section, factors_section
+from .page_stages import energy_section, joints_section, stages_section
+from .page_view import view_section
+from .tables import number, warnings_of
+
+
+def head(run, rows):
+    """Title, what was run by what, and how it went."""
+    summary = run.summary
+    program, facts_of_run = summary.get("program", {}), summary.get("run", {})
+    title = run.scene("title") or pathlib.Path(run.scene("name", "run")).stem
+    exposed = sum(row["exposed"] for row in rows)
+    failed = [row["block"] for row in rows if row["state"] == "fails"]
+    verdict = (f"{len(rows)} finite block{'s' if len(rows) != 1 else ''}, "
+               f"{exposed} of them exposed at some stage. ")
+    if failed:
+        verdict += ("Failed in a stage, fall freely, or have a factor below "
+                    "1: "
+                    + ", ".join(f"block {n}" for n in failed[:30])
+                    + (" …" if len(failed) > 30 else "") + ".")
+    elif any(row["factor"] for row in rows):
+        verdict += "None has failed or has a factor below 1."
+    elif rows:
+        verdict += "No safety factors were looked for."
+    versions = f"keyblock {program.get('version', '')}".strip()
+    if program.get("commit"):
+        versions += f", commit {program['commit']}"
+    if program.get("build_type"):
+        versions += f", {program['build_type']} build"
+    libraries = ", ".join(text for text in (
+        f"deal.II {program['deal_ii_version']}" if program.get(
+            "deal_ii_version") else "", program.get("compiler", "")) if text)
+    n = run.scene("dimension")
+    size = (f"{n}D, {run.scene('cells')} cells, {run.scene('nodes')} nodes, "
+            f"{run.scene('joints')} joints, {run.scene('pairs')} pairs of "
+            "joint faces")
+    way = summary.get("mesh", {})
+    mesh = None
+    if way.get("way"):
+        mesh = escape({"cut": "joints are cut into the mesh",
+                       "exact": "joints are followed exactly"}.get(
+                           way["way"], way["way"])
+                      + (f" ({way['reason']})" if way.get("reason") else ""))
+        if way.get("largest_shift", 0.) > 1e-9:
+            mesh += (f", moved by up to {number(way['largest_shift'], 3)} m, "
+                     "99 % of their points by less than "
+                     f"{number(way.get('percentile_99'), 3)} m")
+    seeds = ", ".join(f"{name} {seed}" for name, seed in
+                      (run.scene("seeds", {}) or {}).items())
+    warnings = warnings_of(run)
+    text = (f"<h1>{escape(title)}</h1><p>{escape(verdict)}</p>"
+            + facts([
+                ("scene", escape(run.scene("name"))),
+                ("folder", escape(run.folder.resolve().name)),
+                ("results written", time.strftime("%Y-%m-%d %H:%M",
+                                                  run.written)),
+                ("program", escape(versions)), ("built with",
+                                                escape(libraries)),
+                ("digest of the entries", escape(run.scene("digest"))),
+                ("seeds of joint sets", escape(seeds)),
+                ("model", escape(size)), ("mesh", mesh),
+                ("run", ", ".join(t for t in (
+                    f"{facts_of_run.get('steps')} steps",
+                    f"{program.get('ranks', 1)} rank"
+                    + ("s" if program.get("ranks", 1) != 1 else ""),
+                    f"wall time {seconds(facts_of_run.get('wall_time'))}"
+                    if "wall_time" in facts_of_run else "") if t))]))
+    if warnings:
+        text += ('<div class="warnings"><b>What the run warns of</b><ul>'
+                 + "".join(f"<li>{escape(w)}</li>" for w in warnings)
+                 + "</ul></div>")
+    return title, text
+
+
+def settings_section(run):
+    """The entries of the scene that are not the defaults."""
+    if not run.entries:
+        return ("<h2 id=settings>Settings</h2><p>There is no used.prm in the "
+                "folder.</p>")
+
+    def shorten(text):
+        return text if len(text) <= 300 else text[:300] + " …"
+
+    text = ["<h2 id=settings>Settings</h2>"]
+    if run.changed:
+        rows = "".join(
+            f"<tr><td><code>{escape(path)}</code></td><td>"
+            f"{escape(shorten(value))}</td><td>"
+            f"{escape(shorten(default)) or '–'}</td></tr>"
+            for path, value, default in run.changed)
+        text.append(f"<details><summary>{len(run.changed)} entries of used.prm "
+                    "that differ from their defaults (joints are in joints.csv)"
+                    '</summary><div class="wide tall"><table><thead><tr><th>'
+                    "entry</th><th>value</th><th>default</th></tr></thead>"
+                    f"<tbody>{rows}</tbody></table></div></details>")
+    else:
+        rows = "\n".join(f"{path} = {shorten(value)}"
+                         for path, value in run.entries.items())
+        text.append(f"<details><summary>All {len(run.entries)} entries of "
+                    f"used.prm</summary><pre>{escape(rows)}</pre></details>")
+    checks = run.summary.get("checks", {})
+    if checks:
+        rows = "".join(f"<tr><td>{escape(k)}</td><td class=n>"
+                       f"{number(v, 6) if isinstance(v, (int, float)) else escape(v)}"
+                       "</td></tr>" for k, v in checks.items())
+        text.append(f"<details><summary>{len(checks)} checks of the scene"
+                    f"</summary><table>{rows}</table></details>")
+    return "\n".join(text)
+
+
+def write_page(run, rows, parts, csvs):
+    """The whole page as text."""
+    title, top = head(run, rows)
+    links = {name: download(name, text) for name, text in csvs.items()}
+    sections = [
+        ("blocks", "blocks", blocks_section(
+            run, rows, bool(parts["view"]),
+            f"{links['blocks.csv']}, {links['factors.csv']}")),
+        ("in-space", "view", view_section(run, parts["view"])),
+        ("factors", "factors", factors_section(run, rows, *parts["factors"])),
+        ("stages", "stages", stages_section(run, parts["pictures"],
+                                            parts["legend"], parts["why"],
+                                            links["stages.csv"])),
+        ("joints", "joints", joints_section(run, parts["net"])),
+        ("energy", "energy", energy_section(run, parts["energy"])),
+        ("settings", "settings", settings_section(run))]
+    links = "".join(f'<a href="#{key}">{name}</a>' for key, name, text in
+                    sections if text)
+    body = "\n".join([top, f"<nav>{links}</nav>",
+                      *(text for *_, text in sections if text)])
+    page = source("page.html")
+    for name, text in (("title", escape(title)), ("style", source("page.css")),
+                       ("body", body)):
+        page = page.replace(f"@{name}@", text, 1)
+    return page

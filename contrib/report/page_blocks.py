@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Sections of the page on blocks and their factors."""
+import math
+
+from .html import clamped_text, escape, group_text
+from .tables import (STATES, in_words, is_held_by_clamping, limit_in_words,
+                     number, of_stage)
+
+MOST_ROWS = 60  # rows of blocks before the rest is folded away
+
+
+def block_columns(run):
+    """Heading, whether it is a number, and text, of each column of blocks."""
+    cubic = "m³" if not run.is_plane else "m³/m"
+
+    def mm(value):
+        return "–" if value is None else number(1e3 * value, 3)
+
+    return [
+        ("block", False, lambda r: '<span class="mark" style="background:'
+         f'{STATES[r["state"]][0]}"></span>{r["block"]}'),
+        ("exposed since", False, lambda r: escape(r["since"] or "hidden")),
+        ("where", False, lambda r: r["where"] or "–"),
+        (f"volume [{cubic}]", True, lambda r: number(r["volume"])
+         + ("" if r["is_exact"] or r["volume"] is None else "*")),
+        ("weight [kN]" if not run.is_plane else "weight [kN/m]", True,
+         lambda r: "–" if r["weight"] is None else number(
+             r["weight"] / 1e3)),
+        ("cells across", True, lambda r: number(r["cells_across"], 2)),
+        ("joint faces", False, lambda r: escape(" ".join(r["faces"])) or "–"),
+        ("mode of failure", False, lambda r: escape(
+            r["mode"] or (r["limit"] or {}).get("mode") or "–")),
+        ("limit equilibrium", False, lambda r: escape(
+            limit_in_words(r["limit"]))),
+        ("strength reduction", False, lambda r: escape(
+            f"{in_words(r['factor'])} after {r['factor']['stage']}").replace(
+                ", ", ",&nbsp;").replace(" [", "&nbsp;[")
+         if r["factor"] else "–"),
+        ("with its group", False, lambda r: escape(group_text(
+            r["group"])).replace(", ", ",&nbsp;").replace(" [", "&nbsp;[")),
+        ("held by clamping", False, lambda r: clamped_text(r["clamped"])),
+        ("moved [mm]", True, lambda r: mm(r["displacement"])),
+        ("failed in", False, lambda r: escape(
+            f"{r['removed']}, taken away" if r["removed"] else
+            f"{r['moved_off']}, moved off" if r["moved_off"] else "–"))]
+
+
+def table(columns, rows, has_view, hide=()):
+    """An HTML table; columns of which nothing is known are left out."""
+    columns = [(name, is_number, text) for name, is_number, text in columns
+               if name not in hide]
+    lines = ["<thead><tr>" + "".join(
+        f'<th{" class=n" if is_number else ""}>{escape(name)}</th>'
+        for name, is_number, _ in columns)
+        + "</tr></thead><tbody>"]
+    for row in rows:
+        cells = "".join(f'<td{" class=n" if is_number else ""}>{text(row)}'
+                        "</td>" for _, is_number, text in columns)
+        if has_view:
+            cells = cells.replace("</td>", ' <button class="show">show'
+                                  "</button></td>", 1)
+        lines.append(f'<tr data-block="{row["block"]}">{cells}</tr>')
+    return "<table>" + "\n".join(lines) + "</tbody></table>"
+
+
+def gravity_note(run):
+    """That weights are with 9.81 m/s2, if the scene has another gravity."""
+    gravity = math.hypot(*(run.numbers("Initial state/Gravity") or [0.]))
+    if gravity and abs(gravity - 9.81) > 0.005:
+        return (f"Weights are mass times 9.81 m/s², as in summary.json; the "
+                f"scene's gravity is {number(gravity)} m/s².")
+    return None
+
+
+def blocks_section(run, rows, has_view, files):
+    """The table of blocks, with footnotes on what is not known."""
+    if not rows:
+        return ("<h2 id=blocks>Blocks</h2><p>The scene has no finite "
+                "blocks.</p>")
+    columns = block_columns(run)
+    empty = [name for name, _, text in columns
+             if all(text(row) in ("–", "") for row in rows)]
+    shown = [r for r in rows if r["exposed"] or r["removed"] or r["moved_off"] or (
+        r["factor"] and r["factor"].get("outcome") == "value")]
+    if not shown:
+        shown = rows[:MOST_ROWS]
+    ids = {r["block"] for r in shown}
+    rest = [r for r in rows if r["block"] not in ids]
+    text = ["<h2 id=blocks>Blocks, the most dangerous first</h2>",
+            "<p>Exposed ones first, then those that failed, then by the least "
+            "factor, alone or of a group, of all stages. "
+            + ("Click on a row to mark the block in the view below. "
+               if has_view else "")
+            + f"As tables: {files}.</p>",
+            '<div class="wide tall">', table(columns, shown, has_view, empty),
+            "</div>"]
+    if rest:
+        text += [f"<details><summary>{len(rest)} more blocks: hidden, without "
+                 "a factor between two bounds</summary>",
+                 '<div class="wide tall">',
+                 table(columns, rest, has_view, empty), "</div></details>"]
+    notes = []
+    notes.append("Strength reduction: factor [greatest at which the block "
+                 "held, least at which it failed], after the stage in which "
+                 "it, or that of the blocks that move together, is least; "
+                 "limit equilibrium: the rigid block without in-situ stress, "
+                 "after the same stage. Held by clamping: strength reduction "
+                 "holds at full strength, limit equilibrium alone is below 1."
+                 ) if "strength reduction" not in empty else None
+    if "moved [mm]" not in empty:
+        notes.append("Moved: the largest displacement in the states that were "
+                     "written, at the ends of stages; of a block that was "
+                     "taken away, in those before.")
+    if "where" not in empty:
+        notes.append("Where: roof, wall or floor by the mean outward normal "
+                     "of the block's free faces, within 45° of the direction "
+                     "of gravity, or of the opposite one.")
+    if any(not r["is_exact"] for r in rows):
+        notes.append("* of the mesh, not exact.")
+    if gravity_note(run):
+        notes.append(gravity_note(run))
+    remarks = [(r["block"], r["limit"]["remark"]) for r in shown
+               if r["limit"] and r["limit"].get("remark")]
+    if remarks:
+        notes.append("Remarks of limit equilibrium: " + "; ".join(
+            f"block {n}: {remark}" for n, remark in remarks[:40]) + ".")
+    if empty:
+        notes.append("Left out, as the run has nothing on it: "
+                     + ", ".join(empty) + ".")
+    text.append('<ul class="notes">' + "".join(
+        f"<li>{escape(note)}</li>" for note in notes if note) + "</ul>")
+    return "\n".join(text)
+
+
+def factors_section(run, rows, figure, sentence):
+    """Curves of factors by stage, and all of them as a table."""
+    if not any(row["factor"] for row in rows):
+        return ("<h2 id=factors>Factors by stage</h2><p>No safety factors were "
+                "looked for (Safety factor/Blocks).</p>")
+    text = ["<h2 id=factors>Factors by stage</h2>"]
+    if figure:
+        text.append(f"<figure>{figure}</figure>")
+    if sentence:
+        text.append(f"<p class=faint>{escape(sentence)}</p>")
+    lines = []
+    for row in rows:
+        block = run.blocks[row["block"]]
+        for found in block.get("safety_factor", []):
+            limit = of_stage(block.get("limit_equilibrium"), found["stage"])
+            ratio = of_stage(block.get("stress_ratio"), found["stage"]) or {}
+            cells = [row["block"], found["stage"], in_words(found),
+                     found.get("failure_mode") or "–", limit_in_words(limit),
+                     number(ratio.get("value")),
+                     group_text(found.get("group")),
+                     clamped_text(is_held_by_clamping(found, limit))]
+            lines.append("<tr>" + "".join(f"<td>{escape(c)}</td>"
+                                          for c in cells) + "</tr>")
+    names = ["block", "after", "strength reduction", "mode", "limit "
+             "equilibrium", "stress ratio", "with its group",
+             "held by clamping"]
+    text.append(f"<details><summary>All factors ({len(lines)})</summary>"
+                '<div class="wide tall"><table><thead><tr>'
+                + "".join(f"<th>{n}</th>" for n in names)
+                + "</tr></thead><tbody>" + "\n".join(lines)
+                + "</tbody></table></div></details>")
+    return "\n".join(text)

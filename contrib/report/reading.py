@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The output folder of a run: its files, read and arranged."""
+import csv
+import json
+import math
+import pathlib
+import re
+import time
+import xml.etree.ElementTree
+
+import numpy
+
+MOST_STATES = 30  # a face says in one number in which of them it is seen
+
+
+class ReportError(Exception):
+    """A sentence that says why something of a report cannot be made."""
+
+
+def read_summary(folder):
+    """The content of summary.json."""
+    path = folder / "summary.json"
+    if not folder.is_dir():
+        raise ReportError(f"There is no folder '{folder}'; name the output "
+                          "folder of a run.")
+    try:
+        with open(path, encoding="utf-8") as file:
+            summary = json.load(file)
+    except OSError as error:
+        raise ReportError(f"'{path}' cannot be read ({error.strerror}); name "
+                          "the output folder of a run that has ended."
+                          ) from None
+    except ValueError as error:
+        raise ReportError(f"'{path}' is damaged ({error}); run the scene "
+                          "again.") from None
+    kinds = {"scene": dict, "blocks": list, "stages": list}
+    if not isinstance(summary, dict) or not all(
+            isinstance(summary.get(key), kind) for key, kind in kinds.items()):
+        raise ReportError(f"'{path}' lacks scene, blocks or stages; is it "
+                          "that of a run of keyblock?")
+    return summary
+
+
+def read_entries(folder):
+    """Entries of used.prm by path, and those that differ from defaults.
+
+    The program writes the default behind what differs from it."""
+    entries, changed, above = {}, [], []
+    try:
+        lines = (folder / "used.prm").read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError):
+        return entries, changed
+    for line in lines:
+        words = line.partition("#")[0].split(maxsplit=1)
+        if words[:1] == ["subsection"]:
+            above.append(words[1].strip())
+        elif words == ["end"]:
+            above.pop()
+        elif words[:1] == ["set"] and "=" in words[1]:
+            name, value = words[1].split("=", 1)
+            path = "/".join([*above, name.strip()])
+            entries[path] = value.strip()
+            if "# default:" in line:
+                default = line.split("# default:", 1)[1].strip()
+                changed.append((path, value.strip(), default))
+    return entries, changed
+
+
+def read_history(folder):
+    """Columns of history.csv by name without units; {} if there are none."""
+    try:
+        with open(folder / "history.csv", encoding="utf-8") as file:
+            names = [name.split(" [")[0] for name in
+                     file.readline().strip().split(",")]
+            values = numpy.loadtxt(file.readlines(), delimiter=",", ndmin=2)
+    except (OSError, ValueError):
+        return {}
+    if values.ndim != 2 or values.shape[1] != len(names) or not {
+            "stage", "step", "time"} <= set(names):
+        return {}
+    return dict(zip(names, values.T))
+
+
+def read_joints(folder):
+    """The rows of joints.csv, names of columns without units."""
+    try:
+        with open(folder / "joints.csv", encoding="utf-8") as file:
+            return [{name.split(" (")[0]: value for name, value in
+                     row.items() if name} for row in csv.DictReader(file)]
+    except (OSError, csv.Error, UnicodeDecodeError):
+        return []
+
+
+def read_states(folder):
+    """Time, file of the rock and file of the joints of each state."""
+    path = folder / "solution.pvd"
+    if not path.exists():
+        return []
+    try:
+        root = xml.etree.ElementTree.parse(path).getroot()
+        sets = [(float(s.get("timestep")), s.get("name"), s.get("file"))
+                for s in root.iter("DataSet")]
+    except (OSError, ValueError, TypeError,
+            xml.etree.ElementTree.ParseError) as error:
+        raise ReportError(f"'{path}' cannot be read: {error}.") from None
+    rock = [(when, name) for when, kind, name in sets if kind == "rock"]
+    joints = {when: name for when, kind, name in sets if kind == "interface"}
+    return [(when, folder / name, folder / joints[when]
+             if when in joints else None) for when, name in rock]
+
+
+class Run:
+    """The results in the output folder of one run."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.summary = read_summary(self.folder)
+        self.entries, self.changed = read_entries(self.folder)
+        self.history = read_history(self.folder)
+        self.joints = read_joints(self.folder)
+        self.stages = [s["name"] for s in self.summary["stages"]]
+        self.blocks = {b["id"]: b for b in self.summary["blocks"]}
+        self.is_plane = self.summary["scene"].get("dimension") == 2
+        self.written = time.localtime(
+            (self.folder / "summary.json").stat().st_mtime)
+        self.why_no_states = ""
+        self.states = self.states_of_stages()
+
+    def scene(self, key, otherwise=""):
+        """An entry of the section scene of summary.json."""
+        return self.summary["scene"].get(key, otherwise)
+
+    def numbers(self, entry):
+        """The numbers of an entry such as 1, 2; [] if they are formulas."""
+        words = self.entries.get(entry, "").replace(";", ",").split(",")
+        try:
+            return [float(word) for word in words if word.strip()]
+        except ValueError:
+            return []
+
+    def down(self):
+        """Unit vector of gravity, or None if it is zero or a formula."""
+        gravity = numpy.array((self.numbers("Initial state/Gravity")
+                               + [0., 0.])[:3])
+        size = numpy.linalg.norm(gravity)
+        return gravity / size if size > 0. else None
+
+    def finite_blocks(self):
+        """The numbers of the blocks that could move, in order."""
+        return [number for number, block in sorted(self.blocks.items())
+                if not {"infinite", "rigid"} & set(block.get("class", []))]
+
+    def stage_name(self, number):
+        """Name of a stage as summary.json counts: 1 is before the first."""
+        return (self.stages[number - 2] if 2 <= number < len(self.stages) + 2
+                else "the start")
+
+    def states_of_stages(self):
+        """State before the first stage, and at the end of each that has one.
+
+        A list of (name of the stage or "start", index of the stage or -1,
+        file of the rock, file of the joints)."""
+        states = read_states(self.folder)
+        if not states:
+            self.why_no_states = (
+                "There are no pictures, as the run wrote no solution.pvd "
+                "(Output/Write VTU = false, or the folder is not complete).")
+            return []
+        found = [("start", -1, *states[0][1:])]
+        times = numpy.array([state[0] for state in states])
+        ends, last = self.stage_ends("time"), 0
+        for k, name in enumerate(self.stages if ends else []):
+            # times are written with six digits; static stages take none
+            near = abs(times - ends[k]) <= 1e-5 * max(ends[-1], 1e-300)
+            near[:last + 1] = False
+            if near.any():
+                last = int(near.argmax())
+                found.append((name, k, *states[last][1:]))
+        if len(found) == 1 and len(states) > 1:
+            name = self.stages[-1] if self.stages else "end"
+            found.append((name, len(self.stages) - 1, *states[-1][1:]))
+        if len(found) > MOST_STATES:
+            keep = numpy.linspace(0, len(found) - 1, MOST_STATES).astype(int)
+            found = [found[i] for i in sorted(set(keep))]
+        return found
+
+    def stage_ends(self, column):
+        """Value of a column of the history at the end of each stage."""
+        if not self.history:
+            return None
+        stage = self.history["stage"]
+        return [self.history[column][stage <= k][-1]
+                if (stage <= k).any() else 0. for k in range(len(self.stages))]
+
+    def removed(self):
+        """Stage in which each block was taken away, by its number."""
+        return {n: b["removed_in_stage"] for n, b in self.blocks.items()
+                if b.get("removed_in_stage")}
+
+    def moved_off(self):
+        """Blocks that moved off, by the remarks of stages, and the stage."""
+        found = {}
+        for stage in self.summary["stages"]:
+            for n in re.findall(r"block (\d+) (?:moved|is moving) off",
+                                stage.get("remark", "")):
+                found.setdefault(int(n), stage["name"])
+        return found
+
+    def joint_groups(self):
+        """Names of sets, or of what joints share, and the group of each joint.
+
+        Few joints stand for themselves, more by their set or, without one, by
+        their name up to its digits; of more than eight the least are others."""
+        keys = [row.get("set") or row.get("name", "") for row in self.joints]
+        if len(set(keys)) > 8:
+            keys = [row.get("set") or re.sub(r"[\d_.-]+$", "",
+                                             row.get("name", ""))
+                    or "joints" for row in self.joints]
+            keys = [key if keys.count(key) > 1 else row.get("name", key)
+                    for key, row in zip(keys, self.joints)]
+        counts = {key: keys.count(key) for key in dict.fromkeys(keys)}
+        if len(counts) > 8:
+            most = sorted(counts, key=counts.get, reverse=True)[:7]
+            keys = [key if key in most else "others" for key in keys]
+        names = list(dict.fromkeys(keys))
+        if "others" in names:
+            names.append(names.pop(names.index("others")))
+        return names, [names.index(key) for key in keys]
+
+    def orientation(self, row):
+        """Dip and dip direction of a joint in degrees, or None."""
+        try:
+            return float(row["dip"]), float(row["dip direction"])
+        except (KeyError, ValueError):
+            pass
+        corners = [[float(x) for x in corner.split(",")] for corner in
+                   (row.get("vertices") or "").split(";") if corner.strip()]
+        normal = [row.get(f"normal {axis}") or "0" for axis in "xyz"]
+        if self.is_plane:
+            normal = [normal[0], "0", normal[1]]
+        normal = numpy.array([float(x) for x in normal])
+        if self.is_plane and len(corners) == 2:
+            (x, y), (u, v) = (corner[:2] for corner in corners)
+            normal = numpy.array([y - v, 0., u - x])
+        elif not self.is_plane and len(corners) >= 3:
+            corners = numpy.array(corners)
+            normal = numpy.cross(corners, numpy.roll(corners, -1, 0)).sum(0)
+        size = numpy.linalg.norm(normal)
+        if size == 0.:
+            return None
+        normal *= (1. if normal[2] >= 0. else -1.) / size
+        return (math.degrees(math.acos(min(1., normal[2]))),
+                math.degrees(math.atan2(normal[0], normal[1])) % 360.)

@@ -1,0 +1,332 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tables of blocks, factors and stages, for the page and as CSV files."""
+import csv
+import io
+import math
+
+# What a block is like, for colours: name, colour (of Okabe and Ito, which
+# colour-blind people tell apart), what the legend says
+STATES = {
+    "fails": ("#d55e00", "failed in a stage, falls freely, or factor below 1"),
+    "low": ("#e69f00", "factor 1 to 1.5"),
+    "holds": ("#56b4e9", "factor above 1.5"),
+    "firm": ("#009e73", "immovable, or above the highest factor tried"),
+    "undecided": ("#cc79a7", "undecided"),
+    "unknown": ("#999999", "no factor looked for")}
+
+
+def number(value, digits=4):
+    """A number as people read it, or a dash."""
+    if value is None:
+        return "–"
+    if math.isinf(value):
+        return "∞"
+    if value and not 1e-4 <= abs(value) < 1e6:
+        return f"{value:.3g}"
+    text = f"{value:.{digits}g}"
+    return f"{float(text):g}" if "e" in text else text
+
+
+def in_words(result):
+    """What a search for a factor has found, in words."""
+    outcome = result.get("outcome", "")
+    lower, upper = result.get("lower"), result.get("upper")
+    if outcome == "value":
+        return (f"{number(result.get('value'))} "
+                f"[{number(lower)}, {number(upper)}]")
+    if outcome == "falls freely":
+        return (f"falls freely: fails even at {number(upper)}"
+                if upper else "falls freely")
+    if outcome == "immovable":
+        return (f"immovable: holds at {number(lower)}" if lower else
+                "immovable")
+    if outcome == "undecided":
+        low, high = (result.get(f"undecided_{end}", result.get(end))
+                     for end in ("lower", "upper"))
+        return (f"undecided between {number(low)} and {number(high)}"
+                if high else "undecided")
+    return outcome or "–"
+
+
+def size_of(result):
+    """A number to sort by: 0 falls freely, infinite holds whatever is tried.
+
+    The least of a block alone and together with those that move with it."""
+    group = result.get("group") or {}
+    return min(size_alone(result), group.get("value", math.inf))
+
+
+def size_alone(result):
+    """The same of the block alone."""
+    outcome = result.get("outcome", "value")
+    if outcome == "falls freely":
+        return 0.
+    if outcome == "immovable":
+        return math.inf
+    if outcome == "undecided":
+        return result.get("undecided_lower", result.get("lower", math.inf))
+    if outcome == "stable":
+        return math.inf
+    return result.get("value", result.get("lower", math.inf))
+
+
+def least(results):
+    """The result with the least factor, or None; of equal ones the last."""
+    return min(reversed(results), key=size_of) if results else None
+
+
+def of_stage(results, stage):
+    """The result of a list after a stage, or None."""
+    return next((r for r in results or [] if r.get("stage") == stage), None)
+
+
+def limit_in_words(result):
+    """What limit equilibrium says, in words."""
+    if not result:
+        return "–"
+    if result.get("outcome") == "stable":
+        return "stable"
+    if "value" not in result:
+        return "–"
+    value = number(result["value"])
+    return value + (" (falls)" if result.get("mode") == "falling" else "")
+
+
+def is_held_by_clamping(factor, limit):
+    """Stable by strength reduction, but not as a rigid block without stress."""
+    if not factor or not limit or factor.get("outcome") == "undecided":
+        return None
+    return size_of(limit) < 1. <= factor.get("lower", size_of(factor))
+
+
+def state_of(has_failed, factor):
+    """Which of STATES a block is in."""
+    if has_failed:
+        return "fails"
+    if factor is None:
+        return "unknown"
+    outcome = factor.get("outcome", "value")
+    if outcome == "undecided":
+        return "undecided"
+    size = size_of(factor)
+    if (outcome == "immovable" or outcome.startswith("above")) and not (
+            factor.get("group")):
+        return "firm"
+    return "fails" if size < 1. else "low" if size <= 1.5 else "holds"
+
+
+def where_is(normal, down):
+    """Roof, wall or floor, by the outward normal of the free faces."""
+    if normal is None or down is None:
+        return None
+    along = float(normal @ down)
+    return ("roof" if along > math.sqrt(0.5) else
+            "floor" if along < -math.sqrt(0.5) else "wall")
+
+
+def row_of(run, geometry, n, moved_off):
+    """What is known of a finite block, by column."""
+    block = run.blocks[n]
+    factors, limits = (block.get(key, []) for key in
+                       ("safety_factor", "limit_equilibrium"))
+    worst = least(factors)
+    limit = of_stage(limits, worst["stage"]) if worst else least(limits)
+    exposed = block.get("exposed_stage")
+    row = {"block": n, "exposed": exposed is not None,
+           "since": None if exposed is None else run.stage_name(exposed),
+           "volume": block.get("exact_volume", block.get("volume")),
+           "is_exact": "exact_volume" in block,
+           "weight": block.get("exact_weight", block.get("weight")),
+           "width": block.get("width"),
+           "cells_across": block.get("cells_across"),
+           "faces": block.get("exact_joint_areas",
+                              block.get("joint_areas", {})),
+           "mode": (worst or {}).get("failure_mode") or None,
+           "limit": limit, "factor": worst,
+           "stress_ratio": (of_stage(block.get("stress_ratio"),
+                                     worst["stage"]) if worst else
+                            None) or {},
+           "group": (worst or {}).get("group"),
+           "clamped": is_held_by_clamping(worst, limit),
+           "removed": block.get("removed_in_stage"),
+           "moved_off": moved_off.get(n),
+           "removable": block.get("removable"),
+           "centroid": block.get("centroid"),
+           "where": None, "free_area": None, "displacement": None}
+    row["state"] = state_of(row["removed"] or row["moved_off"], worst)
+    if geometry is not None:
+        free = geometry.free_normal(n)
+        if exposed is not None and free:
+            row["where"] = where_is(free[0], run.down())
+            row["free_area"] = float(free[1])
+        moved = [d for d, state in zip(geometry.displacement(n), run.states)
+                 if d is not None and state[1] >= 0]
+        row["displacement"] = max(moved, default=None)
+    return row
+
+
+def danger(row):
+    """Sorting key: exposed first, then those that failed, then by factor."""
+    size = (-1. if row["removed"] or row["moved_off"] else size_of(row["factor"])
+            if row["factor"] else size_of(row["limit"]) if row["limit"]
+            else math.inf)
+    return not row["exposed"], size, -(row["volume"] or 0.), row["block"]
+
+
+def block_rows(run, geometry):
+    """Finite blocks, the most dangerous first."""
+    moved_off = run.moved_off()
+    return sorted((row_of(run, geometry, n, moved_off)
+                   for n in run.finite_blocks()), key=danger)
+
+
+def as_csv(names, rows):
+    """The text of a CSV file."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(names)
+    writer.writerows([["" if value is None else value for value in row]
+                      for row in rows])
+    return text.getvalue()
+
+
+def blocks_csv(run, rows):
+    """blocks.csv: finite blocks, the most dangerous first."""
+    names = ["block", "exposed since", "place", "removable",
+             "volume (m3)" if not run.is_plane else "volume (m3 per m)",
+             "weight (N)", "width (m)", "cells across", "free area (m2)",
+             "joints", "failure mode", "limit equilibrium",
+             "limit equilibrium mode", "remark", "factor", "factor lower",
+             "factor upper", "outcome", "factor after", "stress ratio",
+             "group", "group factor", "held by clamping",
+             "largest displacement (m)", "moved off in", "removed in"]
+    table = []
+    for row in rows:
+        limit, factor = row["limit"] or {}, row["factor"] or {}
+        group = row["group"] or {}
+        has_value = factor.get("outcome") == "value"
+        table.append([
+            row["block"], row["since"], row["where"], row["removable"],
+            row["volume"], row["weight"], row["width"], row["cells_across"],
+            row["free_area"], " ".join(row["faces"]), row["mode"],
+            limit.get("value", limit.get("outcome")), limit.get("mode"),
+            limit.get("remark"), factor.get("value") if has_value else None,
+            factor.get("lower"), factor.get("upper") if has_value else None,
+            factor.get("outcome"), factor.get("stage"),
+            row["stress_ratio"].get("value"),
+            " ".join(map(str, group.get("blocks", []))), group.get("value"),
+            {True: "yes", False: "no", None: None}[row["clamped"]],
+            row["displacement"], row["moved_off"], row["removed"]])
+    return as_csv(names, table)
+
+
+def factors_csv(run):
+    """factors.csv: a line for each block and stage looked at."""
+    names = ["block", "stage", "outcome", "factor", "lower", "upper",
+             "undecided lower", "undecided upper", "failure mode",
+             "limit equilibrium", "limit equilibrium mode", "remark",
+             "stress ratio", "group", "group factor", "group lower",
+             "group upper", "trials"]
+    table = []
+    for n in run.finite_blocks():
+        block = run.blocks[n]
+        for found in block.get("safety_factor", []):
+            stage, group = found["stage"], found.get("group", {})
+            limit = of_stage(block.get("limit_equilibrium"), stage) or {}
+            ratio = of_stage(block.get("stress_ratio"), stage) or {}
+            has_value = found.get("outcome") == "value"
+            table.append([
+                n, stage, found.get("outcome"),
+                found.get("value") if has_value else None,
+                found.get("lower"), found.get("upper") if has_value else None,
+                found.get("undecided_lower"), found.get("undecided_upper"),
+                found.get("failure_mode"),
+                limit.get("value", limit.get("outcome")), limit.get("mode"),
+                limit.get("remark"), ratio.get("value"),
+                " ".join(map(str, group.get("blocks", []))),
+                group.get("value"), group.get("lower"), group.get("upper"),
+                len(found.get("trials", []))])
+    return as_csv(names, table)
+
+
+STAGE_COLUMNS = {
+    "name": "stage", "steps": "steps", "time_step": "time step (s)",
+    "converged": "converged", "unbalanced_ratio": "unbalanced ratio",
+    "largest_nodal_ratio": "largest nodal ratio",
+    "max_displacement": "largest displacement (m)", "cells": "cells",
+    "plastic_cells": "plastic cells", "open_points": "open points",
+    "sliding_points": "sliding points", "sticking_points": "sticking points",
+    "contacts_through_rock": "contacts through rock",
+    "largest_overlap": "largest overlap (m)", "remark": "remark"}
+
+
+def stages_csv(run):
+    """stages.csv: a line for each stage."""
+    return as_csv(
+        [*STAGE_COLUMNS.values(), "energy residual (J)",
+         "relative energy residual"],
+        [[stage.get(key) for key in STAGE_COLUMNS]
+         + [stage.get("energy", {}).get(key) for key in
+            ("residual", "relative_residual")]
+         for stage in run.summary["stages"]])
+
+
+def few(names, most=6):
+    """The first names of a list, and how many more there are."""
+    return ", ".join(names[:most]) + (
+        f" and {len(names) - most} more" if len(names) > most else "")
+
+
+def warnings_of(run):
+    """What the files of the run say that its user should know."""
+    summary, found = run.summary, []
+    for stage in summary["stages"]:
+        if stage.get("converged") is False:
+            found.append(f"Stage {stage['name']} did not converge: its "
+                         "unbalanced ratio is "
+                         f"{number(stage.get('unbalanced_ratio'))}.")
+        if stage.get("contacts_through_rock"):
+            found.append(f"Stage {stage['name']}: "
+                         f"{stage['contacts_through_rock']} contacts through "
+                         "rock.")
+    mesh = summary.get("mesh", {})
+    if mesh.get("lost_blocks"):
+        place = ", ".join(number(x) for x in mesh.get("largest_lost_place",
+                                                      []))
+        found.append(f"{mesh['lost_blocks']} blocks too small for the mesh "
+                     "went to their neighbours, the largest of "
+                     f"{number(mesh['largest_lost_volume'])} m³"
+                     + (f" at ({place})." if place else "."))
+    for key, text in (("joints_lost", "Joints too small for the mesh"),
+                      ("joints_outside", "Joints outside of the domain")):
+        if mesh.get(key):
+            found.append(f"{text}: {few(mesh[key].split(', '))}.")
+    if mesh.get("merged_areas"):
+        shared = sorted(mesh["merged_areas"].items(), key=lambda m: -m[1])
+        found.append("Joints share faces, which the weaker rules: "
+                     + few([f"{names} ({number(area)} m²)"
+                            for names, area in shared]) + ".")
+    if mesh.get("open_ends"):
+        found.append("Joints that end just before another: "
+                     + few(mesh["open_ends"]) + ".")
+    capped = summary.get("run", {}).get("capped_contact_groups")
+    if capped:
+        found.append(f"Contact groups (in all {capped}) were left at Contact/Maximum "
+                     "iterations, not solved to Contact/Tolerance.")
+    undecided = [n for n in run.finite_blocks() if any(
+        r.get("outcome") == "undecided" or "undecided_upper" in r
+        for r in run.blocks[n].get("safety_factor", []))]
+    if undecided:
+        found.append("Trials of blocks neither came to rest nor failed: "
+                     + few(list(map(str, undecided)), 20) + ".")
+    if summary.get("not_finite"):
+        found.append("Numbers that are not finite: "
+                     + few(summary["not_finite"]) + ".")
+    wanted = (run.numbers("Mesh/Cells across blocks") or [0.])[0]
+    coarse = [n for n in run.finite_blocks()
+              if "exposed_stage" in run.blocks[n]
+              and run.blocks[n].get("cells_across", wanted) < wanted]
+    if coarse:
+        found.append(f"Fewer than the {wanted:g} cells that Mesh/Cells across "
+                     "blocks asks for across exposed blocks: " + few(list(map(str, coarse)), 20) + ".")
+    return found

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reports of a plane scene and of a wedge, by contrib/keyblock-report.
+
+usage: report.py KEYBLOCK REPORT PRM FOLDER CASE
+
+plane, wedge: the tables carry the numbers of summary.json, the page has all its
+parts, loads nothing from elsewhere and is of a sensible size; a Chromium, if
+there is one, opens it without an error on the console and shows the view.
+poor: without VTU files, used.prm or joints.csv there is a report with a sentence
+that says what is missing; of a folder without a run there is none, and what was
+there stays.
+"""
+import csv
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+KEYBLOCK, REPORT, PRM, FOLDER, CASE = sys.argv[1:6]
+PRM, FOLDER = pathlib.Path(PRM), pathlib.Path(FOLDER)
+SCENES = {
+    "plane": ("tutorial/joint_network", [
+        "Safety factor/Blocks=all", "Stages/Names=dig, wait",
+        "Stages/wait/Kind=quasi-static", "Output/Write VTU=true"]),
+    "wedge": ("verification/wedge_3d", [
+        "Safety factor/Bracket=0.05", "Output/Write VTU=true"]),
+    "poor": ("verification/factor_incline", [
+        "Safety factor/Bracket=0.1", "Output/Write VTU=false"])}
+# what would make a browser load something from elsewhere
+OUTSIDE = (r"""(?:src|href|data|poster|action)\s*=\s*["']?\s*(?:https?:)?//""",
+           r"""url\(\s*["']?\s*(?:https?:)?//""",
+           r"""@import\s""", r"""\bimport\s*\(?\s*["'](?:https?:)?//""",
+           r"""\bfrom\s*["'](?:https?:)?//""", r"""<link[^>]+stylesheet""")
+
+
+def run_scene(folder):
+    """Run the scene of the case; its summary."""
+    scene, settings = SCENES[CASE]
+    subprocess.run([KEYBLOCK, PRM / f"{scene}.prm", "--output", folder]
+                   + [word for s in settings for word in ("--set", s)],
+                   check=True, stdout=subprocess.DEVNULL)
+    return json.loads((folder / "summary.json").read_text())
+
+
+def make_report(folder, path):
+    """Make a report that has to succeed; what the script says, and the page."""
+    done = subprocess.run([REPORT, folder, "-o", path], capture_output=True,
+                          text=True)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    return done.stdout, path.read_text(encoding="utf-8")
+
+
+def rows_of(path):
+    """The rows of a CSV file."""
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def finite_blocks(summary):
+    """Blocks that could move, by number."""
+    return {b["id"]: b for b in summary["blocks"]
+            if not {"infinite", "rigid"} & set(b["class"])}
+
+
+def assert_tables(summary, folder):
+    """Every number of the tables is that of summary.json."""
+    blocks = finite_blocks(summary)
+    rows = rows_of(folder / "blocks.csv")
+    assert sorted(int(r["block"]) for r in rows) == sorted(blocks)
+    for row in rows:
+        block = blocks[int(row["block"])]
+        assert float(row["volume (m3)" if "volume (m3)" in row else
+                         "volume (m3 per m)"]) == block.get(
+                             "exact_volume", block["volume"])
+        assert float(row["weight (N)"]) == block.get("exact_weight",
+                                                     block["weight"])
+        assert set(row["joints"].split()) == set(block["joint_areas"])
+        assert bool(row["exposed since"]) == ("exposed_stage" in block)
+    is_exposed = [bool(r["exposed since"]) for r in rows]
+    assert is_exposed == sorted(is_exposed, reverse=True), "exposed come first"
+    found = rows_of(folder / "factors.csv")
+    wanted = [(n, f) for n, b in blocks.items()
+              for f in b.get("safety_factor", [])]
+    assert wanted and len(found) == len(wanted)
+    for row, (n, factor) in zip(found, wanted):
+        assert (int(row["block"]), row["stage"], row["outcome"]) == (
+            n, factor["stage"], factor["outcome"])
+        assert float(row["lower"]) == factor["lower"]
+        if factor["outcome"] == "value":
+            assert float(row["factor"]) == factor["value"]
+            assert float(row["upper"]) == factor["upper"]
+    stages = rows_of(folder / "stages.csv")
+    assert [r["stage"] for r in stages] == [s["name"] for s in
+                                            summary["stages"]]
+    for row, stage in zip(stages, summary["stages"]):
+        assert int(row["steps"]) == stage["steps"]
+        assert float(row["largest displacement (m)"]) == stage[
+            "max_displacement"]
+        assert float(row["energy residual (J)"]) == stage["energy"]["residual"]
+
+
+def assert_page(summary, page):
+    """What was computed stands in the page, which needs nothing from elsewhere."""
+    for pattern in OUTSIDE:
+        hit = re.search(pattern, page)
+        assert not hit, f"{hit[0]!r} in {page[hit.start() - 80:hit.end() + 80]}"
+    assert f"<h1>{summary['scene']['title']}</h1>" in page
+    assert summary["program"]["commit"] in page
+    assert summary["scene"]["digest"] in page
+    for n, block in finite_blocks(summary).items():
+        row = re.search(rf'<tr data-block="{n}">(.*?)</tr>', page)[1]
+        volume = block.get("exact_volume", block["volume"])
+        shown = [float(x) for x in re.findall(r">([\d.]+(?:e-?\d+)?)\*?<", row)]
+        assert any(abs(x - volume) <= 1e-3 * volume for x in shown), (n, shown)
+        assert ("hidden" in row) == ("exposed_stage" not in block)
+        values = [f["value"] for f in block.get("safety_factor", [])
+                  if f["outcome"] == "value"]
+        if values:
+            found = re.search(r"([\d.]+)&nbsp;\[", row)
+            assert abs(float(found[1]) - min(values)) < 1e-3 * min(values)
+    for stage in summary["stages"]:
+        assert f"<h3>{stage['name']}</h3>" in page
+
+
+def assert_pictures(summary, page, n_states):
+    """A picture for each state, figures, and a view with its data."""
+    n_pictures = page.count('src="data:image/png;base64,')
+    assert n_pictures == n_states, n_pictures
+    assert page.count("<svg") >= 2
+    meta = json.loads(re.search(r'id="view-meta">(.*?)</script>', page)[1])
+    assert len(meta["stages"]) == n_states
+    assert {int(n) for n in meta["blocks"]} == set(finite_blocks(summary))
+    assert meta["arrays"]["triangles"][2] > 0
+
+
+def open_in_browser(path):
+    """Open the page from file:// where there is a Chromium; look at its view."""
+    browser = shutil.which("chromium") or shutil.which("chromium-browser")
+    if not browser:
+        print("skipped: there is no Chromium to open the page with (package "
+              "chromium)")
+        return
+    with tempfile.TemporaryDirectory() as profile:
+        done = subprocess.run(
+            [browser, "--headless", "--no-sandbox", "--use-angle=swiftshader",
+             "--enable-unsafe-swiftshader", f"--user-data-dir={profile}",
+             "--enable-logging=stderr", "--window-size=1200,900",
+             "--virtual-time-budget=10000", "--dump-dom",
+             path.resolve().as_uri()], capture_output=True, text=True,
+            timeout=100)
+    console = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+    assert not console, "\n".join(console)
+    assert re.search(r'<div id="canvas">\s*<canvas', done.stdout), \
+        "the view is not there"
+    name = re.search(r'id="stage-name">([^<]*)<', done.stdout)[1]
+    assert name.startswith("after "), name
+    print(f"opened in {browser}: the view is there, {name}")
+
+
+def check(n_states):
+    """The report of a good run."""
+    folder, path = FOLDER / "output", FOLDER / "report.html"
+    summary = run_scene(folder)
+    text, page = make_report(folder, path)
+    print(text.strip())
+    assert_tables(summary, FOLDER)
+    assert_page(summary, page)
+    assert_pictures(summary, page, n_states)
+    size = path.stat().st_size
+    assert 7e5 < size < 3e6, size  # the script of the view has 0.73 MB
+    if CASE == "wedge":  # closed form of the scene's head; the free face is up
+        row, = rows_of(FOLDER / "blocks.csv")
+        assert float(row["factor lower"]) < 0.877022 < float(
+            row["factor upper"]), row
+        assert row["place"] == "floor" and row["held by clamping"] == "no"
+    open_in_browser(path)
+
+
+def check_poor():
+    """Reports of less than a run leaves, and none of a wrong folder."""
+    folder, path = FOLDER / "output", FOLDER / "report.html"
+    summary = run_scene(folder)
+    text, page = make_report(folder, path)
+    assert "no pictures" in text and "Write VTU = false" in page
+    assert_tables(summary, FOLDER)
+    assert_page(summary, page)
+    assert "data:image/png" not in page and 'id="view"' not in page
+    for name in ("used.prm", "joints.csv", "history.csv"):
+        (folder / name).unlink(missing_ok=True)
+    _, page = make_report(folder, path)
+    assert "There is no used.prm" in page
+    before = path.read_bytes()
+    (FOLDER / "empty").mkdir(exist_ok=True)
+    (FOLDER / "damaged").mkdir(exist_ok=True)
+    (FOLDER / "damaged" / "summary.json").write_text('{"scene": ')
+    for wrong in ("nothing", "empty", "damaged"):
+        done = subprocess.run([REPORT, FOLDER / wrong, "-o", path],
+                              capture_output=True, text=True)
+        assert done.returncode == 1, wrong
+        assert done.stdout == "" and done.stderr.count("\n") == 1, done.stderr
+        assert done.stderr.startswith("keyblock-report: "), done.stderr
+        print(done.stderr.strip())
+    assert path.read_bytes() == before
+
+
+shutil.rmtree(FOLDER, ignore_errors=True)
+FOLDER.mkdir(parents=True)
+if CASE == "poor":
+    check_poor()
+else:
+    check({"plane": 3, "wedge": 2}[CASE])
