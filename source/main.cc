@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
 
+#include <keyblock/base/communicator.h>
 #include <keyblock/base/last_resort.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/simulation.h>
 #include <keyblock/scene/command_line.h>
 
@@ -12,9 +12,11 @@ namespace
 {
   template <int dim>
   void
-  run(const Keyblock::CommandLine &arguments)
+  run(const Keyblock::Communicator &world,
+      const Keyblock::CommandLine &arguments)
   {
-    Keyblock::Simulation<dim> simulation(arguments.scene,
+    Keyblock::Simulation<dim> simulation(world,
+                                         arguments.scene,
                                          arguments.overrides,
                                          arguments.output,
                                          arguments.restart);
@@ -32,6 +34,7 @@ main(int argc, char *argv[])
   int n_names       = 1;
   char *only_name[] = {argv[0], nullptr}, **names = only_name;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, names, 1);
+  const Keyblock::Communicator world(MPI_COMM_WORLD);
   dealii::deal_II_exceptions::disable_abort_on_exception();
   std::set_terminate(Keyblock::end_with_a_sentence);
   int exit_code = 0;
@@ -40,28 +43,29 @@ main(int argc, char *argv[])
       const Keyblock::CommandLine arguments(argc, argv);
       if (!arguments.answer.empty())
         {
-          if (Keyblock::is_root())
+          if (world.is_root())
             std::cout << arguments.answer << std::flush;
           AssertThrow(std::cout,
                       Keyblock::ComputationError(
                         "The answer cannot be written; check free space."));
         }
-      else if (Keyblock::read_dimension(arguments.scene, arguments.overrides) ==
-               2)
-        run<2>(arguments);
+      else if (Keyblock::read_dimension(world,
+                                        arguments.scene,
+                                        arguments.overrides) == 2)
+        run<2>(world, arguments);
       else
-        run<3>(arguments);
+        run<3>(world, arguments);
     }
   catch (const Keyblock::InputError &error)
     {
-      if (Keyblock::is_root())
+      if (world.is_root())
         std::cerr << "Error: " << Keyblock::in_one_line(error.message)
                   << std::endl;
       exit_code = 1;
     }
   catch (const Keyblock::ComputationError &error)
     {
-      if (Keyblock::is_root())
+      if (world.is_root())
         std::cerr << "Failed: " << Keyblock::in_one_line(error.message)
                   << std::endl;
       exit_code = 2;
@@ -74,8 +78,8 @@ main(int argc, char *argv[])
     {
       std::cerr << "Failed: " << Keyblock::describe_present_exception()
                 << std::endl;
-      if (Keyblock::n_ranks() > 1)
-        MPI_Abort(MPI_COMM_WORLD, 2);
+      if (world.size() > 1)
+        MPI_Abort(world, 2);
       exit_code = 2;
     }
   return exit_code;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/stop_request.h>
 
-#include <keyblock/base/mpi.h>
 
 #include <csignal>
 
@@ -42,9 +41,9 @@ namespace Keyblock
 
 
   void
-  stop_if_asked()
+  stop_if_asked(const Communicator &communicator)
   {
-    const int signal = max_over_ranks(signal_received());
+    const int signal = communicator.max(signal_received());
     if (signal > 0)
       throw StopRequest{signal};
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/mesh/excavation_region.h>
 
@@ -118,26 +117,28 @@ namespace Keyblock
 
   template <int dim>
   std::pair<Mesh<dim>, Blocks<dim>>
-  make_mesh_for_blocks(const Scene<dim> &scene)
+  make_mesh_for_blocks(const Communicator &communicator,
+                       const Scene<dim> &scene,
+                       const dealii::ConditionalOStream &out)
   {
     std::vector<SizeDemand<dim>> demands; // on rank 0
-    Mesh<dim> mesh      = make_mesh(scene);
+    Mesh<dim> mesh      = make_mesh(communicator, scene, out);
     Blocks<dim> blocks  = find_blocks(mesh, scene);
     unsigned int n_made = 1;
     while (scene.meshing.cells_across > 0. &&
            scene.meshing.generator == "gmsh" && n_made <= most_passes)
       {
         std::vector<unsigned int> n_new(1, 0);
-        on_root([&]() {
+        communicator.on_root([&]() {
           const auto more =
             CoarseBlocks<dim>(scene, mesh, blocks, demands).demands();
           demands.insert(demands.end(), more.begin(), more.end());
           n_new[0] = more.size();
         });
-        broadcast(n_new);
+        communicator.broadcast(n_new);
         if (n_new[0] == 0)
           break;
-        mesh   = make_mesh(scene, demands);
+        mesh   = make_mesh(communicator, scene, out, demands);
         blocks = find_blocks(mesh, scene);
         ++n_made;
       }
@@ -145,6 +146,12 @@ namespace Keyblock
     return {std::move(mesh), std::move(blocks)};
   }
 
-  template std::pair<Mesh<2>, Blocks<2>> make_mesh_for_blocks(const Scene<2> &);
-  template std::pair<Mesh<3>, Blocks<3>> make_mesh_for_blocks(const Scene<3> &);
+  template std::pair<Mesh<2>, Blocks<2>>
+  make_mesh_for_blocks(const Communicator &,
+                       const Scene<2> &,
+                       const dealii::ConditionalOStream &);
+  template std::pair<Mesh<3>, Blocks<3>>
+  make_mesh_for_blocks(const Communicator &,
+                       const Scene<3> &,
+                       const dealii::ConditionalOStream &);
 } // namespace Keyblock

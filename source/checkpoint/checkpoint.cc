@@ -2,7 +2,6 @@
 // The state of a run from the ranks to lists over the whole mesh, and back.
 #include <keyblock/checkpoint/checkpoint.h>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/checkpoint/state_rows.h>
 
 #include <algorithm>
@@ -14,16 +13,16 @@ namespace Keyblock
   {
     /** Add @p list over all ranks, on rank 0. */
     void
-    sum_to_root(std::vector<double> &list)
+    sum_to_root(const Communicator &communicator, std::vector<double> &list)
     {
-      if (n_ranks() > 1)
-        MPI_Reduce(is_root() ? MPI_IN_PLACE : list.data(),
+      if (communicator.size() > 1)
+        MPI_Reduce(communicator.is_root() ? MPI_IN_PLACE : list.data(),
                    list.data(),
                    list.size(),
                    MPI_DOUBLE,
                    MPI_SUM,
                    0,
-                   world());
+                   communicator);
     }
 
     /** A list that was read must be as long as mesh and ranks want it. */
@@ -166,7 +165,8 @@ namespace Keyblock
                                      const unsigned int n_values,
                                      const unsigned int n_nodes)
   {
-    const auto is_empty = max_over_ranks<unsigned int>(field.size()) == 0;
+    const auto is_empty =
+      numbering.communicator.max(static_cast<unsigned int>(field.size())) == 0;
     std::vector<double> list;
     if (!file.is_read() && !is_empty)
       {
@@ -175,7 +175,7 @@ namespace Keyblock
           std::copy_n(field.begin() + n_values * node,
                       n_values,
                       list.begin() + n_values * numbering.vertex_of_node[node]);
-        sum_to_root(list);
+        sum_to_root(numbering.communicator, list);
       }
     file.exchange(entry, list);
     if (!file.is_read())
@@ -211,7 +211,7 @@ namespace Keyblock
         list.assign(std::size_t(n_values) * split.mesh.n_cells(), 0.);
         for (unsigned int c = first; c < cells.mesh_cell.size(); ++c)
           std::copy_n(begin(c), n_values, place(c));
-        sum_to_root(list);
+        sum_to_root(numbering.communicator, list);
       }
     file.exchange(entry, list);
     if (!file.is_read())
@@ -335,7 +335,7 @@ namespace Keyblock
             std::copy(row.begin(), row.end(), rows.begin() + n * p);
           }
     if (!file.is_read())
-      sum_to_root(rows);
+      sum_to_root(numbering.communicator, rows);
     file.exchange(entry, rows);
     if (!file.is_read())
       return;

@@ -138,7 +138,8 @@ namespace Keyblock
 
 
   std::vector<SafetyFactor>
-  gather_from_rank_groups(const std::vector<SafetyFactor> &mine)
+  gather_from_rank_groups(const Communicator &all,
+                          const std::vector<SafetyFactor> &mine)
   {
     // numbers of factors, of their trials and groups, and texts
     using Rows = std::vector<std::vector<double>>;
@@ -160,7 +161,7 @@ namespace Keyblock
     const std::size_t n = numbers_of(Trial()).size();
     std::vector<SafetyFactor> found;
     for (const auto &[rows, texts] :
-         dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, packed))
+         dealii::Utilities::MPI::all_gather(all, packed))
       for (std::size_t f = 0; 3 * f < rows.size(); ++f)
         {
           auto factor = from_numbers<SafetyFactor>(rows[3 * f].data());
@@ -197,7 +198,7 @@ namespace Keyblock
       rows.insert(rows.end(), row.begin(), row.end());
     file.exchange(group + "rows", rows);
     file.exchange(group + "stage_begin", history.stage_begin);
-    if (!file.is_read() || !is_root())
+    if (!file.is_read() || !file.communicator.is_root())
       return;
     AssertThrow(rows.size() % n == 0,
                 InputError("The history in the checkpoint has other columns "

@@ -182,9 +182,10 @@ namespace Keyblock
 
 
 
-  StateFile::StateFile()
+  StateFile::StateFile(const Communicator &communicator)
+    : communicator(communicator)
   {
-    if (!is_root())
+    if (!communicator.is_root())
       return;
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -196,10 +197,12 @@ namespace Keyblock
 
 
 
-  StateFile::StateFile(const std::string &name)
-    : name(name)
+  StateFile::StateFile(const Communicator &communicator,
+                       const std::string &name)
+    : communicator(communicator)
+    , name(name)
   {
-    on_root([&]() {
+    communicator.on_root([&]() {
       H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
       check_seal(name);
       file = H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -211,10 +214,12 @@ namespace Keyblock
 
 
 
-  StateFile::StateFile(std::vector<char> &image)
-    : name("state of the run")
+  StateFile::StateFile(const Communicator &communicator,
+                       std::vector<char> &image)
+    : communicator(communicator)
+    , name("state of the run")
   {
-    if (!is_root())
+    if (!communicator.is_root())
       return;
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -241,10 +246,10 @@ namespace Keyblock
   {
     if (is_read())
       {
-        on_root([&]() { list = load_list<T>(file, entry, name); });
-        broadcast(list);
+        communicator.on_root([&]() { list = load_list<T>(file, entry, name); });
+        communicator.broadcast(list);
       }
-    else if (is_root())
+    else if (communicator.is_root())
       save_list(file, entry, list);
   }
 
@@ -355,25 +360,25 @@ namespace Keyblock
                              const std::vector<double *> &values)
   {
     const std::size_t n = values.size();
-    std::vector<double> list(n * n_ranks(), 0.), shares(n);
+    std::vector<double> list(n * communicator.size(), 0.), shares(n);
     std::transform(values.begin(),
                    values.end(),
                    shares.begin(),
                    [](const double *value) { return *value; });
     MPI_Allgather(
-      shares.data(), n, MPI_DOUBLE, list.data(), n, MPI_DOUBLE, world());
+      shares.data(), n, MPI_DOUBLE, list.data(), n, MPI_DOUBLE, communicator);
     exchange_list(entry, list);
     if (!is_read())
       return;
-    const bool has_same_ranks = list.size() == n * n_ranks();
+    const bool has_same_ranks = list.size() == n * communicator.size();
     for (std::size_t i = 0; i < n; ++i)
       {
         double sum = 0.;
         for (std::size_t k = i; k < list.size(); k += n)
           sum += list[k];
-        *values[i] = has_same_ranks ? list[n * this_rank() + i]
-                     : is_root()    ? sum
-                                    : 0.;
+        *values[i] = has_same_ranks ? list[n * communicator.rank() + i]
+                     : communicator.is_root() ? sum
+                                              : 0.;
       }
   }
 
@@ -383,9 +388,9 @@ namespace Keyblock
   StateFile::image() const
   {
     std::vector<char> bytes;
-    if (is_root())
+    if (communicator.is_root())
       bytes = image_of(file);
-    broadcast(bytes);
+    communicator.broadcast(bytes);
     return bytes;
   }
 
@@ -395,7 +400,7 @@ namespace Keyblock
   StateFile::write(const std::string &file_name) const
   {
     std::string failure;
-    if (is_root())
+    if (communicator.is_root())
       {
         const std::string part = file_name + ".part";
         if (!write_through(part, image_of(file)) ||
@@ -405,6 +410,6 @@ namespace Keyblock
             unlink(part.c_str());
           }
       }
-    return text_of_root(failure);
+    return communicator.text_of_root(failure);
   }
 } // namespace Keyblock

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/contact/contact_detection.h>
 #include <keyblock/contact/pair_exchange.h>
 
@@ -120,8 +119,8 @@ namespace Keyblock
               square = std::max(square, moved);
               speed  = std::max(speed, fast);
             }
-        square = max_over_ranks(square);
-        speed  = std::sqrt(max_over_ranks(speed));
+        square = numbering.communicator.max(square);
+        speed  = std::sqrt(numbering.communicator.max(speed));
         memory.is_search_due =
           memory.is_search_due || square > 0.25 * search.skin() * search.skin();
         const double eighth      = 0.125 * search.skin();
@@ -141,7 +140,7 @@ namespace Keyblock
     for (unsigned int p = 0; p < memory.state.size(); ++p)
       converted[p] = memory.state[p].is_converted;
     std::vector<PairState<dim>> all = gather_pair_states(topology, memory);
-    max_lists(converted);
+    numbering.communicator.max_lists(converted);
     std::vector<JointHistory> histories;
     if (strength.has_memory)
       histories = gather_pair_histories(topology, memory);
@@ -167,8 +166,9 @@ namespace Keyblock
     const bool has_slid = convert_slid_pairs();
     measure_motion(step);
     int due = memory.is_search_due ? 2 : has_slid ? 1 : 0;
-    if (n_ranks() > 1) // every step: alone, nobody needs to be asked
-      due = max_over_ranks(due);
+    if (numbering.communicator.size() >
+        1) // every step: alone, nobody needs to be asked
+      due = numbering.communicator.max(due);
     if (due == 0)
       return false;
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/contact/damping.h>
 #include <keyblock/contact/multi_pair_contact.h>
 #include <keyblock/law/friction.h>
@@ -176,7 +175,7 @@ namespace Keyblock
                                const ContactStep &step) const
   {
     return step.keeps_ledger && (memory.is_surface_contact_group[group]
-                                   ? is_root()
+                                   ? topology.numbering.communicator.is_root()
                                    : topology.is_primary(group));
   }
 

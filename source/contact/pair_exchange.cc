@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/contact/pair_exchange.h>
 
 #include <cmath>
@@ -24,7 +23,7 @@ namespace Keyblock
           packed[n * p + dim + 2] = state[p].is_converted;
           packed[n * p + dim + 3] = state[p].has_opened;
         }
-    sum_lists(packed);
+    topology.numbering.communicator.sum_lists(packed);
     std::vector<PairState<dim>> result(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
       {
@@ -59,7 +58,7 @@ namespace Keyblock
           packed[3 * p + 1] = result[p].dilation;
           packed[3 * p + 2] = result[p].damage;
         }
-    sum_lists(packed);
+    topology.numbering.communicator.sum_lists(packed);
     for (unsigned int p = 0; p < result.size(); ++p)
       result[p] = {packed[3 * p], packed[3 * p + 1], packed[3 * p + 2]};
     return result;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/contact/report.h>
 
 #include <algorithm>
@@ -33,7 +32,9 @@ namespace Keyblock
 
     template <int dim>
     JointSums<dim>
-    finish_sums(const JointSums<dim> &sums, const Vector<dim> &moment)
+    finish_sums(const Communicator &communicator,
+                const JointSums<dim> &sums,
+                const Vector<dim> &moment)
     {
       std::vector<double> values = {sums.normal,
                                     double(sums.n_open),
@@ -42,7 +43,7 @@ namespace Keyblock
                                     double(sums.n_intact)};
       values.insert(values.end(), sums.force.begin(), sums.force.end());
       values.insert(values.end(), moment.begin(), moment.end());
-      sum_lists(values);
+      communicator.sum_lists(values);
       JointSums<dim> total;
       total.normal     = values[0];
       total.n_open     = std::lround(values[1]);
@@ -152,7 +153,7 @@ namespace Keyblock
     std::vector<JointSums<dim>> &sums,
     std::vector<Vector<dim>> &moment) const
   {
-    if (!is_root())
+    if (!topology.numbering.communicator.is_root())
       return;
     const double kick = memory.present_kick();
     for (const SurfaceContact<dim> &contact : memory.contacts)
@@ -207,7 +208,8 @@ namespace Keyblock
     add_surface_contacts(sum_of_joint, sums, moment);
     for (unsigned int i = 0; i < sums.size(); ++i)
       {
-        sums[i] = finish_sums<dim>(sums[i], moment[i]);
+        sums[i] =
+          finish_sums<dim>(topology.numbering.communicator, sums[i], moment[i]);
         if (!joints.empty())
           sums[i].shear =
             shear_of<dim>(sums[i].force, scene.joints[joints[i]]->normal());
@@ -265,7 +267,7 @@ namespace Keyblock
               reversed(memory.normal[p]),
               memory.state[p].status);
       }
-    if (is_root())
+    if (topology.numbering.communicator.is_root())
       for (const SurfaceContact<dim> &contact : memory.contacts)
         {
           const unsigned int slave       = search.block_of_node[contact.slave];
@@ -281,7 +283,8 @@ namespace Keyblock
                 point.status);
         }
     for (unsigned int j = 0; j < sums.size(); ++j)
-      sums[j] = finish_sums<dim>(sums[j], moment[j]);
+      sums[j] =
+        finish_sums<dim>(topology.numbering.communicator, sums[j], moment[j]);
     return sums;
   }
 
@@ -310,7 +313,7 @@ namespace Keyblock
                              fields.displacement[dim * minus + d]);
         sums[dim] += interface.pairs[p].area;
       }
-    sum_lists(sums);
+    topology.numbering.communicator.sum_lists(sums);
     Vector<dim> slip{};
     if (sums[dim] > 0.)
       for (int d = 0; d < dim; ++d)
@@ -362,7 +365,7 @@ namespace Keyblock
           n[0] += memory.state[p].status == ContactStatus::open;
           n[1] += memory.state[p].status == ContactStatus::sliding;
         }
-    sum_lists(n);
+    topology.numbering.communicator.sum_lists(n);
     JointSums<dim> sums;
     sums.n_open    = n[0];
     sums.n_sliding = n[1];
@@ -390,7 +393,7 @@ namespace Keyblock
           mark(contact.master_block);
           mark(search.block_of_node[contact.slave]);
         }
-    max_lists(is_sliding);
+    topology.numbering.communicator.max_lists(is_sliding);
     return is_sliding;
   }
 

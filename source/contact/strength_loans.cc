@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/contact/pair_exchange.h>
 #include <keyblock/contact/strength_loans.h>
 
@@ -115,7 +114,7 @@ namespace Keyblock
               state[p].bend_shear   = most_shear;
             }
       }
-    return sum_over_ranks(n_held);
+    return topology.numbering.communicator.sum(n_held);
   }
 
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/disjoint_sets.h>
 #include <keyblock/base/errors.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/contact/surface_contacts.h>
 
 #include <algorithm>
@@ -354,7 +353,7 @@ namespace Keyblock
           for (int d = 0; d < dim; ++d)
             nodes.impulse[dim * point.node[k] + d] +=
               point.weight[k] * point.impulse[d];
-        if (step.keeps_ledger && is_root())
+        if (step.keeps_ledger && topology.numbering.communicator.is_root())
           solver.book(point, nodes.old_velocity.data(), nodes.velocity.data());
       }
   }

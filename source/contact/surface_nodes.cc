@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/contact/surface_nodes.h>
 
 namespace Keyblock
@@ -44,8 +43,8 @@ namespace Keyblock
                   fields.supports[support].directions[k][d] *
                   fields.supports[support].directions[k][e];
       }
-    sum_lists(inverse_mass);
-    sum_lists(held);
+    numbering.communicator.sum_lists(inverse_mass);
+    numbering.communicator.sum_lists(held);
 
     projection_storage.resize(search.n_surface_nodes());
     for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
@@ -86,14 +85,14 @@ namespace Keyblock
         if (local_node[node] != none)
           for (int d = 0; d < dim; ++d)
             to[dim * node + d] = from[dim * local_node[node] + d];
-      if (n_ranks() == 1 || shared.empty())
+      if (numbering.communicator.size() == 1 || shared.empty())
         return;
       std::vector<double> buffer(dim * shared.size(), 0.);
       for (unsigned int i = 0; i < shared.size(); ++i)
         if (local_node[shared[i]] < numbering.n_owned())
           for (int d = 0; d < dim; ++d)
             buffer[dim * i + d] = from[dim * local_node[shared[i]] + d];
-      sum_lists(buffer);
+      numbering.communicator.sum_lists(buffer);
       for (unsigned int i = 0; i < shared.size(); ++i)
         for (int d = 0; d < dim; ++d)
           to[dim * shared[i] + d] = buffer[dim * i + d];
@@ -143,8 +142,8 @@ namespace Keyblock
           position[dim * node + d] =
             search.place_of_node[node][d] +
             fields.displacement[dim * local_node[node] + d];
-    if (n_ranks() > 1)
-      sum_lists(position);
+    if (numbering.communicator.size() > 1)
+      numbering.communicator.sum_lists(position);
     return position;
   }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/contact/traction_estimate.h>
 #include <keyblock/rock/shape.h>
 
@@ -161,8 +160,8 @@ namespace Keyblock
     for (const unsigned int p : pairs)
       for (int d = 0; d < dim; ++d)
         buffer.push_back(sums[dim * p + d]);
-    if (n_ranks() > 1)
-      sum_lists(buffer);
+    if (topology.numbering.communicator.size() > 1)
+      topology.numbering.communicator.sum_lists(buffer);
     for (unsigned int i = 0; i < pairs.size(); ++i)
       for (int d = 0; d < dim; ++d)
         traction[pairs[i]][d] = buffer[dim * i + d];

@@ -7,7 +7,6 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <keyblock/base/expression.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/step/equilibrium.h>
 
 #include <algorithm>
@@ -377,7 +376,7 @@ namespace Keyblock
                   cells.stress_at(found->second,
                                   q,
                                   stresses[j])[measurements[i].component];
-        sum_lists(values);
+        numbering.communicator.sum_lists(values);
         for (unsigned int i = 0; i < measurements.size(); ++i)
           matrix[i][j] = values[i];
       }

@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <iostream>
 #include <limits>
 #include <map>
 #include <set>
@@ -615,6 +614,7 @@ namespace Keyblock
     template <int dim>
     void
     require_estimated_size(const Scene<dim> &scene,
+                           const dealii::ConditionalOStream &out,
                            const std::vector<SizeDemand<dim>> &demands)
     {
       const DomainOutline<dim> outline(scene.domain);
@@ -637,8 +637,8 @@ namespace Keyblock
                               outline.upper,
                               std::numeric_limits<double>::max());
       if (n > many_cells)
-        std::cout << "Mesh    about " << std::setprecision(2) << n
-                  << " cells are to be made by Gmsh" << std::endl;
+        out << "Mesh    about " << std::setprecision(2) << n
+            << " cells are to be made by Gmsh" << std::endl;
       require_size<dim>(n,
                         scene.joints.size(),
                         "'Mesh/Size' and the sizes at excavations and joints",
@@ -672,9 +672,10 @@ namespace Keyblock
   template <int dim>
   Mesh<dim>
   make_gmsh_mesh(const Scene<dim> &scene,
+                 const dealii::ConditionalOStream &out,
                  const std::vector<SizeDemand<dim>> &demands)
   {
-    require_estimated_size(scene, demands);
+    require_estimated_size(scene, out, demands);
     const double snap = scene.meshing.snap;
     std::ostringstream remedy;
     remedy << "change 'Mesh/Size' (" << scene.meshing.size
@@ -737,7 +738,9 @@ namespace Keyblock
   }
 
   template Mesh<2> make_gmsh_mesh(const Scene<2> &,
+                                  const dealii::ConditionalOStream &,
                                   const std::vector<SizeDemand<2>> &);
   template Mesh<3> make_gmsh_mesh(const Scene<3> &,
+                                  const dealii::ConditionalOStream &,
                                   const std::vector<SizeDemand<3>> &);
 } // namespace Keyblock

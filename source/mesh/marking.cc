@@ -7,7 +7,6 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/mesh/excavation_region.h>
 #include <keyblock/scene/joint_extent.h>
 
@@ -696,28 +695,30 @@ namespace Keyblock
 
   template <int dim>
   Mesh<dim>
-  make_mesh(const Scene<dim> &scene,
+  make_mesh(const Communicator &communicator,
+            const Scene<dim> &scene,
+            const dealii::ConditionalOStream &out,
             const std::vector<SizeDemand<dim>> &demands)
   {
     Mesh<dim> mesh;
-    on_root([&]() {
+    communicator.on_root([&]() {
       if (scene.meshing.generator == "structured")
         mesh = make_structured_mesh(scene);
       else if (scene.meshing.generator == "gmsh")
-        mesh = make_gmsh_mesh(scene, demands);
+        mesh = make_gmsh_mesh(scene, out, demands);
       else
         mesh = read_mesh(scene);
       if (scene.meshing.is_refined())
         refine_mesh(mesh, scene);
       sort_cells_along_hilbert_curve(mesh);
     });
-    broadcast(mesh.vertices);
-    broadcast(mesh.cells);
-    broadcast(mesh.region);
-    broadcast(mesh.boundary_faces);
-    broadcast(mesh.hanging_faces);
-    broadcast(mesh.surfaces);
-    broadcast(mesh.marked_faces);
+    communicator.broadcast(mesh.vertices);
+    communicator.broadcast(mesh.cells);
+    communicator.broadcast(mesh.region);
+    communicator.broadcast(mesh.boundary_faces);
+    communicator.broadcast(mesh.hanging_faces);
+    communicator.broadcast(mesh.surfaces);
+    communicator.broadcast(mesh.marked_faces);
 
     find_neighbors(mesh);
     mark_boundaries(mesh, scene);
@@ -738,7 +739,7 @@ namespace Keyblock
         for (unsigned int j = 0; j < scene.joints.size(); ++j)
           mark_joint(mesh, scene, j, area_of);
       }
-    on_root([&]() {
+    communicator.on_root([&]() {
       if (mesh.report.way == "exact")
         list_joints_outside(mesh, scene);
       check_joint_of_check(mesh, scene);
@@ -748,8 +749,12 @@ namespace Keyblock
 
 
 
-  template Mesh<2> make_mesh(const Scene<2> &,
+  template Mesh<2> make_mesh(const Communicator &,
+                             const Scene<2> &,
+                             const dealii::ConditionalOStream &,
                              const std::vector<SizeDemand<2>> &);
-  template Mesh<3> make_mesh(const Scene<3> &,
+  template Mesh<3> make_mesh(const Communicator &,
+                             const Scene<3> &,
+                             const dealii::ConditionalOStream &,
                              const std::vector<SizeDemand<3>> &);
 } // namespace Keyblock

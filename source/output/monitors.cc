@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/expression.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/output/monitors.h>
 
 #include <algorithm>
@@ -147,7 +146,8 @@ namespace Keyblock
                            0.,
                            0) > 0.)
             nodes.push_back(i);
-        const unsigned int n_nodes = sum_over_ranks<unsigned int>(nodes.size());
+        const unsigned int n_nodes =
+          numbering.communicator.sum(static_cast<unsigned int>(nodes.size()));
         AssertThrow(n_nodes > 0,
                     InputError("The formula of the entry 'Monitors/" +
                                monitor.name +
@@ -301,7 +301,7 @@ namespace Keyblock
               sums[1 + 3 * dim + d] += m * fields.reference[i];
             }
         }
-    sum_lists(sums);
+    numbering.communicator.sum_lists(sums);
     if (sums[0] > 0.)
       for (unsigned int i = 1; i < sums.size(); ++i)
         sums[i] /= sums[0];
@@ -325,7 +325,7 @@ namespace Keyblock
           spin[1] += m * (X[0] * x[0] + X[1] * x[1]);
           spin[2] += m * (x[0] * v[1] - x[1] * v[0]);
         }
-    sum_lists(spin);
+    numbering.communicator.sum_lists(spin);
     for (unsigned int i = 1; i < 1 + 2 * dim; ++i)
       row.push_back(sums[i]);
     row.push_back(std::atan2(spin[0], spin[1]));
@@ -348,7 +348,7 @@ namespace Keyblock
         volume += cell_volume[mesh_cell];
       }
     std::vector<double> mean = {trace, volume};
-    sum_lists(mean);
+    numbering.communicator.sum_lists(mean);
     row.push_back(mean[1] > 0. ? mean[0] / mean[1] : 0.);
   }
 
@@ -390,7 +390,7 @@ namespace Keyblock
             sums[d] += fields.internal_force[dim * node + d] -
                        fields.load[dim * node + d] -
                        fields.contact_force[dim * node + d];
-    sum_lists(sums);
+    numbering.communicator.sum_lists(sums);
     row.insert(row.end(), sums.begin(), sums.end());
   }
 
@@ -404,7 +404,7 @@ namespace Keyblock
     std::vector<double> total(1, 0.);
     for (const unsigned int node : nodes)
       total[0] += fields.mass[node];
-    sum_lists(total);
+    numbering.communicator.sum_lists(total);
     const bool has_mass = total[0] > 0.;
     // mass, m u, m v
     std::vector<double> sums(1 + 2 * dim, 0.);
@@ -419,7 +419,7 @@ namespace Keyblock
             sums[1 + dim + d] += m * fields.velocity[i];
           }
       }
-    sum_lists(sums);
+    numbering.communicator.sum_lists(sums);
     for (unsigned int i = 1; i < sums.size(); ++i)
       row.push_back(sums[i] / sums[0]);
   }
@@ -463,7 +463,7 @@ namespace Keyblock
   Monitors<dim>::sample_start(const ExplicitStep<dim> &step)
   {
     const std::vector<double> row = make_row(step, 0);
-    if (is_root())
+    if (numbering.communicator.is_root())
       history.rows.push_back(row);
   }
 
@@ -476,7 +476,7 @@ namespace Keyblock
     const std::vector<double> row = make_row(step, stage);
     while (history.stage_begin.size() <= stage)
       history.stage_begin.push_back(history.rows.size());
-    if (is_root())
+    if (numbering.communicator.is_root())
       history.rows.push_back(row);
   }
 
@@ -486,8 +486,8 @@ namespace Keyblock
   void
   Monitors<dim>::write_csv(const std::string &file_name) const
   {
-    if (!is_root())
-      return assert_written(true, file_name);
+    if (!numbering.communicator.is_root())
+      return numbering.communicator.assert_written(true, file_name);
     std::ofstream out(file_name);
     for (unsigned int c = 0; c < history.columns.size(); ++c)
       out << (c ? "," : "") << history.columns[c];
@@ -498,7 +498,7 @@ namespace Keyblock
           out << (c ? "," : "") << row[c];
         out << '\n';
       }
-    assert_written(bool(out.flush()), file_name);
+    numbering.communicator.assert_written(bool(out.flush()), file_name);
   }
 
   template class Monitors<2>;

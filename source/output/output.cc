@@ -5,7 +5,6 @@
 
 #include <deal.II/numerics/data_out.h>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/output/output.h>
 
 #include <fstream>
@@ -112,27 +111,30 @@ namespace Keyblock
     const auto write = [&](auto &data, const std::string &base) {
       data.set_flags(vtk_flags(time));
       std::string name = base + "_" + number;
-      if (n_ranks() == 1)
+      if (numbering.communicator.size() == 1)
         {
           name += ".vtu";
-          assert_written(write_file(data, folder + name), folder + name);
+          numbering.communicator.assert_written(write_file(data, folder + name),
+                                                folder + name);
         }
       else
         {
-          bool is_written = write_file(data,
-                                       folder + name + "." +
-                                         std::to_string(this_rank()) + ".vtu");
-          if (is_root())
+          bool is_written =
+            write_file(data,
+                       folder + name + "." +
+                         std::to_string(numbering.communicator.rank()) +
+                         ".vtu");
+          if (numbering.communicator.is_root())
             {
               std::vector<std::string> pieces;
-              for (unsigned int r = 0; r < n_ranks(); ++r)
+              for (unsigned int r = 0; r < numbering.communicator.size(); ++r)
                 pieces.push_back(name + "." + std::to_string(r) + ".vtu");
               std::ofstream record(folder + name + ".pvtu");
               data.write_pvtu_record(record, pieces);
               is_written = record.flush() && is_written;
             }
           name += ".pvtu";
-          assert_written(is_written, folder + name);
+          numbering.communicator.assert_written(is_written, folder + name);
         }
       records.emplace_back(time, name);
     };
@@ -295,7 +297,7 @@ namespace Keyblock
       }
     write(faces, "interface");
     bool is_written = true;
-    if (is_root())
+    if (numbering.communicator.is_root())
       {
         std::ofstream pvd(folder + "solution.pvd");
         pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
@@ -307,7 +309,7 @@ namespace Keyblock
         pvd << "  </Collection>\n</VTKFile>\n";
         is_written = bool(pvd.flush());
       }
-    assert_written(is_written, folder + "solution.pvd");
+    numbering.communicator.assert_written(is_written, folder + "solution.pvd");
   }
 
   template class Output<2>;

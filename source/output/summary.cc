@@ -3,7 +3,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <keyblock/base/digest.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/output/output.h>
 #include <keyblock/safety/block_theory.h>
 
@@ -346,13 +345,13 @@ namespace Keyblock
     }
 
     Json
-    program_as_json()
+    program_as_json(const Communicator &communicator)
     {
       return {{"version", KEYBLOCK_VERSION},
               {"commit", KEYBLOCK_COMMIT},
               {"compiler", KEYBLOCK_COMPILER},
               {"deal_ii_version", DEAL_II_PACKAGE_VERSION},
-              {"ranks", n_ranks()},
+              {"ranks", communicator.size()},
 #ifdef DEBUG
               {"build_type", "Debug"}};
 #else
@@ -403,9 +402,9 @@ namespace Keyblock
 
     /** Throw ComputationError on all ranks if rank 0 has a @p message. */
     void
-    assert_finite(const std::string &message)
+    assert_finite(const Communicator &communicator, const std::string &message)
     {
-      const std::string text = text_of_root(message);
+      const std::string text = communicator.text_of_root(message);
       AssertThrow(text.empty(), ComputationError(text));
     }
   } // namespace
@@ -424,18 +423,18 @@ namespace Keyblock
                              const std::vector<unsigned int> &removal_stage,
                              const Geostress *geostress) const
   {
-    const double memory         = sum_over_ranks(peak_memory());
+    const double memory         = numbering.communicator.sum(peak_memory());
     const std::string file_name = folder + "summary.json";
-    if (!is_root())
+    if (!numbering.communicator.is_root())
       {
-        assert_written(true, file_name);
-        assert_finite("");
+        numbering.communicator.assert_written(true, file_name);
+        assert_finite(numbering.communicator, "");
         return;
       }
     Json root = Json::object();
     if (geostress != nullptr)
       root["geostress"] = geostress_as_json(*geostress);
-    root["program"] = program_as_json();
+    root["program"] = program_as_json(numbering.communicator);
     if (!run.bolts.empty())
       root["bolts"] = bolts_as_json(run.bolts);
     root["scene"] = {{"name", scene.file},
@@ -478,8 +477,9 @@ namespace Keyblock
       root["not_finite"] = not_finite;
     std::ofstream out(file_name);
     out << root.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-    assert_written(bool(out.flush()), file_name);
+    numbering.communicator.assert_written(bool(out.flush()), file_name);
     assert_finite(
+      numbering.communicator,
       not_finite.empty()
         ? ""
         : "The value '" + not_finite.front() + "' of '" + file_name +

@@ -13,7 +13,6 @@
 
 #include <deal.II/grid/tria_description.h>
 
-#include <keyblock/base/mpi.h>
 
 #include <algorithm>
 #include <numeric>
@@ -22,8 +21,10 @@
 namespace Keyblock
 {
   template <int dim>
-  Numbering<dim>::Numbering(const Scene<dim> &scene,
+  Numbering<dim>::Numbering(const Communicator &communicator,
+                            const Scene<dim> &scene,
                             const SplitMesh<dim> &split)
+    : communicator(communicator)
   {
     create_triangulation(scene, split.mesh);
     dof_handler = std::make_unique<dealii::DoFHandler<dim>>(*triangulation);
@@ -51,8 +52,9 @@ namespace Keyblock
       before[c + 1] =
         before[c] + (scene.materials[mesh.material[c]]->is_rigid() ? 1e-3 : 1.);
     const auto rank_of = [&](const unsigned int c) {
-      return std::min<unsigned int>(n_ranks() - 1,
-                                    before[c] * n_ranks() / before.back());
+      return std::min<unsigned int>(communicator.size() - 1,
+                                    before[c] * communicator.size() /
+                                      before.back());
     };
     mesh_cell_of_coarse.clear();
     for (unsigned int c = 0, end; c < mesh.n_cells(); c = end)
@@ -73,7 +75,7 @@ namespace Keyblock
                   cells[c].vertices.begin());
       serial.create_triangulation(mesh.vertices, cells, dealii::SubCellData());
     };
-    if (n_ranks() == 1)
+    if (communicator.size() == 1)
       {
         triangulation = std::make_unique<dealii::Triangulation<dim>>();
         make_serial(*triangulation);
@@ -87,13 +89,11 @@ namespace Keyblock
           rank_of(mesh_cell_of_coarse[cell->active_cell_index()]));
     };
     const auto description = dealii::TriangulationDescription::Utilities::
-      create_description_from_triangulation_in_groups<dim, dim>(make_serial,
-                                                                partition,
-                                                                world(),
-                                                                n_ranks());
+      create_description_from_triangulation_in_groups<dim, dim>(
+        make_serial, partition, communicator, communicator.size());
     auto distributed =
       std::make_unique<dealii::parallel::fullydistributed::Triangulation<dim>>(
-        world());
+        communicator);
     distributed->create_triangulation(description);
     triangulation = std::move(distributed);
   }
@@ -150,7 +150,7 @@ namespace Keyblock
           for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
             found[mesh.cells[c][v]] = cell->vertex_dof_index(v, 0) / dim + 1;
         }
-    max_lists(found);
+    communicator.max_lists(found);
     node_of_vertex = std::move(found);
     for (unsigned int &node : node_of_vertex)
       --node;
@@ -191,7 +191,7 @@ namespace Keyblock
     partitioner =
       std::make_shared<dealii::Utilities::MPI::Partitioner>(owned,
                                                             ghost_dofs,
-                                                            world());
+                                                            communicator);
     n_owned_nodes  = partitioner->locally_owned_size() / dim;
     n_local_nodes  = n_owned_nodes + partitioner->n_ghost_indices() / dim;
     n_global_nodes = partitioner->size() / dim;
@@ -278,7 +278,7 @@ namespace Keyblock
   void
   Numbering<dim>::add_ghosts_to_owners(std::vector<double> &field) const
   {
-    if (n_ranks() == 1)
+    if (communicator.size() == 1)
       return;
     const unsigned int n_owned_dofs = partitioner->locally_owned_size();
     const unsigned int n_ghost_dofs = partitioner->n_ghost_indices();
@@ -305,7 +305,7 @@ namespace Keyblock
   void
   Numbering<dim>::update_ghosts(std::vector<double> &field) const
   {
-    if (n_ranks() == 1)
+    if (communicator.size() == 1)
       return;
     const unsigned int n_owned_dofs = partitioner->locally_owned_size();
     exchange_buffer.resize(partitioner->n_import_indices());

@@ -3,7 +3,6 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/rock/far_field.h>
 
 #include <algorithm>
@@ -139,6 +138,7 @@ namespace Keyblock
   FarField<dim>::FarField(const std::vector<Face> &faces,
                           const SplitMesh<dim> &split,
                           const Numbering<dim> &numbering)
+    : communicator(numbering.communicator)
   {
     constexpr unsigned int n = KelvinFields<dim>::n;
     if (faces.empty())
@@ -267,7 +267,7 @@ namespace Keyblock
           for (unsigned int m = 0; m < n; ++m)
             result[m] += row[m] * u;
         }
-    sum_lists(result);
+    communicator.sum_lists(result);
     return dealii::Vector<double>(result.begin(), result.end());
   }
 
@@ -310,7 +310,7 @@ namespace Keyblock
     if (is_coupled())
       {
         const dealii::Vector<double> work = project(displacement);
-        if (is_root())
+        if (communicator.is_root())
           twice += coupling->matrix_norm_square(work);
       }
     return 0.5 * twice;
@@ -326,7 +326,7 @@ namespace Keyblock
     for (const Spring &spring : springs)
       of_springs =
         std::max(of_springs, spring.stiffness * inverse_mass[spring.node]);
-    of_springs = max_over_ranks(of_springs);
+    of_springs = communicator.max(of_springs);
     if (!is_coupled())
       return of_springs;
 
@@ -337,7 +337,7 @@ namespace Keyblock
         for (unsigned int i = 0; i < n_coupled; ++i)
           for (unsigned int j = 0; j < n_coupled; ++j)
             mobility(i, j) += row[i] * row[j] * inverse_mass[spring.node];
-    sum_over_ranks(&mobility(0, 0), mobility.n_elements());
+    communicator.sum(&mobility(0, 0), mobility.n_elements());
     inverse_energy->mmult(product, mobility);
     return projection_norm * of_springs + largest_eigenvalue(product);
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/rock/mass_scaling.h>
 
-#include <keyblock/base/mpi.h>
-
 namespace Keyblock
 {
   namespace
@@ -14,11 +12,13 @@ namespace Keyblock
     class BlockMasses
     {
     public:
-      BlockMasses(const std::vector<double> &frequency,
+      BlockMasses(const Communicator &communicator,
+                  const std::vector<double> &frequency,
                   const std::vector<double> &mass,
                   const std::vector<unsigned int> &block,
                   const unsigned int n_blocks)
-        : frequency(frequency)
+        : communicator(communicator)
+        , frequency(frequency)
         , mass(mass)
         , block(block)
         , total(sum(std::vector<bool>(n_blocks, true),
@@ -36,7 +36,7 @@ namespace Keyblock
           if (wanted[block[c]])
             sums[block[c]] +=
               mass[c] * share(frequency[c] * frequency[c], block[c]);
-        sum_lists(sums);
+        communicator.sum_lists(sums);
         return sums;
       }
 
@@ -48,7 +48,7 @@ namespace Keyblock
         for (unsigned int c = 0; c < block.size(); ++c)
           squares[block[c]] =
             std::max(squares[block[c]], frequency[c] * frequency[c]);
-        max_lists(squares);
+        communicator.max_lists(squares);
         return squares;
       }
 
@@ -59,7 +59,7 @@ namespace Keyblock
         std::vector<unsigned int> n(total.size(), 0);
         for (unsigned int c = 0; c < block.size(); ++c)
           n[block[c]] += frequency[c] * frequency[c] > square[block[c]];
-        sum_lists(n);
+        communicator.sum_lists(n);
         return n;
       }
 
@@ -81,6 +81,7 @@ namespace Keyblock
       }
 
     private:
+      const Communicator communicator;
       const std::vector<double> &frequency, &mass;
       const std::vector<unsigned int> &block;
 
@@ -143,14 +144,15 @@ namespace Keyblock
 
 
   std::vector<MassScaling>
-  scale_masses(const std::vector<double> &frequency,
+  scale_masses(const Communicator &communicator,
+               const std::vector<double> &frequency,
                const std::vector<double> &mass,
                const std::vector<unsigned int> &block,
                const unsigned int n_blocks,
                const double highest,
                const double largest)
   {
-    const BlockMasses blocks(frequency, mass, block, n_blocks);
+    const BlockMasses blocks(communicator, frequency, mass, block, n_blocks);
     const std::vector<double> stiffest = blocks.stiffest();
     std::vector<double> square(n_blocks, highest * highest);
     std::vector<MassScaling> result(n_blocks);

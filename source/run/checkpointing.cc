@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/checkpointing.h>
 
 #include <cstring>
@@ -34,10 +33,10 @@ namespace Keyblock
   {
     // rank 0's clock counts for all
     const double interval = model.scene.output.checkpoint_interval;
-    const bool is_due =
-      is_root() && interval > 0. && MPI_Wtime() - last_saved > interval;
+    const bool is_due     = model.communicator.is_root() && interval > 0. &&
+                        MPI_Wtime() - last_saved > interval;
     std::vector<int> wishes = {signal_received(), is_due};
-    max_lists(wishes);
+    model.communicator.max_lists(wishes);
     if (wishes[0] > 0)
       throw StopRequest{wishes[0]};
     if (wishes[1] > 0)
@@ -50,7 +49,7 @@ namespace Keyblock
   Checkpointing<dim>::save()
   {
     finite_check.check_state();
-    StateFile file;
+    StateFile file(model.communicator);
     std::string entries        = model.scene.used_entries(),
                 mesh_signature = signature(model.split);
     file.exchange("origin/entries", entries);
@@ -61,11 +60,9 @@ namespace Keyblock
     last_saved                = MPI_Wtime();
     if (failure.empty())
       note_checkpoint(name);
-    if (!is_root())
-      return;
     if (failure.empty())
-      std::cout << "Saved   " << last_checkpoint << std::endl;
-    else
+      model.out << "Saved   " << last_checkpoint << std::endl;
+    else if (model.communicator.is_root())
       std::cerr << "Warning: The checkpoint '" << name
                 << "' cannot be written (" << failure << ")."
                 << (last_checkpoint.empty()
@@ -119,12 +116,11 @@ namespace Keyblock
   {
     save();
     monitors.write_csv(folder + "history.csv");
-    if (is_root())
-      std::cout << "Stopped by a signal (" << strsignal(request.signal) << ")."
-                << (last_checkpoint.empty()
-                      ? " There is no checkpoint of this run."
-                      : name_last_checkpoint())
-                << std::endl;
+    model.out << "Stopped by a signal (" << strsignal(request.signal) << ")."
+              << (last_checkpoint.empty()
+                    ? " There is no checkpoint of this run."
+                    : name_last_checkpoint())
+              << std::endl;
   }
 
 
@@ -230,8 +226,7 @@ namespace Keyblock
   {
     restore(file);
     note_checkpoint(name);
-    if (is_root())
-      std::cout << "Resumed " << last_checkpoint << std::endl;
+    model.out << "Resumed " << last_checkpoint << std::endl;
   }
 
 

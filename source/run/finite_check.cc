@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/finite_check.h>
 
 #include <algorithm>
@@ -55,7 +54,7 @@ namespace Keyblock
         for (unsigned int node = 0; node < model.numbering->n_owned(); ++node)
           if (!is_finite(field->data() + dim * node, dim))
             bad = std::min(bad, model.numbering->vertex_of_node[node]);
-        bad = min_over_ranks(bad);
+        bad = model.communicator.min(bad);
         if (bad == none)
           continue;
         for (unsigned int c = 0; c < model.split.mesh.n_cells(); ++c)
@@ -89,7 +88,7 @@ namespace Keyblock
         if (!is_good)
           bad = std::min(bad, model.cells.mesh_cell[c]);
       }
-    bad = min_over_ranks(bad);
+    bad = model.communicator.min(bad);
     if (bad != none)
       fail("stress", model.split.block_of_cell[bad]);
     check_sample();
@@ -132,7 +131,7 @@ namespace Keyblock
         is_good && std::isfinite(trial.slip) && std::isfinite(trial.velocity) &&
         std::isfinite(trial.acceleration) && std::isfinite(trial.unbalanced);
     // every rank has the same numbers, or at least the same verdict
-    if (on_any_rank(!is_good))
+    if (model.communicator.on_any(!is_good))
       fail("safety factor after stage '" + factor.stage + "'", factor.block);
   }
 
@@ -151,7 +150,7 @@ namespace Keyblock
                     text_of(row[c]) + " at step " + text_of(row[1]) +
                     " (time " + text_of(row[2]) + " s); see '" + folder +
                     "history.csv'.";
-    message = text_of_root(message);
+    message = model.communicator.text_of_root(message);
     AssertThrow(message.empty(), ComputationError(message));
   }
 

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/blocks/bolt_layout.h>
 #include <keyblock/run/model.h>
 #include <keyblock/scene/step_count.h>
 
+#include <iostream>
 #include <tuple>
 
 namespace Keyblock
 {
   template <int dim>
-  Model<dim>::Model(const std::string &scene_file,
+  Model<dim>::Model(const Communicator &communicator,
+                    const std::string &scene_file,
                     const std::vector<std::string> &overrides)
+    : communicator(communicator)
+    , out(std::cout, communicator.is_root())
   {
-    scene.read(scene_file, overrides);
+    scene.read(communicator, scene_file, overrides);
   }
 
 
@@ -22,7 +25,7 @@ namespace Keyblock
   Model<dim>::make_geometry()
   {
     Mesh<dim> mesh;
-    std::tie(mesh, blocks) = make_mesh_for_blocks(scene);
+    std::tie(mesh, blocks) = make_mesh_for_blocks(communicator, scene, out);
     quality                = measure_quality(mesh);
     mesh_report            = mesh.report;
     split                  = split_mesh(mesh, blocks, scene);
@@ -34,7 +37,7 @@ namespace Keyblock
   void
   Model<dim>::set_up()
   {
-    numbering  = std::make_unique<Numbering<dim>>(scene, split);
+    numbering  = std::make_unique<Numbering<dim>>(communicator, scene, split);
     conditions = std::make_unique<Conditions<dim>>(
       scene, split, *numbering, cells, fields);
     if (scene.contact.method != "none")
@@ -60,7 +63,8 @@ namespace Keyblock
   void
   Model<dim>::count_cells()
   {
-    n_cells_global = sum_over_ranks<unsigned long long>(cells.nodes.size());
+    n_cells_global =
+      communicator.sum(static_cast<unsigned long long>(cells.nodes.size()));
   }
 
 
@@ -83,7 +87,7 @@ namespace Keyblock
       for (unsigned int d = 0; d < dim; ++d)
         values[dim * numbering->vertex_of_node[node] + d] =
           field[dim * node + d];
-    sum_lists(values);
+    communicator.sum_lists(values);
     return values;
   }
 

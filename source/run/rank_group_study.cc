@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
-#include <keyblock/base/rank_groups.h>
 #include <keyblock/run/rank_group_study.h>
 
 #include <algorithm>
-#include <iostream>
 
 namespace Keyblock
 {
   template <int dim>
-  RankGroupStudy<dim>::Copy::Copy(const Model<dim> &original,
+  RankGroupStudy<dim>::Copy::Copy(const Communicator &communicator,
+                                  const Model<dim> &original,
                                   const std::string &scene_file,
                                   const std::vector<std::string> &overrides)
-    : model(scene_file, overrides)
+    : model(communicator, scene_file, overrides)
   {
+    // the root of the run is that of the first group, which prints
+    model.out.set_condition(original.out.is_active());
     model.scene.output.write_vtu           = false;
     model.scene.output.checkpoint_interval = 0.;
     model.blocks                           = original.blocks;
@@ -25,11 +25,13 @@ namespace Keyblock
 
 
   template <int dim>
-  RankGroupStudy<dim>::RankGroupStudy(Model<dim> &model,
+  RankGroupStudy<dim>::RankGroupStudy(const RankGroups &groups,
+                                      Model<dim> &model,
                                       Run<dim> &run,
                                       const std::string &scene_file,
                                       const std::vector<std::string> &overrides)
-    : model(model)
+    : groups(groups)
+    , model(model)
     , run(run)
     , scene_file(scene_file)
     , overrides(overrides)
@@ -42,17 +44,17 @@ namespace Keyblock
   RankGroupStudy<dim>::find_factors_of_this_group(std::vector<char> &image)
   {
     Result result;
-    const RankGroupScope scope;
     try
       {
         if (copy == nullptr)
-          copy = std::make_unique<Copy>(model, scene_file, overrides);
+          copy =
+            std::make_unique<Copy>(groups.mine(), model, scene_file, overrides);
         {
-          StateFile state(image);
+          StateFile state(copy->model.communicator, image);
           copy->run->checkpointing.restore(state);
         }
         result.n_capped = copy->model.contact->tally.n_capped;
-        copy->run->safety.find_remaining_factors();
+        copy->run->safety.find_remaining_factors(groups);
       }
     catch (const StopRequest &request)
       {
@@ -82,7 +84,7 @@ namespace Keyblock
       return;
     std::vector<char> image;
     {
-      StateFile file;
+      StateFile file(model.communicator);
       run.checkpointing.put_state(file);
       image = file.image();
     }
@@ -90,8 +92,9 @@ namespace Keyblock
     model.contact->tally.n_capped += mine.n_capped;
 
     // what one group found is not lost where another was stopped
-    wait_for_all_rank_groups();
-    for (const SafetyFactor &factor : gather_from_rank_groups(mine.factors))
+    groups.wait_for_all();
+    for (const SafetyFactor &factor :
+         gather_from_rank_groups(groups.all, mine.factors))
       {
         run.record.safety_factors.push_back(factor);
         const bool is_mine = std::any_of(mine.factors.begin(),
@@ -99,12 +102,16 @@ namespace Keyblock
                                          [&](const SafetyFactor &other) {
                                            return other.block == factor.block;
                                          });
-        if (!is_mine && is_root()) // those were printed as they were found
-          print_factor(std::cout, factor, model.blocks, model.scene);
+        // those were printed as they were found
+        if (!is_mine && model.out.is_active())
+          print_factor(model.out.get_stream(),
+                       factor,
+                       model.blocks,
+                       model.scene);
       }
-    const std::string failure = any_text(mine.failure);
+    const std::string failure = model.communicator.any_text(mine.failure);
     AssertThrow(failure.empty(), ComputationError(failure));
-    const int signal = max_over_ranks(mine.signal);
+    const int signal = model.communicator.max(mine.signal);
     if (signal > 0)
       throw StopRequest{signal};
     run.checkpointing.save_if_due();

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
-#include <keyblock/base/rank_groups.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/run/safety_study.h>
 #include <keyblock/run/stage_runner.h>
@@ -9,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <iostream>
 #include <map>
 
 namespace Keyblock
@@ -21,13 +18,18 @@ namespace Keyblock
     class SignalWatch : public StageObserver<dim>
     {
     public:
+      explicit SignalWatch(const Communicator &communicator)
+        : communicator(communicator)
+      {}
+
       void
       save_point(StageProgress<dim> &) override
       {
-        const int signal = max_over_ranks(signal_received());
-        if (signal > 0)
-          throw StopRequest{signal};
+        stop_if_asked(communicator);
       }
+
+    private:
+      const Communicator communicator;
     };
   } // namespace
 
@@ -86,7 +88,7 @@ namespace Keyblock
 
   template <int dim>
   std::vector<unsigned int>
-  SafetyStudy<dim>::list_blocks_of_rank_group() const
+  SafetyStudy<dim>::list_blocks_of_rank_group(const RankGroups &groups) const
   {
     // a block costs what it did last time; one never tried, as much as any
     const std::vector<unsigned int> wanted = list_wanted_blocks();
@@ -109,10 +111,10 @@ namespace Keyblock
            ? record.present.n_done
            : 0));
 
-    const std::vector<unsigned int> group = share_out(costs, n_rank_groups());
+    const std::vector<unsigned int> group = share_out(costs, groups.n());
     std::vector<unsigned int> mine;
     for (unsigned int i = 0; i < wanted.size(); ++i)
-      if (group[i] == this_rank_group())
+      if (group[i] == groups.index())
         mine.push_back(wanted[i]);
     return mine;
   }
@@ -194,7 +196,7 @@ namespace Keyblock
     strong.share  = 1. / model.scene.safety.lowest;
     model.contact->reduce_strength(strong);
     model.conditions->reduce_strength(strong);
-    SignalWatch<dim> observer;
+    SignalWatch<dim> observer(model.communicator);
     StageRunner<dim> runner(model, finite_check, observer);
     StageProgress<dim> trial;
     trial.index = record.present.index;
@@ -207,14 +209,14 @@ namespace Keyblock
 
   template <int dim>
   void
-  SafetyStudy<dim>::find_remaining_factors()
+  SafetyStudy<dim>::find_remaining_factors(const RankGroups &groups)
   {
     const Snapshot<dim> after = take_snapshot(model.parts());
     StrengthReductionSearch<dim> search(
       model.scene, model.split, model.blocks, *model.numbering, model.parts());
     try
       {
-        for (const unsigned int b : list_blocks_of_rank_group())
+        for (const unsigned int b : list_blocks_of_rank_group(groups))
           {
             SafetyFactor result =
               record.present.removal_stage[b] == record.present.number()
@@ -224,8 +226,11 @@ namespace Keyblock
             result.stage = model.scene.stages[record.present.index]->name;
             finite_check.check_factor(result);
             record.safety_factors.push_back(result);
-            if (is_root())
-              print_factor(std::cout, result, model.blocks, model.scene);
+            if (model.out.is_active())
+              print_factor(model.out.get_stream(),
+                           result,
+                           model.blocks,
+                           model.scene);
             model.count_cells();
             checkpointing.save_if_due();
           }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/safety/block_theory.h>
 #include <keyblock/step/initial_tension.h>
@@ -117,7 +116,8 @@ namespace Keyblock
   {
     std::vector<std::string> warnings = monitors.warnings;
     for (const std::string &warning :
-         {warning_of_tension(model.scene, model.split, model.cells),
+         {warning_of_tension(
+            model.communicator, model.scene, model.split, model.cells),
           warning_of_welded_joints(model.scene, model.split)})
       if (!warning.empty())
         warnings.push_back(warning);
@@ -135,7 +135,8 @@ namespace Keyblock
       place << (d ? ", " : "") << model.conditions->stable_step.place[d];
     report.stable_step_place = place.str();
     const StepSpread<dim> spread =
-      measure_step_spread(model.conditions->active_cells.frequency,
+      measure_step_spread(model.communicator,
+                          model.conditions->active_cells.frequency,
                           model.cells.mesh_cell,
                           model.split.mesh);
     report.step_ratio = spread.ratio();

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
-#include <keyblock/base/rank_groups.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/simulation.h>
 #include <keyblock/run/stage_reporter.h>
@@ -12,16 +10,16 @@
 #include <algorithm>
 #include <filesystem>
 #include <iomanip>
-#include <iostream>
 
 namespace Keyblock
 {
   template <int dim>
-  Simulation<dim>::Simulation(const std::string &scene_file,
+  Simulation<dim>::Simulation(const Communicator &communicator,
+                              const std::string &scene_file,
                               const std::vector<std::string> &overrides,
                               const std::string &output_folder,
                               const std::string &checkpoint)
-    : model(scene_file, overrides)
+    : model(communicator, scene_file, overrides)
     , scene_file(scene_file)
     , overrides(overrides)
     , checkpoint(checkpoint)
@@ -52,10 +50,6 @@ namespace Keyblock
                                                     folder);
     stages =
       std::make_unique<StageRunner<dim>>(model, parts->finite_check, *recorder);
-    rank_groups              = std::make_unique<RankGroupStudy<dim>>(model,
-                                                        *parts,
-                                                        scene_file,
-                                                        overrides);
     parts->record.wall_start = wall_start;
     warnings                 = warnings_of_set_up(model, parts->monitors);
     report_stable_step(model, parts->record.report);
@@ -91,11 +85,12 @@ namespace Keyblock
   {
     model.make_geometry();
     set_up();
-    if (is_root())
+    if (model.out.is_active())
       {
-        print_head(std::cout);
-        print_block_statics(std::cout, model.scene, model.split, model.blocks);
-        std::cout << "The scene is valid.\n";
+        std::ostream &out = model.out.get_stream();
+        print_head(out);
+        print_block_statics(out, model.scene, model.split, model.blocks);
+        out << "The scene is valid.\n";
       }
   }
 
@@ -105,17 +100,21 @@ namespace Keyblock
   Simulation<dim>::run()
   {
     watch_signals();
-    form_rank_groups(model.scene.safety.rank_groups);
+    groups = std::make_unique<RankGroups>(model.communicator,
+                                          model.scene.safety.rank_groups);
     std::unique_ptr<StateFile> file;
     if (!checkpoint.empty())
       {
-        file = std::make_unique<StateFile>(checkpoint);
+        file = std::make_unique<StateFile>(model.communicator, checkpoint);
         check_origin(*file, checkpoint, model.scene);
       }
     model.make_geometry();
     if (file)
       check_mesh(*file, checkpoint, model.split);
     set_up();
+    if (groups->n() > 1)
+      group_study = std::make_unique<RankGroupStudy<dim>>(
+        *groups, model, *parts, scene_file, overrides);
     open_output();
     try
       {
@@ -144,7 +143,7 @@ namespace Keyblock
   void
   Simulation<dim>::open_output()
   {
-    on_root([&]() {
+    model.communicator.on_root([&]() {
       std::error_code error;
       std::filesystem::create_directories(folder, error);
       AssertThrow(!error,
@@ -159,11 +158,11 @@ namespace Keyblock
                              model.scene,
                              model.split.mesh.vertices);
         }
-      print_head(std::cout);
+      print_head(model.out.get_stream());
       if (model.geostress)
         {
           write_geostress(folder + "geostress.csv", *model.geostress);
-          print_geostress(std::cout, *model.geostress);
+          print_geostress(model.out.get_stream(), *model.geostress);
         }
     });
   }
@@ -215,8 +214,8 @@ namespace Keyblock
       progress.wants_factors ? take_snapshot(model.parts()) : Snapshot<dim>();
     stages->begin(progress);
     const std::string text = mass_scaling_of_stage();
-    if (text != mass_scaling_text && is_root())
-      std::cout << text << std::flush;
+    if (text != mass_scaling_text)
+      model.out << text << std::flush;
     mass_scaling_text     = text;
     progress.first_step   = model.step->n_steps;
     parts->record.present = progress;
@@ -239,15 +238,18 @@ namespace Keyblock
           model.n_cells_global;
         parts->finite_check.check_state();
         record.stage_reports.push_back(report_stage(model, present));
-        if (is_root())
-          print_stage(std::cout, model, stage, record.stage_reports.back());
+        if (model.out.is_active())
+          print_stage(model.out.get_stream(),
+                      model,
+                      stage,
+                      record.stage_reports.back());
         present.is_reported = true;
         parts->checkpointing.save_if_due();
       }
-    if (present.wants_factors && n_rank_groups() > 1)
-      rank_groups->find_factors();
+    if (present.wants_factors && group_study)
+      group_study->find_factors();
     else if (present.wants_factors)
-      parts->safety.find_remaining_factors();
+      parts->safety.find_remaining_factors(*groups);
   }
 
 
@@ -263,7 +265,7 @@ namespace Keyblock
     if (model.scene.checks.needs_rock())
       rock = gather_rock(
         model.scene, model.split, *model.numbering, model.cells, model.fields);
-    on_root([&]() {
+    model.communicator.on_root([&]() {
       if (!model.scene.stages.empty())
         checks = evaluate_checks<dim>({model.scene,
                                        model.blocks,
@@ -280,11 +282,11 @@ namespace Keyblock
     report.force_time     = model.step->force_seconds;
     report.mass_scaling   = model.conditions->active_cells.mass_scaling;
     report.bolts = list_figures(model.conditions->report_bolts(), model.scene);
-    report.skipped_steps = sum_over_ranks(model.step->n_skipped);
+    report.skipped_steps = model.communicator.sum(model.step->n_skipped);
     report.capped_groups =
-      sum_over_ranks(model.contact ? model.contact->tally.n_capped : 0);
-    report.solved_groups =
-      sum_over_ranks(model.contact ? model.contact->tally.n_solved : 0.);
+      model.communicator.sum(model.contact ? model.contact->tally.n_capped : 0);
+    report.solved_groups = model.communicator.sum(
+      model.contact ? model.contact->tally.n_solved : 0.);
     parts->monitors.write_csv(folder + "history.csv");
     parts->output.write_summary(model.quality,
                                 model.mesh_report,
@@ -296,18 +298,16 @@ namespace Keyblock
                                 record.present.removal_stage,
                                 model.geostress.get());
     parts->finite_check.check_history();
-    if (!is_root())
-      return;
     if (report.capped_groups > 0)
-      std::cout << "Warning: " << report.capped_groups << " contact groups of "
+      model.out << "Warning: " << report.capped_groups << " contact groups of "
                 << report.solved_groups
                 << " in this run were left at 'Contact/Maximum iterations', "
                    "not solved to "
                    "'Contact/Tolerance'.\n";
     for (const auto &[name, value] : checks)
-      std::cout << "Check   " << name << " = " << std::setprecision(9) << value
+      model.out << "Check   " << name << " = " << std::setprecision(9) << value
                 << '\n';
-    std::cout << "Output  " << folder << "  (" << std::setprecision(3)
+    model.out << "Output  " << folder << "  (" << std::setprecision(3)
               << report.wall_time << " s)" << std::endl;
   }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/stage_recorder.h>
 #include <keyblock/run/stage_reporter.h>
 
@@ -7,7 +6,6 @@
 
 #include <cmath>
 #include <iomanip>
-#include <iostream>
 
 namespace Keyblock
 {
@@ -114,7 +112,7 @@ namespace Keyblock
   StageRecorder<dim>::write_state()
   {
     output.write_vtu(model.step->time);
-    on_root([&]() {
+    model.communicator.on_root([&]() {
       write_bolts(folder, output.records, model.conditions->report_bolts());
     });
   }
@@ -147,17 +145,15 @@ namespace Keyblock
       model.step->n_steps % 50 == 0 && time - last_printed > interval;
     if (model.step->n_steps % 50 != 0)
       return;
-    is_due = on_any_rank(is_due);
+    is_due = model.communicator.on_any(is_due);
     if (!is_due)
       return;
     last_printed = time;
     JointSums<dim> points;
     if (model.contact)
       points = model.contact->report().count_points();
-    if (!is_root())
-      return;
     const double elapsed = time - record.wall_start;
-    std::cout << (is_live ? "\r" : "")
+    model.out << (is_live ? "\r" : "")
               << model.scene.stages[progress.index]->name << "  step "
               << model.step->n_steps << "  t = " << std::setprecision(4)
               << model.step->time << " s  "

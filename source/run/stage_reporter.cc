@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/stage_reporter.h>
 #include <keyblock/run/static_stage.h>
 
@@ -55,7 +54,7 @@ namespace Keyblock
                 }
             }
         }
-      sum_lists(sums);
+      model.communicator.sum_lists(sums);
       struct Mover
       {
         double way;
@@ -146,9 +145,9 @@ namespace Keyblock
     result.energies            = model.step->energies;
     result.is_converged        = progress.is_converged;
     result.cells               = model.n_cells_global;
-    result.plastic_cells =
-      sum_over_ranks<unsigned int>(model.cells.strength.size());
-    result.yielding_points = sum_over_ranks(model.cells.n_yielding);
+    result.plastic_cells       = model.communicator.sum(
+      static_cast<unsigned int>(model.cells.strength.size()));
+    result.yielding_points = model.communicator.sum(model.cells.n_yielding);
     if (model.contact)
       {
         const JointSums<dim> points = model.contact->report().count_points();
@@ -181,7 +180,7 @@ namespace Keyblock
         if (model.fields.mass[node] > 0.) // else its cells are gone
           largest = std::max(largest, square);
       }
-    result.max_displacement = std::sqrt(max_over_ranks(largest));
+    result.max_displacement = std::sqrt(model.communicator.max(largest));
     return result;
   }
 

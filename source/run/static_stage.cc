@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/static_stage.h>
 #include <keyblock/step/equilibrium.h>
 
 #include <algorithm>
 #include <iomanip>
-#include <iostream>
 
 namespace Keyblock
 {
@@ -71,12 +69,13 @@ namespace Keyblock
         const double start = MPI_Wtime();
         solve_for_equilibrium(model);
         model.step->zero_displacements();
-        if (is_root())
-          std::cout << "Static  initial equilibrium in " << std::setprecision(3)
-                    << MPI_Wtime() - start << " s, unbalanced ratio "
-                    << model.step->unbalanced_ratio << std::endl;
+        model.out << "Static  initial equilibrium in " << std::setprecision(3)
+                  << MPI_Wtime() - start << " s, unbalanced ratio "
+                  << model.step->unbalanced_ratio << std::endl;
       }
-    model.conditions->release_far_field();
+    const std::string remark = model.conditions->release_far_field();
+    if (!remark.empty())
+      model.out << "Rock    " << remark << std::endl;
     model.step->choose_step(1);
     if (model.contact == nullptr)
       return;
@@ -92,15 +91,15 @@ namespace Keyblock
                              1, block.class_of_stage.size() - 1)] ==
                            BlockClass::exposed);
     const unsigned int n_held = model.contact->hold_bent_points(is_exposed);
-    if (is_root() && n_held > 0)
-      std::cout << "Joints  " << n_held
+    if (n_held > 0)
+      model.out << "Joints  " << n_held
                 << " points whose faces the mesh has bent are held until rock "
                    "is excavated or shaken"
                 << std::endl;
     model.step->settle_contact();
     const JointSums<dim> points = model.contact->report().count_pairs();
-    if (is_root() && points.n_open + points.n_sliding > 0)
-      std::cout << "Joints  " << points.n_open + points.n_sliding
+    if (points.n_open + points.n_sliding > 0)
+      model.out << "Joints  " << points.n_open + points.n_sliding
                 << " points cannot bear the initial stress: " << points.n_open
                 << " open, " << points.n_sliding << " slide" << std::endl;
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The slow mode by which nodes creep to rest.
-#include <keyblock/base/mpi.h>
 #include <keyblock/safety/slow_mode.h>
 
 #include <algorithm>
@@ -19,9 +18,11 @@ namespace Keyblock
 
 
   template <int dim>
-  SlowMode<dim>::SlowMode(const Fields<dim> &fields,
+  SlowMode<dim>::SlowMode(const Communicator &communicator,
+                          const Fields<dim> &fields,
                           const std::vector<unsigned int> &nodes)
-    : fields(fields)
+    : communicator(communicator)
+    , fields(fields)
     , nodes(nodes)
     , before(take_sample())
   {}
@@ -59,7 +60,7 @@ namespace Keyblock
         sums[0] -= way * (now.unbalanced[i] - before.unbalanced[i]);
         sums[1] += way * way * fields.mass[nodes[i / dim]];
       }
-    sum_lists(sums);
+    communicator.sum_lists(sums);
     before = std::move(now);
 
     const double frequency =

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // One trial of strength reduction, and how it is decided.
-#include <keyblock/base/mpi.h>
 #include <keyblock/base/stop_request.h>
 #include <keyblock/safety/slow_mode.h>
 #include <keyblock/safety/strength_trial.h>
@@ -75,7 +74,8 @@ namespace Keyblock
                                       const Blocks<dim> &blocks,
                                       const Numbering<dim> &numbering,
                                       const RunParts<dim> &run)
-    : scene(scene)
+    : communicator(numbering.communicator)
+    , scene(scene)
     , split(split)
     , blocks(blocks)
     , run(run)
@@ -139,7 +139,7 @@ namespace Keyblock
           sums[dim + d] += fields.load[i];
           sums[2 * dim] += std::abs(fields.contact_force[i]);
         }
-    sum_lists(sums);
+    communicator.sum_lists(sums);
     double resultant = 0., weight = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -223,7 +223,7 @@ namespace Keyblock
       for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
         energy += 0.5 * run.fields.mass[node] * run.fields.velocity[i] *
                   run.fields.velocity[i];
-    return sum_over_ranks(energy);
+    return communicator.sum(energy);
   }
 
 
@@ -235,7 +235,7 @@ namespace Keyblock
     double mass = 0.;
     for (const unsigned int node : nodes_of_block[block])
       mass += run.fields.mass[node];
-    return sum_over_ranks(mass);
+    return communicator.sum(mass);
   }
 
 
@@ -310,12 +310,12 @@ namespace Keyblock
     Vector<dim> before   = run.contact->report().mean_slip(block);
     double least         = std::numeric_limits<double>::max();
     unsigned int n_stuck = 0;
-    SlowMode<dim> creep(run.fields, nodes_of_block[block]);
+    SlowMode<dim> creep(communicator, run.fields, nodes_of_block[block]);
     double slowest = 0.; // angular frequency of the creep [rad/s]
     for (unsigned int step = 0; step < scene.safety.maximum_periods * period;
          step += window)
       {
-        stop_if_asked();
+        stop_if_asked(communicator);
         step_damped_until(trial.n_steps + window,
                           block,
                           slowest > 0. ? creep_drop : 1.,
@@ -385,7 +385,7 @@ namespace Keyblock
     std::vector<Vector<dim>> block_velocity(1);
     for (unsigned int w = 1; w <= n_windows; ++w)
       {
-        stop_if_asked();
+        stop_if_asked(communicator);
         for (unsigned int step = 0; step < window; ++step)
           run.step.advance(false);
         trial.n_steps += window;
@@ -558,7 +558,7 @@ namespace Keyblock
                    displacement_before[dim * node + d]);
           sums[(dim + 1) * b + dim] += m;
         }
-    sum_lists(sums);
+    communicator.sum_lists(sums);
     const auto way = [&](const unsigned int b) {
       Vector<dim> mean{};
       for (unsigned int d = 0; d < dim && sums[(dim + 1) * b + dim] > 0.; ++d)
@@ -595,7 +595,7 @@ namespace Keyblock
             sums[2 + d] += m * way;
           }
       }
-    sum_lists(sums);
+    communicator.sum_lists(sums);
     double mean = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       mean += sums[2 + d] * sums[2 + d];

@@ -360,11 +360,12 @@ namespace Keyblock
 
   template <int dim>
   void
-  Scene<dim>::read(const std::string &file_name,
+  Scene<dim>::read(const Communicator &communicator,
+                   const std::string &file_name,
                    const std::vector<std::string> &overrides)
   {
     file = file_name;
-    const SceneText text(file_name, overrides);
+    const SceneText text(communicator, file_name, overrides);
     old_names = text.warnings;
     ParameterHandler names;
     declare_names(names);
@@ -435,12 +436,13 @@ namespace Keyblock
 
 
   unsigned int
-  read_dimension(const std::string &file_name,
+  read_dimension(const Communicator &communicator,
+                 const std::string &file_name,
                  const std::vector<std::string> &overrides)
   {
     ParameterHandler prm;
     prm.declare_entry("Dimension", "2", dealii::Patterns::Integer(2, 3));
-    SceneText(file_name, overrides).parse(prm, true);
+    SceneText(communicator, file_name, overrides).parse(prm, true);
     return prm.get_integer("Dimension");
   }
 

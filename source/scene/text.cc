@@ -2,7 +2,6 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/base/errors.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/scene/old_names.h>
 #include <keyblock/scene/text.h>
 
@@ -90,7 +89,9 @@ namespace Keyblock
     /** The bytes of a file. Those that can be read only once, and by one
      * process only (pipes), are kept. */
     std::string
-    read_bytes(const std::string &file_name, const std::string &what)
+    read_bytes(const Communicator &communicator,
+               const std::string &file_name,
+               const std::string &what)
     {
       static std::map<std::string, std::string> pipes;
       const auto kept = pipes.find(file_name);
@@ -98,7 +99,7 @@ namespace Keyblock
         return kept->second;
       std::string text;
       std::vector<unsigned int> is_pipe(1, 0);
-      on_root([&]() {
+      communicator.on_root([&]() {
         std::error_code error;
         std::ifstream in(file_name, std::ios::binary);
         AssertThrow(in && !std::filesystem::is_directory(file_name, error),
@@ -116,8 +117,8 @@ namespace Keyblock
                                    "file."));
           }
       });
-      text = text_of_root(text);
-      broadcast(is_pipe);
+      text = communicator.text_of_root(text);
+      communicator.broadcast(is_pipe);
       if (is_pipe[0])
         pipes[file_name] = text;
       return text;
@@ -154,9 +155,11 @@ namespace Keyblock
     /** The text of a file without byte order mark, with '\n' at the end of
      * each line. */
     std::string
-    read_file(const std::string &file_name, const std::string &what)
+    read_file(const Communicator &communicator,
+              const std::string &file_name,
+              const std::string &what)
     {
-      const std::string raw = read_bytes(file_name, what);
+      const std::string raw = read_bytes(communicator, file_name, what);
       AssertThrow(raw.find('\0') == std::string::npos &&
                     !boost::starts_with(raw, "\xFF\xFE") &&
                     !boost::starts_with(raw, "\xFE\xFF"),
@@ -179,13 +182,15 @@ namespace Keyblock
              boost::starts_with(line, boost::to_upper_copy(word));
     }
 
-    std::string include_file(const std::string &file_name,
+    std::string include_file(const Communicator &communicator,
+                             const std::string &file_name,
                              std::vector<std::string> chain);
 
     /** Put the text of included files in the place of `include FILE`;
      * @p chain: the files that led here. */
     std::string
-    include_files(const std::string &text,
+    include_files(const Communicator &communicator,
+                  const std::string &text,
                   const std::vector<std::string> &chain)
     {
       if (text.find("include ") == std::string::npos &&
@@ -197,7 +202,7 @@ namespace Keyblock
         {
           const std::string words = significant_part(line);
           all += begins_with(words, "include ")
-                   ? include_file(words.substr(8), chain)
+                   ? include_file(communicator, words.substr(8), chain)
                    : line;
           all += '\n';
           AssertThrow(all.size() <= largest_text,
@@ -209,7 +214,9 @@ namespace Keyblock
     }
 
     std::string
-    include_file(const std::string &file_name, std::vector<std::string> chain)
+    include_file(const Communicator &communicator,
+                 const std::string &file_name,
+                 std::vector<std::string> chain)
     {
       std::error_code error;
       for (const std::string &before : chain)
@@ -220,7 +227,9 @@ namespace Keyblock
                                "', which includes itself in this way; remove "
                                "that 'include'."));
       chain.push_back(file_name);
-      return include_files(read_file(file_name, "included file"), chain);
+      return include_files(communicator,
+                           read_file(communicator, file_name, "included file"),
+                           chain);
     }
 
     /** Move the subsections of `subsection Joints` out of the text. */
@@ -295,10 +304,13 @@ namespace Keyblock
 
 
 
-  SceneText::SceneText(const std::string &file_name,
+  SceneText::SceneText(const Communicator &communicator,
+                       const std::string &file_name,
                        const std::vector<std::string> &overrides)
     : file_name(file_name)
-    , text(include_files(read_file(file_name, "scene file"), {file_name}))
+    , text(include_files(communicator,
+                         read_file(communicator, file_name, "scene file"),
+                         {file_name}))
   {
     warnings = replace_old_names(text);
     set_joints_apart(*this);

@@ -2,7 +2,6 @@
 // From the scene to arrays: cells and their frequencies.
 #include <keyblock/step/active_cells.h>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/rock/cell_geometry.h>
 
 #include <algorithm>
@@ -271,7 +270,7 @@ namespace Keyblock
         last_material = m;
         lowest        = std::min(lowest, frequency[c]);
       }
-    lowest_frequency = min_over_ranks(lowest);
+    lowest_frequency = numbering.communicator.min(lowest);
   }
 
 

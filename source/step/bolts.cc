@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/bolts.h>
 
-#include <keyblock/base/mpi.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -280,7 +278,7 @@ namespace Keyblock
           u[d] += weight * displacement[dim * node + d];
       append(sums, u);
     });
-    sum_lists(sums);
+    numbering.communicator.sum_lists(sums);
     std::vector<Tensor<1, dim>> result(sums.size() / dim);
     Reader numbers(sums);
     for (Tensor<1, dim> &u : result)
@@ -431,7 +429,8 @@ namespace Keyblock
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       bound.squared_frequency =
         std::max(bound.squared_frequency, row[node] * inverse_mass[node]);
-    bound.squared_frequency = max_over_ranks(bound.squared_frequency);
+    bound.squared_frequency =
+      numbering.communicator.max(bound.squared_frequency);
     return bound;
   }
 
@@ -441,7 +440,7 @@ namespace Keyblock
   double
   Bolts<dim>::stored_energy(const std::vector<double> &) const
   {
-    if (!is_root())
+    if (!numbering.communicator.is_root())
       return 0.;
     double energy = 0.;
     for (const Member &member : members)
@@ -462,7 +461,7 @@ namespace Keyblock
   double
   Bolts<dim>::plastic_work() const
   {
-    if (!is_root())
+    if (!numbering.communicator.is_root())
       return 0.;
     double work = 0.;
     for (const Member &member : members)

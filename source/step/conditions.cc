@@ -193,14 +193,17 @@ namespace Keyblock
 
 
   template <int dim>
-  void
+  std::string
   Conditions<dim>::release_far_field()
   {
     if (far_field == nullptr || far_field->is_acting())
-      return;
+      return "";
     far_field->release(fields.internal_force, fields.load);
     loads.forget_load();
     set_up_supports();
+    return far_field->is_coupled()
+             ? ""
+             : "the far field does not enclose its centre: springs only";
   }
 
 

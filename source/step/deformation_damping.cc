@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/step/deformation_damping.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -208,7 +207,7 @@ namespace Keyblock
           stiffness[block] +=
             cells.mu[c] * split.mesh.cell_volume(cells.mesh_cell[c]);
       }
-    sum_lists(stiffness);
+    numbering.communicator.sum_lists(stiffness);
     for (unsigned int b = 0; b < stiffness.size(); ++b)
       {
         double largest = 0.;
@@ -259,7 +258,7 @@ namespace Keyblock
         packed.insert(packed.end(), whole.sum.begin(), whole.sum.end());
         packed.insert(packed.end(), faces.sum.begin(), faces.sum.end());
       }
-    sum_lists(packed);
+    numbering.communicator.sum_lists(packed);
 
     const double *sums = packed.data();
     for (const unsigned int b : sliding)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What the step measures: every energy, and the unbalanced force.
-#include <keyblock/base/mpi.h>
 #include <keyblock/step/step.h>
 
 #include <algorithm>
@@ -202,7 +201,7 @@ namespace Keyblock
           contact->tally.work.dilation - contact_work_at_start.dilation;
       }
     std::array<double, n_energy_terms> values = mine.as_array();
-    sum_lists(values);
+    numbering.communicator.sum_lists(values);
     energies = Energies::from_array(values);
   }
 
@@ -220,7 +219,7 @@ namespace Keyblock
     mine.elastic                              = stored_energy();
     mine.start                                = mine.kinetic + mine.elastic;
     std::array<double, n_energy_terms> values = mine.as_array();
-    sum_lists(values);
+    numbering.communicator.sum_lists(values);
     energies = Energies::from_array(values);
   }
 
@@ -265,8 +264,8 @@ namespace Keyblock
       }
     std::array<double, 5> sums = {
       {unbalanced, n_free, loads, reactions, internal}};
-    sum_lists(sums);
-    largest      = max_over_ranks(largest);
+    numbering.communicator.sum_lists(sums);
+    largest      = numbering.communicator.max(largest);
     double scale = out_of_balance_sum;
     if (scale == 0.)
       scale = sums[2] > 0. ? sums[2] : sums[3] > 0. ? sums[3] : sums[4];

@@ -7,7 +7,6 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/rock/cell_geometry.h>
 
 #include <algorithm>
@@ -99,7 +98,7 @@ namespace Keyblock
     dealii::TrilinosWrappers::SparsityPattern pattern(owned,
                                                       owned,
                                                       relevant,
-                                                      world());
+                                                      numbering.communicator);
     for (unsigned int c = 0; c < cells.nodes.size(); ++c)
       homogeneous.add_entries_local_to_global(dofs_of(c), pattern, true);
     for (const auto &element : elements)
@@ -161,7 +160,7 @@ namespace Keyblock
     double diagonal = 0.;
     for (const auto i : owned)
       diagonal = std::max(diagonal, std::abs(matrix.diag_element(i)));
-    diagonal = max_over_ranks(diagonal);
+    diagonal = numbering.communicator.max(diagonal);
     for (const auto i : owned)
       if (matrix.diag_element(i) == 0.)
         matrix.set(i, i, diagonal);
@@ -223,7 +222,7 @@ namespace Keyblock
     const dealii::AffineConstraints<double> &lines,
     const double tolerance)
   {
-    TrilinosVector solution(owned, world());
+    TrilinosVector solution(owned, numbering.communicator);
     const double size = right_side.l2_norm();
     n_iterations      = 0;
     if (size > 0.)
@@ -282,7 +281,7 @@ namespace Keyblock
         }
     std::vector<double> total(force);
     std::fill(total.begin() + dim * numbering.n_owned(), total.end(), 0.);
-    if (on_any_rank(has_lift))
+    if (numbering.communicator.on_any(has_lift))
       {
         const std::vector<double> lifted = force_of_lift(lift);
         for (unsigned int i = 0; i < dim * numbering.n_owned(); ++i)
@@ -303,7 +302,7 @@ namespace Keyblock
   typename StaticSolver<dim>::TrilinosVector
   StaticSolver<dim>::condense(const std::vector<double> &force) const
   {
-    TrilinosVector condensed(owned, world());
+    TrilinosVector condensed(owned, numbering.communicator);
     std::vector<dealii::types::global_dof_index> dof(1);
     dealii::Vector<double> value(1);
     for (unsigned int i = 0; i < dim * numbering.n_owned(); ++i)
@@ -326,7 +325,7 @@ namespace Keyblock
     for (unsigned int i = 0; i < dim * numbering.n_owned(); ++i)
       scale += fields.internal_force[i] * fields.internal_force[i] +
                fields.load[i] * fields.load[i];
-    scale = std::sqrt(sum_over_ranks(scale));
+    scale = std::sqrt(numbering.communicator.sum(scale));
     return scale > 0. ? condense(force).l2_norm() / scale : 0.;
   }
 
@@ -357,8 +356,8 @@ namespace Keyblock
             yky += force[i] * y[i];
             ymy += fields.mass[i / dim] * y[i] * y[i];
           }
-        yky                 = sum_over_ranks(yky);
-        ymy                 = sum_over_ranks(ymy);
+        yky                 = numbering.communicator.sum(yky);
+        ymy                 = numbering.communicator.sum(ymy);
         x                   = y;
         const double before = period;
         period              = 2. * dealii::numbers::PI * std::sqrt(ymy / yky);

@@ -3,10 +3,8 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <keyblock/base/mpi.h>
 
 #include <algorithm>
-#include <iostream>
 
 namespace Keyblock
 {
@@ -17,6 +15,7 @@ namespace Keyblock
     : scene(scene)
     , split(split)
     , numbering(numbering)
+    , far_field(numbering.communicator)
   {}
 
 
@@ -70,10 +69,6 @@ namespace Keyblock
       for (unsigned int i = dim * spring.node; i < dim * (spring.node + 1); ++i)
         dead_load[i] = internal_force[i] - load[i];
     acts = true;
-    if (is_root() && !far_field.is_coupled())
-      std::cout << "Rock    the far field does not enclose its centre: springs "
-                   "only"
-                << std::endl;
   }
 
 
@@ -187,7 +182,7 @@ namespace Keyblock
     if (acts && !did_act)
       set_up();
     else if (!acts)
-      far_field = FarField<dim>();
+      far_field = FarField<dim>(numbering.communicator);
   }
 
   template class FarFieldSprings<2>;

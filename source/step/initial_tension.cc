@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/step/initial_tension.h>
 
 #include <algorithm>
@@ -75,22 +74,23 @@ namespace Keyblock
 
   template <int dim>
   std::string
-  warning_of_tension(const Scene<dim> &scene,
+  warning_of_tension(const Communicator &communicator,
+                     const Scene<dim> &scene,
                      const SplitMesh<dim> &split,
                      const CellArrays<dim> &cells)
   {
     const Tension<dim> tension = measure(split, cells);
-    const double largest       = max_over_ranks(tension.largest);
+    const double largest       = communicator.max(tension.largest);
     const double least =
       std::max(little_tension,
-               relative_tension * max_over_ranks(tension.compression));
-    const double share = sum_over_ranks(tension.volume_under_tension) /
-                         sum_over_ranks(tension.volume);
+               relative_tension * communicator.max(tension.compression));
+    const double share = communicator.sum(tension.volume_under_tension) /
+                         communicator.sum(tension.volume);
     std::ostringstream place;
     if (largest > 0. && tension.largest == largest)
       for (unsigned int d = 0; d < dim; ++d)
         place << (d ? ", " : "") << std::setprecision(4) << tension.place[d];
-    const std::string where = any_text(place.str());
+    const std::string where = communicator.any_text(place.str());
     if (!(largest > least))
       return "";
     std::ostringstream text;
@@ -112,10 +112,12 @@ namespace Keyblock
     return text.str() + ": " + remedy + ", if that is not meant.";
   }
 
-  template std::string warning_of_tension(const Scene<2> &,
+  template std::string warning_of_tension(const Communicator &,
+                                          const Scene<2> &,
                                           const SplitMesh<2> &,
                                           const CellArrays<2> &);
-  template std::string warning_of_tension(const Scene<3> &,
+  template std::string warning_of_tension(const Communicator &,
+                                          const Scene<3> &,
                                           const SplitMesh<3> &,
                                           const CellArrays<3> &);
 } // namespace Keyblock

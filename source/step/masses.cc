@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Masses of nodes: true, of equal steps, or shared out anew within blocks.
-#include <keyblock/base/mpi.h>
 #include <keyblock/step/active_cells.h>
 #include <keyblock/step/step_spread.h>
 
@@ -34,8 +33,9 @@ namespace Keyblock
         for (unsigned int c = 0; c < scaled.size(); ++c)
           scaled[c] = scaling_of(c)->scaled(frequency[c]);
       }
-    const StiffestCell stiffest = find_stiffest(scaled, cells.mesh_cell);
-    unscaled_step.frequency     = stiffest.frequency;
+    const StiffestCell stiffest =
+      find_stiffest(numbering.communicator, scaled, cells.mesh_cell);
+    unscaled_step.frequency = stiffest.frequency;
     if (stiffest.cell != none)
       unscaled_step.place = split.mesh.cell_center(stiffest.cell);
   }
@@ -59,7 +59,8 @@ namespace Keyblock
         mass.push_back(std::accumulate(shares.begin(), shares.end(), 0.));
         block.push_back(std::min(split.block_of_cell[mesh_cell], n_blocks));
       }
-    mass_scaling = scale_masses(frequency,
+    mass_scaling = scale_masses(numbering.communicator,
+                                frequency,
                                 mass,
                                 block,
                                 n_blocks + 1,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/step.h>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/scene/step_count.h>
 #include <keyblock/step/predict.h>
 
@@ -13,12 +12,13 @@ namespace Keyblock
   namespace
   {
     double
-    sum_of_sizes(const std::vector<double> &forces)
+    sum_of_sizes(const Communicator &communicator,
+                 const std::vector<double> &forces)
     {
       double sum = 0.;
       for (const double force : forces)
         sum += std::abs(force);
-      return sum_over_ranks(sum);
+      return communicator.sum(sum);
     }
   } // namespace
 
@@ -188,7 +188,8 @@ namespace Keyblock
     conditions.supports.remove_held_components(out_of_balance);
     // a block that is taken away later in the stage carries less
     out_of_balance_sum =
-      std::max(out_of_balance_sum, sum_of_sizes(out_of_balance));
+      std::max(out_of_balance_sum,
+               sum_of_sizes(numbering.communicator, out_of_balance));
     return out_of_balance;
   }
 
@@ -200,7 +201,8 @@ namespace Keyblock
     const std::vector<double> &out_of_balance) const
   {
     return out_of_balance_sum > 0.
-             ? sum_of_sizes(out_of_balance) / out_of_balance_sum
+             ? sum_of_sizes(numbering.communicator, out_of_balance) /
+                 out_of_balance_sum
              : 0.;
   }
 

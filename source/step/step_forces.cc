@@ -3,7 +3,6 @@
 // elements.
 #include <keyblock/step/step.h>
 
-#include <keyblock/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +58,7 @@ namespace Keyblock
           sum += fields.velocity[i + d] * fields.velocity[i + d];
         square = std::max(square, sum);
       }
-    const double fastest = std::sqrt(max_over_ranks(square));
+    const double fastest = std::sqrt(numbering.communicator.max(square));
     const double stopped = resting.check(
       {kick, scene.time_stepping.rest_speed * fastest, has_damping_force()},
       contact ? contact->list_surface_contact_nodes()

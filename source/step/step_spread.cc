@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/step_spread.h>
 
-#include <keyblock/base/mpi.h>
 
 #include <algorithm>
 
@@ -11,14 +10,17 @@ namespace Keyblock
   {
     /** Lists of all ranks, one after the other, on rank 0. */
     std::vector<double>
-    gather_on_root(const std::vector<double> &mine)
+    gather_on_root(const Communicator &communicator,
+                   const std::vector<double> &mine)
     {
       const int n = mine.size();
-      std::vector<int> counts(n_ranks()), begin(n_ranks(), 0);
-      MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world());
-      for (unsigned int r = 1; r < n_ranks(); ++r)
+      std::vector<int> counts(communicator.size()),
+        begin(communicator.size(), 0);
+      MPI_Gather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, communicator);
+      for (unsigned int r = 1; r < communicator.size(); ++r)
         begin[r] = begin[r - 1] + counts[r - 1];
-      std::vector<double> all(is_root() ? begin.back() + counts.back() : 0);
+      std::vector<double> all(
+        communicator.is_root() ? begin.back() + counts.back() : 0);
       MPI_Gatherv(mine.data(),
                   n,
                   MPI_DOUBLE,
@@ -27,7 +29,7 @@ namespace Keyblock
                   begin.data(),
                   MPI_DOUBLE,
                   0,
-                  world());
+                  communicator);
       return all;
     }
 
@@ -45,17 +47,18 @@ namespace Keyblock
 
 
   StiffestCell
-  find_stiffest(const std::vector<double> &frequency,
+  find_stiffest(const Communicator &communicator,
+                const std::vector<double> &frequency,
                 const std::vector<unsigned int> &mesh_cell)
   {
     StiffestCell stiffest;
     for (const double omega : frequency)
       stiffest.frequency = std::max(stiffest.frequency, omega);
-    stiffest.frequency = max_over_ranks(stiffest.frequency);
+    stiffest.frequency = communicator.max(stiffest.frequency);
     for (unsigned int c = 0; c < frequency.size(); ++c)
       if (frequency[c] == stiffest.frequency)
         stiffest.cell = std::min(stiffest.cell, mesh_cell[c]);
-    stiffest.cell = min_over_ranks(stiffest.cell);
+    stiffest.cell = communicator.min(stiffest.cell);
     return stiffest;
   }
 
@@ -63,13 +66,15 @@ namespace Keyblock
 
   template <int dim>
   StepSpread<dim>
-  measure_step_spread(const std::vector<double> &frequency,
+  measure_step_spread(const Communicator &communicator,
+                      const std::vector<double> &frequency,
                       const std::vector<unsigned int> &mesh_cell,
                       const Mesh<dim> &mesh)
   {
     StepSpread<dim> spread;
-    const StiffestCell stiffest = find_stiffest(frequency, mesh_cell);
-    spread.cell                 = stiffest.cell;
+    const StiffestCell stiffest =
+      find_stiffest(communicator, frequency, mesh_cell);
+    spread.cell = stiffest.cell;
     if (spread.cell == none)
       return spread;
     spread.place = mesh.cell_center(spread.cell);
@@ -79,19 +84,22 @@ namespace Keyblock
                    frequency.end(),
                    steps.begin(),
                    [](const double omega) { return 2. / omega; });
-    steps = gather_on_root(steps);
-    std::vector<double> median(1, is_root() ? median_of(steps) : 0.);
-    broadcast(median);
+    steps = gather_on_root(communicator, steps);
+    std::vector<double> median(1,
+                               communicator.is_root() ? median_of(steps) : 0.);
+    communicator.broadcast(median);
     spread.median = median[0];
     return spread;
   }
 
   template struct StepSpread<2>;
   template struct StepSpread<3>;
-  template StepSpread<2> measure_step_spread(const std::vector<double> &,
+  template StepSpread<2> measure_step_spread(const Communicator &,
+                                             const std::vector<double> &,
                                              const std::vector<unsigned int> &,
                                              const Mesh<2> &);
-  template StepSpread<3> measure_step_spread(const std::vector<double> &,
+  template StepSpread<3> measure_step_spread(const Communicator &,
+                                             const std::vector<double> &,
                                              const std::vector<unsigned int> &,
                                              const Mesh<3> &);
 } // namespace Keyblock

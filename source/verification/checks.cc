@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/mpi.h>
 #include <keyblock/verification/tools.h>
 
 #include <functional>
@@ -33,13 +32,13 @@ namespace Keyblock
           }
         value[n_stress<dim> + 1] = 1.;
       }
-    sum_lists(by_cell);
+    numbering.communicator.sum_lists(by_cell);
     std::vector<double> by_vertex(dim * mesh.vertices.size(), 0.);
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       for (unsigned int d = 0; d < dim; ++d)
         by_vertex[dim * numbering.vertex_of_node[node] + d] =
           fields.displacement[dim * node + d];
-    sum_lists(by_vertex);
+    numbering.communicator.sum_lists(by_vertex);
 
     RockState<dim> rock;
     rock.vertices = mesh.vertices;

@@ -10,5 +10,9 @@ int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  std::cout << "dimension " << Keyblock::read_dimension(argv[1], {}) << '\n';
+  std::cout << "dimension "
+            << Keyblock::read_dimension(Keyblock::Communicator(MPI_COMM_WORLD),
+                                        argv[1],
+                                        {})
+            << '\n';
 }

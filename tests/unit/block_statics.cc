@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What limit equilibrium sees of a scene, against hand calculations, and that
 // it sums water and tractions as the step does.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/step/conditions.h>
 
@@ -24,13 +25,13 @@ namespace
     Site(const std::string &text)
     {
       const std::string file =
-        "block_statics_" + std::to_string(n_ranks()) + ".prm";
-      MPI_Barrier(world());
-      if (is_root())
+        "block_statics_" + std::to_string(world.size()) + ".prm";
+      MPI_Barrier(world);
+      if (world.is_root())
         std::ofstream(file) << "set Dimension = " << dim << '\n' << text;
-      MPI_Barrier(world());
-      scene.read(file, {});
-      const Mesh<dim> mesh = make_mesh(scene);
+      MPI_Barrier(world);
+      scene.read(world, file, {});
+      const Mesh<dim> mesh = make_mesh(world, scene, silent);
       blocks               = find_blocks(mesh, scene);
       split                = split_mesh(mesh, blocks, scene);
     }
@@ -46,7 +47,7 @@ namespace
     Tensor<1, dim>
     load_of_step(const unsigned int block) const
     {
-      const Numbering<dim> numbering(scene, split);
+      const Numbering<dim> numbering(world, scene, split);
       CellArrays<dim> cells;
       Fields<dim> fields;
       Conditions<dim> conditions(scene, split, numbering, cells, fields);
@@ -63,7 +64,7 @@ namespace
           for (unsigned int d = 0; d < dim; ++d)
             sum[d] += fields.load[dim * node + d];
       for (unsigned int d = 0; d < dim; ++d)
-        sum[d] = sum_over_ranks(sum[d]);
+        sum[d] = world.sum(sum[d]);
       return sum;
     }
 
@@ -388,8 +389,8 @@ BOOST_AUTO_TEST_CASE(faces_that_are_no_joint)
       n_vertices += (n + 1) * (n + 1);
     }
   const std::string file =
-    "block_statics_" + std::to_string(n_ranks()) + ".ucd";
-  if (is_root())
+    "block_statics_" + std::to_string(world.size()) + ".ucd";
+  if (world.is_root())
     std::ofstream(file) << n_vertices << ' ' << n_cells << " 0 0 0\n"
                         << vertices.str() << cells.str();
   const Site<2> site(

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The order of the loop over cells: all of them once, and of a structured box
 // its rows one after the other.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/mesh/cell_order.h>
 #include <keyblock/run/simulation.h>
 
@@ -13,15 +14,15 @@ using namespace Keyblock;
 
 BOOST_AUTO_TEST_CASE(sweep_order_of_box)
 {
-  const std::string name = "cell_order_" + std::to_string(n_ranks());
-  if (is_root())
+  const std::string name = "cell_order_" + std::to_string(world.size());
+  if (world.is_root())
     std::ofstream(name + ".prm")
       << "set Dimension = 2\nsubsection Domain\n set Size = 5, 8\nend\n"
          "subsection Mesh\n set Cells = 5, 8\nend\nsubsection Materials\n "
          "set Names = rock\nend\nsubsection Stages\n set Names = none\n "
          "subsection none\n  set Maximum steps = 1\n end\nend\n";
-  MPI_Barrier(world());
-  Simulation<2> simulation(name + ".prm", {}, name);
+  MPI_Barrier(world);
+  Simulation<2> simulation(world, name + ".prm", {}, name);
   simulation.validate();
   const Mesh<2> &mesh = simulation.state().split.mesh;
 

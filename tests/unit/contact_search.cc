@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Which nodes meet which faces: not those that lie behind them, both sides of a
 // kinked joint, and areas that add up to what lies on each other.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/contact/search.h>
 #include <keyblock/safety/slip_record.h>
 
@@ -25,8 +26,8 @@ namespace
         const double cell)
     {
       const std::string file =
-        "contact_search_" + name + "_" + std::to_string(n_ranks()) + ".prm";
-      if (is_root())
+        "contact_search_" + name + "_" + std::to_string(world.size()) + ".prm";
+      if (world.is_root())
         std::ofstream(file)
           << "set Dimension = " << dim
           << "\nsubsection Domain\n set Size = " << size
@@ -38,9 +39,9 @@ namespace
              "subsection Stages\n set Names = rest\n subsection rest\n"
              "  set Duration = 1\n end\nend\nsubsection Joints\n"
           << joints << "end\n";
-      MPI_Barrier(world());
-      scene.read(file, {});
-      mesh   = make_mesh(scene);
+      MPI_Barrier(world);
+      scene.read(world, file, {});
+      mesh   = make_mesh(world, scene, silent);
       blocks = find_blocks(mesh, scene);
       split  = split_mesh(mesh, blocks, scene);
       search = std::make_unique<ContactSearch<dim>>(split, blocks, scene);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Wave speed of the explicit step: the frequencies of standing waves against
 // the dispersion of square cells with lumped masses.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/simulation.h>
 
 #include <algorithm>
@@ -80,9 +81,9 @@ namespace
   std::string
   write_box(const Mode &mode, const unsigned int n_steps)
   {
-    const std::string name = "dispersion_" + std::to_string(n_ranks());
+    const std::string name = "dispersion_" + std::to_string(world.size());
     const double kx = mode.wave_number_x(), ky = mode.wave_number_y();
-    if (is_root())
+    if (world.is_root())
       std::ofstream(name + ".prm")
         << std::setprecision(17) << rollers
         << "subsection Domain\n set Truncated boundaries = none\n set Size = "
@@ -106,7 +107,7 @@ namespace
         << "\n end\nend\nsubsection Monitors\n set Names = crest\n subsection "
            "crest\n set Location = "
         << std::round(0.5 * dealii::numbers::PI / kx) << ", 0\n end\nend\n";
-    MPI_Barrier(world());
+    MPI_Barrier(world);
     return name;
   }
 
@@ -159,12 +160,12 @@ namespace
   check_mode(const Mode &mode, const double percent)
   {
     const std::string name = write_box(mode, 60);
-    Simulation<2> simulation(name + ".prm", {}, name);
+    Simulation<2> simulation(world, name + ".prm", {}, name);
     simulation.run();
     const double c_p   = mode.pressure_speed();
     const double bound = simulation.state().stable_step() * c_p;
     BOOST_TEST(std::abs(bound - std::sqrt(1. - mode.poisson)) < 1e-4);
-    if (!is_root())
+    if (!world.is_root())
       return;
     const Measurement found = fit_frequency(mode, simulation.measured());
     const double courant    = found.time_step * c_p;

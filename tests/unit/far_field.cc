@@ -2,9 +2,10 @@
 // Kelvin's fields: gradients are derivatives of the displacements, stresses are
 // in equilibrium, and a single force is carried by any surface around it. The
 // boundary's stiffness carries them through.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/simulation.h>
 
 #include <fstream>
@@ -82,9 +83,9 @@ namespace
   make_box(const unsigned int n)
   {
     const std::string name = "far_field_" + std::to_string(dim) + "_" +
-                             std::to_string(n_ranks()),
+                             std::to_string(world.size()),
                       side = std::to_string(n);
-    if (is_root())
+    if (world.is_root())
       std::ofstream(name + ".prm")
         << "set Dimension = " << dim << "\nsubsection Domain\n set Corner = -1"
         << (dim == 2 ? ", -1" : ", -1, -1") << "\n set Size = 2"
@@ -94,11 +95,9 @@ namespace
         << "\nend\nsubsection Materials\n set Names = rock\nend\n"
            "subsection Stages\n set Names = none\n subsection none\n  set "
            "Maximum steps = 1\n end\nend\n";
-    MPI_Barrier(world());
-    auto simulation =
-      std::make_unique<Simulation<dim>>(name + ".prm",
-                                        std::vector<std::string>(),
-                                        name);
+    MPI_Barrier(world);
+    auto simulation = std::make_unique<Simulation<dim>>(
+      world, name + ".prm", std::vector<std::string>(), name);
     simulation->validate();
     return simulation;
   }
@@ -151,8 +150,8 @@ namespace
             error += std::pow(force[i] - expected[i], 2);
             square += std::pow(expected[i], 2);
           }
-        error  = sum_over_ranks(error);
-        square = sum_over_ranks(square);
+        error  = world.sum(error);
+        square = world.sum(square);
         BOOST_TEST(std::sqrt(error / square) < tolerance);
       }
   }

@@ -63,7 +63,7 @@ namespace
       double largest = 0.;
       for (const unsigned int node : at)
         largest = std::max(largest, inverse_mass[node]);
-      largest = max_over_ranks(largest);
+      largest = world.max(largest);
       return {largest * stiffness, largest * viscosity};
     }
     double

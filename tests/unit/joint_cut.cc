@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Joints cut into a mesh: the cells stay right side out and fill the domain,
 // surfaces stay where they are, sides and volumes are those of the planes.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/blocks/block_measures.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/mesh/joint_cut.h>
@@ -207,8 +208,8 @@ namespace
   write_scene(const std::string &joints, const std::string &mesh)
   {
     const std::string name =
-      "cut_" + std::to_string(dim) + "_" + std::to_string(n_ranks());
-    if (is_root())
+      "cut_" + std::to_string(dim) + "_" + std::to_string(world.size());
+    if (world.is_root())
       std::ofstream(name + ".prm")
         << "set Dimension = " << dim << "\nsubsection Domain\n set Size = "
         << (dim == 2 ? "12, 12" : "12, 12, 12")
@@ -217,7 +218,7 @@ namespace
         << mesh << "end\nsubsection Materials\n set Names = rock\nend\n"
         << "subsection Output\n set Write VTU = false\nend\n"
         << joints;
-    MPI_Barrier(world());
+    MPI_Barrier(world);
     return name;
   }
 } // namespace
@@ -226,13 +227,13 @@ BOOST_AUTO_TEST_SUITE(joint_cut)
 
 BOOST_AUTO_TEST_CASE(mesh_stays_sound_2d)
 {
-  if (is_root()) // nothing here is shared
+  if (world.is_root()) // nothing here is shared
     check_cut<2>();
 }
 
 BOOST_AUTO_TEST_CASE(mesh_stays_sound_3d)
 {
-  if (is_root())
+  if (world.is_root())
     check_cut<3>();
 }
 
@@ -249,10 +250,10 @@ BOOST_AUTO_TEST_CASE(exact_volume_of_a_bent_block)
     " end\nend\n",
     " set Size = 1\n");
   Scene<3> scene;
-  scene.read(name + ".prm", {});
-  const Mesh<3> mesh     = make_mesh(scene);
+  scene.read(world, name + ".prm", {});
+  const Mesh<3> mesh     = make_mesh(world, scene, silent);
   const Blocks<3> blocks = find_blocks(mesh, scene);
-  if (is_root())
+  if (world.is_root())
     {
       BOOST_TEST(mesh.report.way == "cut");
       BOOST_TEST(mesh.report.merged.size() == 1);
@@ -286,8 +287,8 @@ BOOST_AUTO_TEST_CASE(refined_cells_keep_joints)
     const std::string name =
       write_scene<2>(joint, " set Size = 1\n" + mesh_entries);
     Scene<2> scene;
-    scene.read(name + ".prm", {});
-    const Mesh<2> mesh = make_mesh(scene);
+    scene.read(world, name + ".prm", {});
+    const Mesh<2> mesh = make_mesh(world, scene, silent);
     BOOST_TEST(find_blocks(mesh, scene).blocks.size() == 2);
     double length = 0.;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
@@ -318,8 +319,8 @@ BOOST_AUTO_TEST_CASE(thin_block_gets_cells_across)
       write_scene<2>(joints,
                      " set Size = 2\n set Grading distance = 4\n" + entries);
     Scene<2> scene;
-    scene.read(name + ".prm", {});
-    const auto [mesh, blocks] = make_mesh_for_blocks(scene);
+    scene.read(world, name + ".prm", {});
+    const auto [mesh, blocks] = make_mesh_for_blocks(world, scene, silent);
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       largest_cell = std::max(largest_cell, mesh.cell_volume(c));
     for (const auto &block : blocks.blocks)
@@ -353,8 +354,8 @@ BOOST_AUTO_TEST_CASE(weaker_joint_rules)
       const std::string name =
         write_scene<2>(joints.str() + "end\n", " set Size = 1\n");
       Scene<2> scene;
-      scene.read(name + ".prm", {});
-      const Mesh<2> mesh   = make_mesh(scene);
+      scene.read(world, name + ".prm", {});
+      const Mesh<2> mesh   = make_mesh(world, scene, silent);
       unsigned int n_faces = 0;
       for (const auto &faces : mesh.joint)
         for (const unsigned int joint : faces)
@@ -389,8 +390,9 @@ BOOST_AUTO_TEST_CASE(network_is_meshed_on_all_ranks_alike)
   const std::string name =
     write_scene<2>(joints.str(), " set Size = 0.5\n set Snap = 0.2\n");
   Scene<2> scene;
-  scene.read(name + ".prm", {});
-  const Mesh<2> first = make_mesh(scene), second = make_mesh(scene);
+  scene.read(world, name + ".prm", {});
+  const Mesh<2> first  = make_mesh(world, scene, silent),
+                second = make_mesh(world, scene, silent);
   BOOST_TEST(first.n_cells() > 500);
   BOOST_TEST((first.cells == second.cells));
   BOOST_TEST((first.vertices == second.vertices));
@@ -398,7 +400,7 @@ BOOST_AUTO_TEST_CASE(network_is_meshed_on_all_ranks_alike)
   double checksum = 0.;
   for (unsigned int v = 0; v < first.vertices.size(); ++v)
     checksum += (v + 1.) * (first.vertices[v][0] + 2. * first.vertices[v][1]);
-  BOOST_TEST(max_over_ranks(checksum) == min_over_ranks(checksum));
+  BOOST_TEST(world.max(checksum) == world.min(checksum));
 }
 
 namespace
@@ -485,10 +487,10 @@ namespace
                          "near\n" + joints.str() + "end\n",
                        mesh_entries.str());
     Scene<dim> scene;
-    scene.read(name + ".prm", {});
-    const Mesh<dim> mesh     = make_mesh(scene);
+    scene.read(world, name + ".prm", {});
+    const Mesh<dim> mesh     = make_mesh(world, scene, silent);
     const Blocks<dim> blocks = find_blocks(mesh, scene);
-    if (is_root())
+    if (world.is_root())
       BOOST_REQUIRE(mesh.report.way == "cut");
     const Arrangement<dim> exact(scene.joints, n_planes, dim == 2 ? 500 : 80);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Tables of joints as geologists keep them, and what is wrong with some.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/base/errors.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/scene/joint_table.h>
 
 #include <fstream>
@@ -16,8 +17,8 @@ namespace
   std::string
   write_table(const std::string &content)
   {
-    const std::string name = "table_" + std::to_string(n_ranks()) + "_" +
-                             std::to_string(this_rank()) + ".csv";
+    const std::string name = "table_" + std::to_string(world.size()) + "_" +
+                             std::to_string(world.rank()) + ".csv";
     std::ofstream(name, std::ios::binary) << content;
     return name;
   }

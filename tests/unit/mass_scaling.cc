@@ -55,8 +55,8 @@ namespace
             const double largest_added,
             const double duration)
   {
-    const std::string name = "mass_scaling_" + std::to_string(n_ranks());
-    if (is_root())
+    const std::string name = "mass_scaling_" + std::to_string(world.size());
+    if (world.is_root())
       {
         write_mesh(name + ".ucd");
         std::ofstream(name + ".prm")
@@ -77,7 +77,7 @@ namespace
              "end\n set Location = 0, 0\n end\nend\nsubsection Output\n set "
              "Write VTU = false\nend\n";
       }
-    MPI_Barrier(world());
+    MPI_Barrier(world);
     return name;
   }
 
@@ -93,7 +93,7 @@ namespace
         sums[1] += fields.mass[i] - fields.weighing_mass[i];
         sums[2] += fields.mass[i] * fields.velocity[2 * i + 1];
       }
-    sum_lists(sums);
+    world.sum_lists(sums);
     return {{sums[1] / sums[0], sums[2] / sums[0]}};
   }
 
@@ -107,9 +107,9 @@ namespace
            << "*x); 0\n";
     const std::string name =
       write_bar(motion.str(), least_step, 0.05, 1.2 * length / wave_speed);
-    Simulation<2> simulation(name + ".prm", {}, name);
+    Simulation<2> simulation(world, name + ".prm", {}, name);
     simulation.run();
-    if (!is_root())
+    if (!world.is_root())
       return 0.;
     const History &history            = simulation.measured();
     const std::vector<double> time    = history.column("time");
@@ -138,13 +138,13 @@ BOOST_AUTO_TEST_CASE(shares_of_mass)
   std::vector<double> frequency, mass;
   std::vector<unsigned int> block;
   for (unsigned int c = 0; c < all_blocks.size(); ++c)
-    if (c % n_ranks() == this_rank())
+    if (c % world.size() == world.rank())
       {
         frequency.push_back(all_frequencies[c]);
         mass.push_back(all_masses[c]);
         block.push_back(all_blocks[c]);
       }
-  const auto found = scale_masses(frequency, mass, block, 3, 1.5, 0.1);
+  const auto found = scale_masses(world, frequency, mass, block, 3, 1.5, 0.1);
   BOOST_REQUIRE(found.size() == 3u);
   const double factor = 4. / 2.25, added = 0.1 * (factor - 1.);
   BOOST_TEST(found[0].square == 2.25);
@@ -188,15 +188,14 @@ BOOST_AUTO_TEST_CASE(bar_with_thin_cells_falls_freely)
     {
       const std::string name =
         write_bar(motion.str(), is_scaled ? wanted_step : 0., 0.05, duration);
-      Simulation<2> simulation(name + ".prm", {}, name);
+      Simulation<2> simulation(world, name + ".prm", {}, name);
       simulation.run();
       const auto [added, velocity] = mass_and_velocity(simulation);
       BOOST_TEST(std::abs(added) < 1e-14);
       // the first row is the state before the first step
-      std::vector<double> n(1,
-                            is_root() ? simulation.measured().rows.size() - 1.
-                                      : 0.);
-      broadcast(n);
+      std::vector<double> n(
+        1, world.is_root() ? simulation.measured().rows.size() - 1. : 0.);
+      world.broadcast(n);
       // at the last half step
       const double expected = -gravity * duration * (1. - 0.5 / n[0]);
       BOOST_TEST(std::abs(velocity / expected - 1.) < 1e-12);
@@ -214,7 +213,7 @@ BOOST_AUTO_TEST_CASE(bar_with_thin_cells_falls_freely)
 BOOST_AUTO_TEST_CASE(added_mass_within_its_bound)
 {
   const std::string name = write_bar("", wanted_step, 0.01, 0.01);
-  Simulation<2> simulation(name + ".prm", {}, name);
+  Simulation<2> simulation(world, name + ".prm", {}, name);
   simulation.run();
   const MassScaling &block =
     simulation.state().conditions->active_cells.mass_scaling.front();
@@ -235,7 +234,7 @@ BOOST_AUTO_TEST_CASE(wave_in_a_bar_with_thin_cells)
   double residual = 0., scaled_residual = 0., steps = 0., scaled_steps = 0.;
   const double own    = half_period(0., residual, steps);
   const double scaled = half_period(wanted_step, scaled_residual, scaled_steps);
-  if (!is_root())
+  if (!world.is_root())
     return;
   const double exact = length / wave_speed;
   BOOST_TEST_MESSAGE("half period over the closed form: "

@@ -2,7 +2,8 @@
 #ifndef keyblock_tests_mesh_frequency_h
 #define keyblock_tests_mesh_frequency_h
 
-#include <keyblock/base/mpi.h>
+#include "world.h"
+
 #include <keyblock/rock/internal_force.h>
 #include <keyblock/run/simulation.h>
 
@@ -49,7 +50,7 @@ namespace Keyblock
             sums[0] += x[i] * y[i] * mass;
             sums[1] += x[i] * x[i] * mass;
           }
-        sum_lists(sums);
+        world.sum_lists(sums);
         eigenvalue = sums[0] / sums[1];
         for (unsigned int i = 0; i < x.size(); ++i)
           x[i] = y[i] / eigenvalue;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A column with an inclined joint under a uniform pressure: the stress must be
 // uniform to round-off, whether the joint is bonded or only pressed.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/simulation.h>
 
 #include <cmath>
@@ -18,8 +19,8 @@ namespace
   double
   deviation(const double dip, const std::string &strength)
   {
-    const std::string name = "patch_" + std::to_string(n_ranks());
-    if (is_root())
+    const std::string name = "patch_" + std::to_string(world.size());
+    if (world.is_root())
       std::ofstream(name + ".prm")
         << "subsection Domain\n set Size = 1, 2\n set Truncated boundaries = "
            "none\nend\nsubsection Mesh\n set Generator = gmsh\n set Size = "
@@ -39,8 +40,8 @@ namespace
            "Maximum steps = 100000\n set Local damping = 0.8\n set Unbalanced "
            "ratio = 1e-13\n end\nend\nsubsection Output\n set Write VTU = "
            "false\n set History interval = 50\nend\n";
-    MPI_Barrier(world());
-    Simulation<2> simulation(name + ".prm", {}, name);
+    MPI_Barrier(world);
+    Simulation<2> simulation(world, name + ".prm", {}, name);
     simulation.run();
     const std::array<double, 4> exact = {{0., -1e6, -0.25e6, 0.}};
     double largest                    = 0.;
@@ -50,7 +51,7 @@ namespace
         largest =
           std::max(largest,
                    std::abs(cells.stress_at(c, i / 4)[i % 4] - exact[i % 4]));
-    return max_over_ranks(largest) / 1e6;
+    return world.max(largest) / 1e6;
   }
 
   /** Largest and root-mean-square deviation of the vertical stress from -1 MPa,
@@ -60,8 +61,8 @@ namespace
   deviation_across_unlike_meshes(const unsigned int n_below,
                                  const unsigned int n_above)
   {
-    const std::string name = "unlike_" + std::to_string(n_ranks());
-    if (is_root())
+    const std::string name = "unlike_" + std::to_string(world.size());
+    if (world.is_root())
       {
         std::ostringstream vertices, cells;
         unsigned int n_vertices = 0, n_cells = 0;
@@ -102,8 +103,8 @@ namespace
              "end\nend\nsubsection Output\n set Write VTU = false\n set "
              "History interval = 50\nend\n";
       }
-    MPI_Barrier(world());
-    Simulation<2> simulation(name + ".prm", {}, name);
+    MPI_Barrier(world);
+    Simulation<2> simulation(world, name + ".prm", {}, name);
     simulation.run();
     const auto &cells = simulation.state().cells;
     double largest = 0., square = 0., n_points = 0.;
@@ -115,9 +116,9 @@ namespace
           square += error * error;
           n_points += 1.;
         }
-    square   = sum_over_ranks(square);
-    n_points = sum_over_ranks(n_points);
-    return {{max_over_ranks(largest), std::sqrt(square / n_points)}};
+    square   = world.sum(square);
+    n_points = world.sum(n_points);
+    return {{world.max(largest), std::sqrt(square / n_points)}};
   }
 } // namespace
 

@@ -2,7 +2,8 @@
 #ifndef keyblock_tests_unit_plate_h
 #define keyblock_tests_unit_plate_h
 
-#include <keyblock/base/mpi.h>
+#include "world.h"
+
 #include <keyblock/step/step.h>
 
 #include <fstream>
@@ -20,9 +21,10 @@ namespace Keyblock
     /** @p text: what the scene says besides mesh and rock. */
     explicit Plate(const std::string &text)
     {
-      const std::string file = "plate_of_" + std::to_string(n_ranks()) + ".prm";
-      MPI_Barrier(world());
-      if (is_root())
+      const std::string file =
+        "plate_of_" + std::to_string(world.size()) + ".prm";
+      MPI_Barrier(world);
+      if (world.is_root())
         std::ofstream(file)
           << "subsection Domain\n set Size = 2, 1\n set Truncated boundaries = "
              "none\nend\nsubsection Mesh\n set Cells = 4, 2\nend\nsubsection "
@@ -30,12 +32,12 @@ namespace Keyblock
              "modulus = 1e9\n  set Poisson ratio = 0.25\n  set Density = "
           << density << "\n end\nend\n"
           << text;
-      MPI_Barrier(world());
-      scene.read(file, {});
-      const Mesh<2> mesh = make_mesh(scene);
+      MPI_Barrier(world);
+      scene.read(world, file, {});
+      const Mesh<2> mesh = make_mesh(world, scene, silent);
       blocks             = find_blocks(mesh, scene);
       split              = split_mesh(mesh, blocks, scene);
-      numbering          = std::make_unique<Numbering<2>>(scene, split);
+      numbering          = std::make_unique<Numbering<2>>(world, scene, split);
       conditions         = std::make_unique<Conditions<2>>(
         scene, split, *numbering, cells, fields);
       step = std::make_unique<ExplicitStep<2>>(
@@ -50,7 +52,7 @@ namespace Keyblock
       for (unsigned int i = 0; i < 2 * numbering->n_owned(); ++i)
         sum[i % 2] += field[i];
       for (unsigned int d = 0; d < 2; ++d)
-        sum[d] = sum_over_ranks(sum[d]);
+        sum[d] = world.sum(sum[d]);
       return sum;
     }
 

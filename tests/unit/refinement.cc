@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Local refinement: linear motions pass through hanging nodes exactly, and a
 // wave that crosses them keeps its energy.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/simulation.h>
 
 #include <cmath>
@@ -16,10 +17,10 @@ namespace
   std::string
   write_scene(const std::string &text)
   {
-    const std::string name = "refinement_" + std::to_string(n_ranks());
-    if (is_root())
+    const std::string name = "refinement_" + std::to_string(world.size());
+    if (world.is_root())
       std::ofstream(name + ".prm") << text;
-    MPI_Barrier(world());
+    MPI_Barrier(world);
     return name;
   }
 
@@ -48,7 +49,7 @@ namespace
       field +
       "\n end\nend\nsubsection Stages\n set Names = load\n subsection load\n" +
       stage + " end\nend\n");
-    Simulation<dim> simulation(name + ".prm", {}, name);
+    Simulation<dim> simulation(world, name + ".prm", {}, name);
     simulation.run();
     BOOST_TEST(simulation.state().split.hanging.size() > 4);
     const auto &mesh                = simulation.state().split.mesh;

@@ -2,9 +2,10 @@
 // Two square bars stand on their edges, one across the other: ridges meet
 // between their nodes, so that only contact of edge with edge can hold them
 // apart.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/simulation.h>
 
 #include <cmath>
@@ -48,8 +49,8 @@ namespace
 
 BOOST_AUTO_TEST_CASE(crossed_ridges_rebound)
 {
-  const std::string name = "ridges_" + std::to_string(n_ranks());
-  if (is_root())
+  const std::string name = "ridges_" + std::to_string(world.size());
+  if (world.is_root())
     {
       std::ostringstream vertices, cells;
       write_bar(vertices, cells, 0);
@@ -74,14 +75,14 @@ BOOST_AUTO_TEST_CASE(crossed_ridges_rebound)
            "0.1, 0.2, -1\n end\nend\nsubsection Output\n set Write VTU = "
            "false\nend\n";
     }
-  MPI_Barrier(world());
-  Simulation<3> simulation(name + ".prm", {}, name);
+  MPI_Barrier(world);
+  Simulation<3> simulation(world, name + ".prm", {}, name);
   simulation.run();
 
   const History &history = simulation.measured();
   bool is_kept_apart = true, is_momentum_kept = true;
   double rebound = 0.;
-  if (is_root())
+  if (world.is_root())
     {
       const auto upper = history.column("upper.u_z", 0);
       const auto lower = history.column("lower.u_z", 0);

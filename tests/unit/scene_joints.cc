@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Joints of a scene from names, table and sets, and what overrides them.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/base/errors.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/joints.h>
 #include <keyblock/scene/network_output.h>
@@ -21,16 +22,16 @@ namespace
   std::string
   own(const std::string &name)
   {
-    return "joints_" + std::to_string(n_ranks()) + "_" + name;
+    return "joints_" + std::to_string(world.size()) + "_" + name;
   }
 
   void
   write(const std::string &name, const std::string &content)
   {
-    MPI_Barrier(world());
-    if (is_root())
+    MPI_Barrier(world);
+    if (world.is_root())
       std::ofstream(own(name), std::ios::binary) << content;
-    MPI_Barrier(world());
+    MPI_Barrier(world);
   }
 
   /** A scene in a box of 20 m with this in the place of its joints. */
@@ -49,7 +50,7 @@ namespace
        const std::string &name                   = "scene.prm")
   {
     auto scene = std::make_unique<Scene<3>>();
-    scene->read(own(name), overrides);
+    scene->read(world, own(name), overrides);
     return scene;
   }
 
@@ -158,9 +159,9 @@ BOOST_AUTO_TEST_CASE(used_entries_give_the_same_joints)
   write("table.csv", table);
   write_scene(scene_of_all());
   const auto scene = read({"Joints/c/Normal=1, 2, 3"});
-  if (is_root())
+  if (world.is_root())
     scene->write_used(own("used.prm"));
-  MPI_Barrier(world());
+  MPI_Barrier(world);
   write("table.csv", "is not looked at\n");
   const auto again = read({}, "used.prm");
   BOOST_TEST(again->used_entries() == scene->used_entries());
@@ -176,9 +177,9 @@ BOOST_AUTO_TEST_CASE(used_entries_give_the_same_joints)
       BOOST_TEST(one.radius == other.radius);
       BOOST_TEST(one.friction_angle == other.friction_angle);
     }
-  if (is_root())
+  if (world.is_root())
     again->write_used(own("used_again.prm"));
-  MPI_Barrier(world());
+  MPI_Barrier(world);
   BOOST_TEST(content_of(own("used_again.prm")) == content_of(own("used.prm")));
 }
 
@@ -229,9 +230,9 @@ BOOST_AUTO_TEST_CASE(written_network_is_read_again)
   // (coordinates in the grid of an origin are rounded there)
   const std::string origin = "Domain/Origin=0, 0, 0";
   const auto scene = read({origin, "Joints/b/Water pressure=9810*(20-z)"});
-  if (is_root())
+  if (world.is_root())
     write_joint_table(own("written.csv"), *scene);
-  MPI_Barrier(world());
+  MPI_Barrier(world);
   write_scene("subsection Joints\n set File = " + own("written.csv") +
               "\nend\n");
   const auto again = read({origin});
@@ -258,9 +259,9 @@ BOOST_AUTO_TEST_CASE(ten_thousand_rows)
   BOOST_TEST(seconds.count() < 20.);
 
   const auto start_again = std::chrono::steady_clock::now();
-  if (is_root())
+  if (world.is_root())
     scene->write_used(own("used.prm"));
-  MPI_Barrier(world());
+  MPI_Barrier(world);
   const auto again = read({}, "used.prm");
   const std::chrono::duration<double> more =
     std::chrono::steady_clock::now() - start_again;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Cells that a mesh will have, before it is made.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/base/errors.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/mesh/mesh.h>
 #include <keyblock/mesh/size_limit.h>
 
@@ -18,11 +19,11 @@ namespace
                       const std::vector<std::string> &overrides)
   {
     Scene<dim> scene;
-    scene.read(KEYBLOCK_VERIFICATION_SCENES "/" + name, overrides);
+    scene.read(world, KEYBLOCK_VERIFICATION_SCENES "/" + name, overrides);
     // only rank 0 makes meshes, but all read together
-    if (!is_root())
+    if (!world.is_root())
       return 1.;
-    const Mesh<dim> mesh = make_gmsh_mesh<dim>(scene, {});
+    const Mesh<dim> mesh = make_gmsh_mesh<dim>(scene, silent, {});
     Point<dim> low = mesh.vertices[0], high = low;
     for (const Point<dim> &p : mesh.vertices)
       for (unsigned int d = 0; d < dim; ++d)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The mode by which nodes creep: found where one lasts, not where several mix
 // or the motion runs away.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/safety/slow_mode.h>
@@ -43,7 +45,7 @@ BOOST_AUTO_TEST_CASE(slow_mode_of_creep)
   const std::vector<unsigned int> nodes = {0, 1};
 
   put(fields, 0., 0.);
-  SlowMode<2> creep(fields, nodes);
+  SlowMode<2> creep(world, fields, nodes);
   // slow mode alone, dying away: three looks agree
   put(fields, 1., 0.);
   BOOST_TEST(creep.check() == 0.);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A mesh that is split along joints which hold must move like the unsplit one,
 // and rest under in-situ stress with the tractions that the stress demands.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/run/simulation.h>
 
 #include <fstream>
@@ -110,12 +111,12 @@ end
   std::unique_ptr<Simulation<dim>>
   run(const std::string &text, const std::vector<std::string> &overrides)
   {
-    const std::string name = "unit_scene_" + std::to_string(n_ranks());
-    if (is_root())
+    const std::string name = "unit_scene_" + std::to_string(world.size());
+    if (world.is_root())
       std::ofstream(name + ".prm") << text;
-    MPI_Barrier(world());
+    MPI_Barrier(world);
     auto simulation =
-      std::make_unique<Simulation<dim>>(name + ".prm", overrides, name);
+      std::make_unique<Simulation<dim>>(world, name + ".prm", overrides, name);
     simulation->run();
     return simulation;
   }

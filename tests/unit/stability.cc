@@ -20,8 +20,8 @@ namespace
   std::string
   write_plate(const double safety, const unsigned int n_steps)
   {
-    const std::string name = "plate_" + std::to_string(n_ranks());
-    if (is_root())
+    const std::string name = "plate_" + std::to_string(world.size());
+    if (world.is_root())
       std::ofstream(name + ".prm")
         << "subsection Domain\n set Size = 8, 8\n set Truncated boundaries = "
            "none\nend\nsubsection Mesh\n set Cells = 8, 8\nend\nsubsection "
@@ -36,7 +36,7 @@ namespace
         << n_steps
         << "\n end\nend\nsubsection Output\n set Write VTU = false\n set "
            "History interval = 1000\nend\n";
-    MPI_Barrier(world());
+    MPI_Barrier(world);
     return name;
   }
 } // namespace
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(time_step_limit)
   double bound = 0., limit = 0.;
   {
     const std::string name = write_plate(0.9, 1);
-    Simulation<2> simulation(name + ".prm", {}, name);
+    Simulation<2> simulation(world, name + ".prm", {}, name);
     simulation.run();
     bound = simulation.state().stable_step();
     limit = 2. / highest_frequency_of_mesh(simulation, 20000);
@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(time_step_limit)
   BOOST_TEST(bound <= limit);
   {
     const std::string name = write_plate(0.99 * limit / bound, 100000);
-    Simulation<2> simulation(name + ".prm", {}, name);
+    Simulation<2> simulation(world, name + ".prm", {}, name);
     simulation.run();
     double largest = 0.;
     for (const double v : simulation.state().values_by_vertex(
@@ -71,15 +71,15 @@ BOOST_AUTO_TEST_CASE(time_step_limit)
   }
   {
     const std::string name = write_plate(1.01 * limit / bound, 100000);
-    Simulation<2> simulation(name + ".prm", {}, name);
+    Simulation<2> simulation(world, name + ".prm", {}, name);
     BOOST_CHECK_THROW(simulation.run(), ComputationError);
   }
 }
 
 BOOST_AUTO_TEST_CASE(jointed_rock_in_equilibrium_stays_at_rest)
 {
-  const std::string name = "rest_" + std::to_string(n_ranks());
-  if (is_root())
+  const std::string name = "rest_" + std::to_string(world.size());
+  if (world.is_root())
     std::ofstream(name + ".prm")
       << "subsection Domain\n set Corner = -10, -10\n set Size = 20, "
          "20\nend\nsubsection Mesh\n set Generator = gmsh\n set Size = "
@@ -107,10 +107,10 @@ BOOST_AUTO_TEST_CASE(jointed_rock_in_equilibrium_stays_at_rest)
          "steps = 300\n end\nend\nsubsection Monitors\n set Names = all\n "
          "subsection all\n set Kind = region\n end\nend\nsubsection Output\n "
          "set Write VTU = false\nend\n";
-  MPI_Barrier(world());
-  Simulation<2> simulation(name + ".prm", {}, name);
+  MPI_Barrier(world);
+  Simulation<2> simulation(world, name + ".prm", {}, name);
   simulation.run();
-  if (is_root())
+  if (world.is_root())
     {
       const History &history = simulation.measured();
       const auto kinetic     = history.column("energy.kinetic", 0);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The seal of state files: what it tells, and that it sees every byte.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/base/errors.h>
-#include <keyblock/base/mpi.h>
 #include <keyblock/checkpoint/state_file.h>
 #include <keyblock/checkpoint/state_seal.h>
 
@@ -63,10 +64,10 @@ BOOST_AUTO_TEST_CASE(digest_of_published_text)
 BOOST_AUTO_TEST_CASE(seal_sees_every_byte)
 {
   // files of several ranks are one and the same
-  if (n_ranks() > 1)
+  if (world.size() > 1)
     return;
   const std::string name = "state_seal_test.h5";
-  StateFile file;
+  StateFile file(world);
   std::vector<double> list  = {1., 2., 3.};
   std::uint64_t large       = 1ull << 40;
   const std::uint64_t first = large;
@@ -76,7 +77,7 @@ BOOST_AUTO_TEST_CASE(seal_sees_every_byte)
   const std::string intact = read(name);
   BOOST_TEST(verdict(name, intact) == "");
   {
-    StateFile again(name);
+    StateFile again(world, name);
     list.clear();
     large = 0;
     again.exchange("run/list", list);

@@ -16,7 +16,7 @@ namespace
   void
   check_scene(const std::string &file, const std::string &name)
   {
-    Simulation<dim> simulation(file, {}, "bounds");
+    Simulation<dim> simulation(world, file, {}, "bounds");
     std::cout.setstate(std::ios::failbit);
     simulation.validate();
     std::cout.clear();
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(bounds_of_all_scenes, *boost::unit_test::disabled())
   std::sort(files.begin(), files.end());
   BOOST_TEST(files.size() > 50);
   for (const auto &file : files)
-    if (read_dimension(file.string(), {}) == 2)
+    if (read_dimension(world, file.string(), {}) == 2)
       check_scene<2>(file.string(), file.stem().string());
     else
       check_scene<3>(file.string(), file.stem().string());

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Least and median stable step of cells, shared out to ranks.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/mpi.h>
 #include <keyblock/step/step_spread.h>
 
 #include <numeric>
@@ -26,13 +27,13 @@ namespace
     for (unsigned int c = 0; c < n; ++c)
       {
         mesh.cells.push_back({{2 * c, 2 * c + 2, 2 * c + 1, 2 * c + 3}});
-        if (c % n_ranks() == this_rank())
+        if (c % world.size() == world.rank())
           {
             mine.push_back(frequencies[c]);
             mesh_cell.push_back(c);
           }
       }
-    return measure_step_spread(mine, mesh_cell, mesh);
+    return measure_step_spread(world, mine, mesh_cell, mesh);
   }
 } // namespace
 

@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(held_components_are_removed)
       BOOST_TEST((plate.fields.inverse_mass[node] == 0.) == is_fixed);
     }
   const double n_base =
-    sum_over_ranks(double(plate.fields.nodes_of_support[0].size()));
+    world.sum(double(plate.fields.nodes_of_support[0].size()));
   BOOST_TEST(n_base == 5.);
 }
 

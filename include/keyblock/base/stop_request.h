@@ -2,6 +2,8 @@
 #ifndef keyblock_base_stop_request_h
 #define keyblock_base_stop_request_h
 
+#include <keyblock/base/communicator.h>
+
 namespace Keyblock
 {
   /** Thrown on all ranks at the end of a step, when a signal asks the run to
@@ -22,7 +24,7 @@ namespace Keyblock
   int signal_received();
 
   /** Throw StopRequest if a signal asks any rank to stop (collective). */
-  void stop_if_asked();
+  void stop_if_asked(const Communicator &communicator);
 } // namespace Keyblock
 
 #endif

@@ -35,7 +35,9 @@ namespace Keyblock
    */
   template <int dim>
   std::pair<Mesh<dim>, Blocks<dim>>
-  make_mesh_for_blocks(const Scene<dim> &scene);
+  make_mesh_for_blocks(const Communicator &communicator,
+                       const Scene<dim> &scene,
+                       const dealii::ConditionalOStream &out);
 } // namespace Keyblock
 
 #endif

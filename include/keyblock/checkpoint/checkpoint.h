@@ -70,9 +70,10 @@ namespace Keyblock
   void exchange(StateFile &file, const std::string &group, History &history);
 
   /** What all rank groups found in a stage, by block; @p mine: what this one
-   * did (collective over all ranks of all rank groups). */
+   * did (collective over @p all ranks of all rank groups). */
   std::vector<SafetyFactor>
-  gather_from_rank_groups(const std::vector<SafetyFactor> &mine);
+  gather_from_rank_groups(const Communicator &all,
+                          const std::vector<SafetyFactor> &mine);
 
   /** A number that changes with the vertices, cells and pairs of a mesh, as
    * text. */

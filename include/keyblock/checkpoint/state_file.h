@@ -2,7 +2,7 @@
 #ifndef keyblock_checkpoint_state_file_h
 #define keyblock_checkpoint_state_file_h
 
-#include <keyblock/base/mpi.h>
+#include <keyblock/base/communicator.h>
 
 #include <cstdint>
 
@@ -23,14 +23,14 @@ namespace Keyblock
   {
   public:
     /** A new file. */
-    StateFile();
+    explicit StateFile(const Communicator &communicator);
 
     /** Read the file called @p name, if its seal is in order
      * (checkpoint/state_seal.h). Throws InputError. */
-    explicit StateFile(const std::string &name);
+    StateFile(const Communicator &communicator, const std::string &name);
 
     /** Read what image() of another file gave. */
-    explicit StateFile(std::vector<char> &image);
+    StateFile(const Communicator &communicator, std::vector<char> &image);
 
     ~StateFile();
     StateFile(const StateFile &)            = delete;
@@ -69,6 +69,8 @@ namespace Keyblock
      * an empty text.
      */
     std::string write(const std::string &file_name) const;
+
+    const Communicator communicator;
 
   private:
     template <typename T>

@@ -2,6 +2,7 @@
 #ifndef keyblock_mesh_mesh_h
 #define keyblock_mesh_mesh_h
 
+#include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/point.h>
 
@@ -191,11 +192,15 @@ namespace Keyblock
    * sort its cells along a Hilbert curve, find neighbours, and mark materials,
    * excavations, joints and outer boundaries.
    * Throws InputError if the mesh does not follow a joint or an excavation, if
-   * a joint misses the domain, or if a file cannot be read. @p demands: smaller
-   * cells than the section Mesh asks for (Gmsh only, known on rank 0).
+   * a joint misses the domain, or if a file cannot be read (collective).
+   * @param out where a mesh that takes a while is announced
+   * @param demands smaller cells than the section Mesh asks for (Gmsh only,
+   * known on rank 0)
    */
   template <int dim>
-  Mesh<dim> make_mesh(const Scene<dim> &scene,
+  Mesh<dim> make_mesh(const Communicator &communicator,
+                      const Scene<dim> &scene,
+                      const dealii::ConditionalOStream &out,
                       const std::vector<SizeDemand<dim>> &demands = {});
 
   /** Equal cells in a box or parallelepiped. */
@@ -205,9 +210,11 @@ namespace Keyblock
   /** Quadrilaterals or hexahedra that follow joints and excavations: exactly,
    * made by Gmsh in this process, or, where that would give cells too thin or
    * fails, with the joints cut into a mesh of the rest (cut_joints()). Throws
-   * InputError if Mesh/Snap forbids to cut what cannot be exact. */
+   * InputError if Mesh/Snap forbids to cut what cannot be exact.
+   * @param out as in make_mesh() */
   template <int dim>
   Mesh<dim> make_gmsh_mesh(const Scene<dim> &scene,
+                           const dealii::ConditionalOStream &out,
                            const std::vector<SizeDemand<dim>> &demands);
 
   /** A mesh from Domain/File, non-quadrilateral cells cut. */

@@ -2,9 +2,8 @@
 #ifndef keyblock_rock_dofs_h
 #define keyblock_rock_dofs_h
 
+#include <keyblock/base/communicator.h>
 #include <keyblock/blocks/interface.h>
-
-#include <mpi.h>
 
 #include <memory>
 
@@ -37,7 +36,10 @@ namespace Keyblock
   class Numbering
   {
   public:
-    Numbering(const Scene<dim> &scene, const SplitMesh<dim> &split);
+    /** Share the cells out to the ranks of @p communicator (collective). */
+    Numbering(const Communicator &communicator,
+              const Scene<dim> &scene,
+              const SplitMesh<dim> &split);
     ~Numbering();
 
     unsigned int
@@ -98,6 +100,8 @@ namespace Keyblock
 
     /** Copy the owners' values of @p field (dim per node) to the ghosts. */
     void update_ghosts(std::vector<double> &field) const;
+
+    const Communicator communicator;
 
     /** Deformable cells of this rank, as indices in the split mesh. */
     std::vector<unsigned int> mesh_cell;

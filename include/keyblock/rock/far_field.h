@@ -71,7 +71,10 @@ namespace Keyblock
       double lambda, mu;     ///< of the rock beside it [Pa]
     };
 
-    FarField() = default;
+    /** Without a boundary: no force. */
+    explicit FarField(const Communicator &communicator)
+      : communicator(communicator)
+    {}
 
     /** From all faces of the boundary, the same list on every rank. */
     FarField(const std::vector<Face> &faces,
@@ -126,6 +129,7 @@ namespace Keyblock
                 const dealii::FullMatrix<double> &spring_energy,
                 const dealii::FullMatrix<double> &spring_work);
 
+    Communicator communicator;
     unsigned int n_coupled = 0; ///< fields
     std::shared_ptr<const dealii::FullMatrix<double>> inverse_energy;
     /** Largest factor by which the projection can raise the energy of the

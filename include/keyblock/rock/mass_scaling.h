@@ -2,6 +2,7 @@
 #ifndef keyblock_rock_mass_scaling_h
 #define keyblock_rock_mass_scaling_h
 
+#include <keyblock/base/communicator.h>
 #include <keyblock/blocks/blocks.h>
 
 #include <algorithm>
@@ -70,7 +71,8 @@ namespace Keyblock
    * @param mass of each cell [kg]
    * @param block of each cell, below @p n_blocks
    */
-  std::vector<MassScaling> scale_masses(const std::vector<double> &frequency,
+  std::vector<MassScaling> scale_masses(const Communicator &communicator,
+                                        const std::vector<double> &frequency,
                                         const std::vector<double> &mass,
                                         const std::vector<unsigned int> &block,
                                         const unsigned int n_blocks,

@@ -2,6 +2,9 @@
 #ifndef keyblock_run_model_h
 #define keyblock_run_model_h
 
+#include <deal.II/base/conditional_ostream.h>
+
+#include <keyblock/base/communicator.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/geostress/geostress.h>
 #include <keyblock/step/snapshot.h>
@@ -19,8 +22,10 @@ namespace Keyblock
   class Model
   {
   public:
-    /** Read and check the scene; nothing is computed. Throws InputError. */
-    Model(const std::string &scene_file,
+    /** Read and check the scene; nothing is computed. Throws InputError.
+     * @param communicator the ranks that share the model */
+    Model(const Communicator &communicator,
+          const std::string &scene_file,
           const std::vector<std::string> &overrides);
 
     /** Mesh, blocks, and the mesh split along their faces. */
@@ -51,6 +56,8 @@ namespace Keyblock
     std::vector<double>
     values_by_vertex(const std::vector<double> &field) const;
 
+    const Communicator communicator;
+    dealii::ConditionalOStream out; ///< messages of the run, on rank 0
     Scene<dim> scene;
     MeshQuality quality;
     MeshReport<dim> mesh_report;

@@ -15,7 +15,8 @@ namespace Keyblock
   {
   public:
     /** @param overrides of the entries of @p scene_file */
-    RankGroupStudy(Model<dim> &model,
+    RankGroupStudy(const RankGroups &groups,
+                   Model<dim> &model,
                    Run<dim> &run,
                    const std::string &scene_file,
                    const std::vector<std::string> &overrides);
@@ -28,7 +29,8 @@ namespace Keyblock
     /** The run on the ranks of this group. */
     struct Copy
     {
-      Copy(const Model<dim> &original,
+      Copy(const Communicator &communicator,
+           const Model<dim> &original,
            const std::string &scene_file,
            const std::vector<std::string> &overrides);
 
@@ -48,6 +50,7 @@ namespace Keyblock
     /** What this group finds from the state in @p image (StateFile::image). */
     Result find_factors_of_this_group(std::vector<char> &image);
 
+    const RankGroups &groups;
     Model<dim> &model;
     Run<dim> &run;
     std::string scene_file;

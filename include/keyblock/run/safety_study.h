@@ -2,6 +2,7 @@
 #ifndef keyblock_run_safety_study_h
 #define keyblock_run_safety_study_h
 
+#include <keyblock/base/rank_groups.h>
 #include <keyblock/run/checkpointing.h>
 #include <keyblock/run/stage_observer.h>
 
@@ -20,12 +21,13 @@ namespace Keyblock
     /** Blocks whose factor after the present stage is wanted and not known. */
     std::vector<unsigned int> list_wanted_blocks() const;
 
-    /** Find the factors of those that this rank group looks at. The state is
+    /** Find the factors of those that this rank's group looks at. The state is
      * the same afterwards. */
-    void find_remaining_factors();
+    void find_remaining_factors(const RankGroups &groups);
 
   private:
-    std::vector<unsigned int> list_blocks_of_rank_group() const;
+    std::vector<unsigned int>
+    list_blocks_of_rank_group(const RankGroups &groups) const;
     bool is_class_wanted(const unsigned int block) const;
 
     /** Factor of a block that was removed in the stage. */

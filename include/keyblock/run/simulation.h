@@ -15,7 +15,8 @@ namespace Keyblock
   public:
     /** Read and check the scene; nothing is computed or written.
      * @param checkpoint file to continue from, or empty */
-    Simulation(const std::string &scene_file,
+    Simulation(const Communicator &communicator,
+               const std::string &scene_file,
                const std::vector<std::string> &overrides,
                const std::string &output_folder,
                const std::string &checkpoint = "");
@@ -62,10 +63,11 @@ namespace Keyblock
     std::unique_ptr<Run<dim>> parts;
     std::unique_ptr<StageRecorder<dim>> recorder;
     std::unique_ptr<StageRunner<dim>> stages;
-    std::unique_ptr<RankGroupStudy<dim>> rank_groups;
-    std::vector<std::string> warnings; ///< of the set-up
-    std::string mass_scaling_text;     ///< as it was last printed
-    double wall_start;                 ///< [s]
+    std::unique_ptr<RankGroups> groups;
+    std::unique_ptr<RankGroupStudy<dim>> group_study; ///< null: one group
+    std::vector<std::string> warnings;                ///< of the set-up
+    std::string mass_scaling_text; ///< as it was last printed
+    double wall_start;             ///< [s]
   };
 } // namespace Keyblock
 

@@ -2,6 +2,7 @@
 #ifndef keyblock_safety_slow_mode_h
 #define keyblock_safety_slow_mode_h
 
+#include <keyblock/base/communicator.h>
 #include <keyblock/rock/fields.h>
 
 #include <vector>
@@ -18,7 +19,9 @@ namespace Keyblock
   {
   public:
     /** Check owned @p nodes (local numbers), now for the first time. */
-    SlowMode(const Fields<dim> &fields, const std::vector<unsigned int> &nodes);
+    SlowMode(const Communicator &communicator,
+             const Fields<dim> &fields,
+             const std::vector<unsigned int> &nodes);
 
     /** Angular frequency [rad/s], with the masses in use, of a mode that the
      * last checks agree on; 0 if they do not (collective). */
@@ -33,6 +36,7 @@ namespace Keyblock
 
     Sample take_sample() const;
 
+    const Communicator communicator;
     const Fields<dim> &fields;
     const std::vector<unsigned int> &nodes;
     Sample before;

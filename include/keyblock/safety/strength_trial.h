@@ -171,6 +171,7 @@ namespace Keyblock
     /** See blocks_along(). */
     std::vector<unsigned int> list_blocks_along(const unsigned int block) const;
 
+    const Communicator communicator;
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
     const Blocks<dim> &blocks;

@@ -5,6 +5,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <keyblock/base/communicator.h>
 #include <keyblock/law/joint_strength.h>
 #include <keyblock/scene/bolts.h>
 
@@ -523,8 +524,10 @@ namespace Keyblock
     /**
      * Read @p file_name, apply @p overrides ("Section/Entry=value"), check.
      * Throws InputError with one sentence for whatever cannot be used.
+     * Collective.
      */
-    void read(const std::string &file_name,
+    void read(const Communicator &communicator,
+              const std::string &file_name,
               const std::vector<std::string> &overrides);
 
     /** Number of the stage called @p name: 1 for start, before the first stage,
@@ -562,8 +565,10 @@ namespace Keyblock
     std::vector<std::string> old_names;    ///< sentences on those in the file
   };
 
-  /** The value of `Dimension` in the file: 2 or 3. Throws InputError. */
-  unsigned int read_dimension(const std::string &file_name,
+  /** The value of `Dimension` in the file: 2 or 3 (collective). Throws
+   * InputError. */
+  unsigned int read_dimension(const Communicator &communicator,
+                              const std::string &file_name,
                               const std::vector<std::string> &overrides);
 
   /** Write the description of every entry as Markdown (doc/parameters.md). */

@@ -2,6 +2,8 @@
 #ifndef keyblock_scene_text_h
 #define keyblock_scene_text_h
 
+#include <keyblock/base/communicator.h>
+
 #include <string>
 #include <vector>
 
@@ -43,8 +45,9 @@ namespace Keyblock
   struct SceneText
   {
     /** Throws InputError if the file cannot be read, or if an override has no
-     * '='. */
-    SceneText(const std::string &file_name,
+     * '=' (collective). */
+    SceneText(const Communicator &communicator,
+              const std::string &file_name,
               const std::vector<std::string> &overrides);
 
     struct Override

@@ -89,8 +89,9 @@ namespace Keyblock
     }
 
     /** Replace the far-field supports by springs, and what they carry now by a
-     * dead load; needs the present internal force and load. */
-    void release_far_field();
+     * dead load; needs the present internal force and load.
+     * @return a sentence if there is something to say of them, or empty */
+    std::string release_far_field();
 
     /** The strength of joints is divided for a trial: what holds blocks besides
      * may follow. */

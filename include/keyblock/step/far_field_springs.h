@@ -30,6 +30,13 @@ namespace Keyblock
       return acts;
     }
 
+    /** Whether they are coupled (FarField::is_coupled()). */
+    bool
+    is_coupled() const
+    {
+      return far_field.is_coupled();
+    }
+
     /** Take over from the supports, which carry @p internal_force less @p load
      * now (local degrees of freedom) [N]. */
     void release(const std::vector<double> &internal_force,

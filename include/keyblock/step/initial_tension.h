@@ -15,7 +15,8 @@ namespace Keyblock
    * is wrong then. Collective.
    */
   template <int dim>
-  std::string warning_of_tension(const Scene<dim> &scene,
+  std::string warning_of_tension(const Communicator &communicator,
+                                 const Scene<dim> &scene,
                                  const SplitMesh<dim> &split,
                                  const CellArrays<dim> &cells);
 } // namespace Keyblock

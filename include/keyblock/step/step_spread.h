@@ -16,7 +16,8 @@ namespace Keyblock
 
   /** The stiffest of all ranks' cells with the highest @p frequency each
    * [rad/s], @p mesh_cell their places in the mesh (collective). */
-  StiffestCell find_stiffest(const std::vector<double> &frequency,
+  StiffestCell find_stiffest(const Communicator &communicator,
+                             const std::vector<double> &frequency,
                              const std::vector<unsigned int> &mesh_cell);
 
   /** How far the cell that sets the time step is from an ordinary one. Steps
@@ -45,7 +46,8 @@ namespace Keyblock
    */
   template <int dim>
   StepSpread<dim>
-  measure_step_spread(const std::vector<double> &frequency,
+  measure_step_spread(const Communicator &communicator,
+                      const std::vector<double> &frequency,
                       const std::vector<unsigned int> &mesh_cell,
                       const Mesh<dim> &mesh);
 } // namespace Keyblock
