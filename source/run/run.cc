@@ -32,7 +32,7 @@ namespace Keyblock
                     command)
     , safety(model, finite_check, checkpointing, record)
   {
-    AssertThrow(model.scene.checks.closed_form != "value" ||
+    AssertThrow(model.scene.checks.closed_form != ClosedForm::value ||
                   monitors.history.has(model.scene.checks.quantity),
                 InputError("The entry 'Check/Quantity' is '" +
                            model.scene.checks.quantity +
