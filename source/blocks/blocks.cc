@@ -40,8 +40,9 @@ namespace Keyblock
     for (const auto &joint : scene.joints)
       {
         const Tensor<1, dim> normal = joint->normal();
-        const Point<dim> origin =
-          joint->extent == "polygon" ? joint->vertices[0] : joint->point;
+        const Point<dim> origin     = joint->extent == JointShape::polygon
+                                        ? joint->vertices[0]
+                                        : joint->point;
         for (unsigned int c = 0; c < mesh.n_cells(); ++c)
           code[c].push_back(normal * (mesh.cell_center(c) - origin) > 0. ? 1
                                                                          : -1);

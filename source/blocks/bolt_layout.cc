@@ -87,7 +87,7 @@ namespace Keyblock
                 continue;
               if ((across != none && mesh.excavation_stage[across] > 0 &&
                    mesh.excavation[across] == e) ||
-                  (excavation.shape != "formula" &&
+                  (excavation.shape != ExcavationShape::formula &&
                    depth_inside(excavation, outside) > 0.))
                 {
                   found.push_back(f);

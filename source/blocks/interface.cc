@@ -493,7 +493,7 @@ namespace Keyblock
     SplitMesh<dim> result;
     const std::vector<unsigned int> kept = keep_cells(mesh, blocks, result);
     Blocks<dim> welded                   = blocks;
-    const bool is_active                 = scene.contact.method != "none";
+    const bool is_active = scene.contact.method != ContactMethod::none;
     if (!is_active)
       for (auto &block : welded.blocks)
         block.is_infinite = true;

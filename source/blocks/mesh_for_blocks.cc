@@ -29,7 +29,7 @@ namespace Keyblock
         , size(scene, longest_side(mesh), demands)
       {
         for (const auto &excavation : scene.excavations)
-          if (excavation->shape != "formula")
+          if (excavation->shape != ExcavationShape::formula)
             reach = std::max(reach, narrowest_side(*excavation) / 2.);
       }
 
@@ -79,7 +79,7 @@ namespace Keyblock
       {
         bool has_outline = false;
         for (const auto &excavation : scene.excavations)
-          if (excavation->shape != "formula")
+          if (excavation->shape != ExcavationShape::formula)
             {
               has_outline = true;
               if (depth_inside(*excavation, p) > -reach)
@@ -126,7 +126,8 @@ namespace Keyblock
     Blocks<dim> blocks  = find_blocks(mesh, scene);
     unsigned int n_made = 1;
     while (scene.meshing.cells_across > 0. &&
-           scene.meshing.generator == "gmsh" && n_made <= most_passes)
+           scene.meshing.generator == MeshGenerator::gmsh &&
+           n_made <= most_passes)
       {
         std::vector<unsigned int> n_new(1, 0);
         communicator.on_root([&]() {

@@ -181,6 +181,7 @@ namespace Keyblock
              (std::abs(a.gap) == std::abs(b.gap) && a.face < b.face);
     });
     std::vector<bool> is_opposed;
+    is_opposed.reserve(inside.size());
     for (const Projection &projection : inside)
       is_opposed.push_back(
         opposes(position, candidate.slave, projection.normal));

@@ -325,6 +325,7 @@ namespace Keyblock
       return false;
     };
     std::vector<bool> is_dropped;
+    is_dropped.reserve(contacts.size());
     for (const SurfaceContact<dim> &contact : contacts)
       is_dropped.push_back(is_mirror(contact));
     unsigned int n_kept = 0;

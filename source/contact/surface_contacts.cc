@@ -109,6 +109,7 @@ namespace Keyblock
       return a->slave < b->slave;
     };
     std::vector<const SurfaceContact<dim> *> by_slave;
+    by_slave.reserve(previous.size());
     for (const SurfaceContact<dim> &contact : previous)
       by_slave.push_back(&contact);
     std::stable_sort(by_slave.begin(), by_slave.end(), before);

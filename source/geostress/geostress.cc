@@ -267,6 +267,7 @@ namespace Keyblock
                 }
             }
         std::vector<NodeSupport<dim>> list;
+        list.reserve(held.size());
         for (const auto &[node, support] : held)
           list.push_back(support);
         return list;

@@ -36,12 +36,12 @@ namespace Keyblock
   double
   depth_inside(const Excavation<dim> &excavation, const Point<dim> &p)
   {
-    if (excavation.shape == "circle")
+    if (excavation.shape == ExcavationShape::circle)
       return excavation.radius -
              excavation.center.distance(Point<2>(p[0], p[1]));
-    if (excavation.shape == "polygon")
+    if (excavation.shape == ExcavationShape::polygon)
       return depth_inside_polygon(excavation.vertices, Point<2>(p[0], p[1]));
-    if (excavation.shape == "extruded polygon")
+    if (excavation.shape == ExcavationShape::extruded_polygon)
       return std::min(
         {depth_inside_polygon(excavation.vertices, Point<2>(p[0], p[dim - 1])),
          p[1] - excavation.from,
@@ -58,11 +58,11 @@ namespace Keyblock
   double
   narrowest_side(const Excavation<dim> &excavation)
   {
-    if (excavation.shape == "formula")
+    if (excavation.shape == ExcavationShape::formula)
       return 1e300;
-    if (excavation.shape == "circle")
+    if (excavation.shape == ExcavationShape::circle)
       return 2. * excavation.radius;
-    if (excavation.shape == "box")
+    if (excavation.shape == ExcavationShape::box)
       return *std::min_element(excavation.size.begin(), excavation.size.end());
     Point<2> low = excavation.vertices[0], high = low;
     for (const Point<2> &p : excavation.vertices)
@@ -72,7 +72,7 @@ namespace Keyblock
           high[d] = std::max(high[d], p[d]);
         }
     const double side = std::min(high[0] - low[0], high[1] - low[1]);
-    return excavation.shape == "extruded polygon"
+    return excavation.shape == ExcavationShape::extruded_polygon
              ? std::min(side, excavation.to - excavation.from)
              : side;
   }

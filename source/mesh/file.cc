@@ -358,7 +358,7 @@ namespace Keyblock
     {
       if (type.rfind("C3D", 0) == 0)
         return 3;
-      return type.rfind("T", 0) == 0 || type.rfind("B", 0) == 0 ? 1 : 2;
+      return type.rfind('T', 0) == 0 || type.rfind('B', 0) == 0 ? 1 : 2;
     }
 
     /** Number of corners of an element, which come first among its nodes. */

@@ -183,7 +183,7 @@ namespace Keyblock
           surface.normal = cross_product_2d(element[1] - element[0]);
           if (is_circle)
             for (const auto &excavation : scene.excavations)
-              if (excavation->shape == "circle" &&
+              if (excavation->shape == ExcavationShape::circle &&
                   std::abs(depth_inside(*excavation, element[0])) +
                       std::abs(depth_inside(*excavation, element[1])) <
                     1e-6 * excavation->radius)

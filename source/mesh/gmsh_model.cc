@@ -103,9 +103,9 @@ namespace Keyblock
     int
     add_domain(const Domain<dim> &domain)
     {
-      if (domain.shape == "box")
+      if (domain.shape == DomainShape::box)
         return add_box<dim>(domain.corner, domain.size);
-      if (domain.shape == "parallelepiped")
+      if (domain.shape == DomainShape::parallelepiped)
         return add_parallelepiped<dim>(domain.corner,
                                        {domain.edges.begin(),
                                         domain.edges.end()});
@@ -119,9 +119,9 @@ namespace Keyblock
     int
     add_excavation(const Excavation<dim> &excavation)
     {
-      if (excavation.shape == "box")
+      if (excavation.shape == ExcavationShape::box)
         return add_box<dim>(excavation.corner, excavation.size);
-      if (excavation.shape == "circle")
+      if (excavation.shape == ExcavationShape::circle)
         return add_disc(in_space<2>(excavation.center),
                         Point<3>(excavation.radius, 0., 0.),
                         Point<3>(0., excavation.radius, 0.));
@@ -144,10 +144,10 @@ namespace Keyblock
       const Tensor<1, 2> normal  = joint.normal();
       const Tensor<1, 2> along   = Point<2>(normal[1], -normal[0]);
       std::vector<Point<2>> ends = joint.vertices;
-      if (joint.extent == "disc")
+      if (joint.extent == JointShape::disc)
         ends = {joint.point - joint.radius * along,
                 joint.point + joint.radius * along};
-      if (joint.extent == "infinite")
+      if (joint.extent == JointShape::infinite)
         {
           const Point<2> middle = center - joint.distance(center) * normal;
           ends = {middle - reach * along, middle + reach * along};
@@ -167,12 +167,12 @@ namespace Keyblock
       Tensor<1, 3> first        = cross_product_3d(normal, unit);
       first                     = first / first.norm();
       const Tensor<1, 3> second = cross_product_3d(normal, first);
-      if (joint.extent == "disc")
+      if (joint.extent == JointShape::disc)
         return add_disc(joint.point,
                         joint.radius * first,
                         joint.radius * second);
       std::vector<Point<3>> corners;
-      if (joint.extent == "infinite")
+      if (joint.extent == JointShape::infinite)
         {
           const Point<3> middle = center - joint.distance(center) * normal;
           corners               = {middle - reach * first - reach * second,

@@ -187,6 +187,7 @@ namespace Keyblock
                     std::minmax(cell.vertices[i], cell.vertices[j]));
         std::vector<std::pair<double, std::pair<unsigned int, unsigned int>>>
           order;
+        order.reserve(crossed.size());
         for (const auto &[a, b] : crossed)
           order.push_back(
             {-mesh.vertices[a].distance(mesh.vertices[b]), {a, b}});

@@ -107,8 +107,9 @@ namespace Keyblock
                              "'; a band is `band A B` with two names of "
                              "'Joints/Names'."));
       // the lower joint first: the upper one's points are above it
-      const Point<dim> upper =
-        band[1]->extent == "polygon" ? band[1]->vertices[0] : band[1]->point;
+      const Point<dim> upper = band[1]->extent == JointShape::polygon
+                                 ? band[1]->vertices[0]
+                                 : band[1]->point;
       if (band[0]->distance(upper) < 0.)
         std::swap(band[0], band[1]);
       return band;
@@ -272,7 +273,7 @@ namespace Keyblock
       for (unsigned int e = 0; e < scene.excavations.size(); ++e)
         {
           const auto &excavation = scene.excavations[e];
-          const bool is_formula  = excavation->shape == "formula";
+          const bool is_formula = excavation->shape == ExcavationShape::formula;
           const Expression<dim> formula(is_formula ? excavation->formula : "1",
                                         1,
                                         "Excavations/" + excavation->name +
@@ -490,7 +491,7 @@ namespace Keyblock
       const double tolerance      = scene.meshing.joint_tolerance;
       const Tensor<1, dim> normal = joint.normal();
       const Point<dim> origin =
-        joint.extent == "polygon" ? joint.vertices[0] : joint.point;
+        joint.extent == JointShape::polygon ? joint.vertices[0] : joint.point;
       std::vector<double> distance(mesh.vertices.size());
       for (unsigned int v = 0; v < distance.size(); ++v)
         distance[v] = normal * (mesh.vertices[v] - origin);
@@ -624,11 +625,12 @@ namespace Keyblock
     {
       Point<dim> origin = mesh.vertices[0];
       Tensor<2, dim> frame;
-      if (scene.domain.shape == "box" || scene.domain.shape == "parallelepiped")
+      if (scene.domain.shape == DomainShape::box ||
+          scene.domain.shape == DomainShape::parallelepiped)
         {
           origin = scene.domain.corner;
           for (unsigned int d = 0; d < dim; ++d)
-            if (scene.domain.shape == "box")
+            if (scene.domain.shape == DomainShape::box)
               frame[d][d] = scene.domain.size[d];
             else
               frame[d] = scene.domain.edges[d];
@@ -669,7 +671,7 @@ namespace Keyblock
               }
 
       if constexpr (dim == 2)
-        if (scene.domain.shape == "polygon")
+        if (scene.domain.shape == DomainShape::polygon)
           mark_polygon_edges(mesh, scene.domain.polygon);
       std::map<typename Mesh<dim>::FaceVertices, unsigned int> ids;
       for (auto face : mesh.boundary_faces)
@@ -702,9 +704,9 @@ namespace Keyblock
   {
     Mesh<dim> mesh;
     communicator.on_root([&]() {
-      if (scene.meshing.generator == "structured")
+      if (scene.meshing.generator == MeshGenerator::structured)
         mesh = make_structured_mesh(scene);
-      else if (scene.meshing.generator == "gmsh")
+      else if (scene.meshing.generator == MeshGenerator::gmsh)
         mesh = make_gmsh_mesh(scene, out, demands);
       else
         mesh = read_mesh(scene);
@@ -731,7 +733,7 @@ namespace Keyblock
     std::array<signed char, Mesh<dim>::n_cell_faces> no_side;
     no_side.fill(0);
     mesh.side.assign(mesh.n_cells(), no_side);
-    if (scene.meshing.generator == "gmsh")
+    if (scene.meshing.generator == MeshGenerator::gmsh)
       mark_known_joints(mesh, scene);
     else
       {

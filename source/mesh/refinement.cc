@@ -40,7 +40,8 @@ namespace Keyblock
       {
         for (const auto &excavation : scene.excavations)
           formulas.push_back(std::make_unique<Expression<dim>>(
-            excavation->shape == "formula" ? excavation->formula : "-1",
+            excavation->shape == ExcavationShape::formula ? excavation->formula
+                                                          : "-1",
             1,
             "Excavations/" + excavation->name + "/Formula"));
         plant(coarse);
@@ -236,7 +237,7 @@ namespace Keyblock
           for (unsigned int e = 0; e < scene.excavations.size(); ++e)
             {
               const Excavation<dim> &excavation = *scene.excavations[e];
-              if (excavation.shape != "circle")
+              if (excavation.shape != ExcavationShape::circle)
                 continue;
               tree.set_manifold(e + 1,
                                 dealii::SphericalManifold<dim>(
@@ -254,7 +255,7 @@ namespace Keyblock
       {
         for (const auto &excavation : scene.excavations)
           {
-            if (excavation->shape == "formula")
+            if (excavation->shape == ExcavationShape::formula)
               continue;
             double least = 1e300, greatest = -1e300;
             for (const unsigned int v : cell->vertex_indices())
@@ -299,8 +300,7 @@ namespace Keyblock
                     "more than ten times is too much.";
             AssertThrow(false, InputError(text.str()));
           }
-        unsigned int level =
-          by_formula > 0.5 ? static_cast<unsigned int>(by_formula + 0.5) : 0;
+        unsigned int level = by_formula > 0.5 ? std::lround(by_formula) : 0;
         for (unsigned int i = level; i < meshing.refine_at_excavations.size();
              ++i)
           if (is_near_outline(cell, meshing.refine_at_excavations[i]))
@@ -401,7 +401,7 @@ namespace Keyblock
         for (unsigned int e = 0; e < scene.excavations.size(); ++e)
           {
             const auto depth = [&](const Point<dim> &p) {
-              return scene.excavations[e]->shape == "formula"
+              return scene.excavations[e]->shape == ExcavationShape::formula
                        ? formulas[e]->value(p, 0., 0)
                        : depth_inside(*scene.excavations[e], p);
             };

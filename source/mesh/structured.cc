@@ -85,7 +85,7 @@ namespace Keyblock
     std::array<unsigned int, 3> n = {{1, 1, 0}};
     for (unsigned int d = 0; d < dim; ++d)
       {
-        if (domain.shape == "box")
+        if (domain.shape == DomainShape::box)
           edges[d][d] = domain.size[d];
         else
           edges[d] = domain.edges[d];

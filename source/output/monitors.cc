@@ -93,7 +93,7 @@ namespace Keyblock
     unsigned int node = none, block = none, nearest = none;
     std::vector<unsigned int> nodes;
     double least = std::numeric_limits<double>::max();
-    if (monitor.kind == "point")
+    if (monitor.kind == MonitorKind::point)
       {
         for (unsigned int v = 0; v < split.mesh.vertices.size(); ++v)
           {
@@ -108,7 +108,7 @@ namespace Keyblock
           node = numbering.local_node(nearest);
         look_for_location(monitor, least);
       }
-    if (monitor.kind == "block")
+    if (monitor.kind == MonitorKind::block)
       {
         // where it lies in a cell, that one's block, however far its centre is
         const unsigned int cell = find_cell_at(monitor.location);
@@ -127,7 +127,7 @@ namespace Keyblock
         if (nearest != none)
           block = split.block_of_cell[nearest];
       }
-    if (monitor.kind == "block")
+    if (monitor.kind == MonitorKind::block)
       {
         AssertThrow(block != none,
                     InputError("The monitor '" + monitor.name +
@@ -136,7 +136,7 @@ namespace Keyblock
                                monitor.name + "/Kind'."));
         look_for_location(monitor, least);
       }
-    if (monitor.kind == "region")
+    if (monitor.kind == MonitorKind::region)
       {
         const Expression<dim> region(monitor.region,
                                      1,
@@ -214,7 +214,8 @@ namespace Keyblock
     AssertThrow(distance <= low.distance(high),
                 InputError(text.str() + " by far; " + remedy + "."));
     text << "; it follows the nearest "
-         << (monitor.kind == "block" ? "block, with a cell " : "node, ")
+         << (monitor.kind == MonitorKind::block ? "block, with a cell "
+                                                : "node, ")
          << std::setprecision(3) << distance << " m away: " << remedy
          << ", if that is not meant.";
     warnings.push_back(text.str());
@@ -241,7 +242,7 @@ namespace Keyblock
           for (const std::string &name : names)
             columns.push_back(monitor->name + "." + name);
         };
-        if (monitor->kind == "joint")
+        if (monitor->kind == MonitorKind::joint)
           {
             add_scalars({"normal_force [N]", "shear_force [N]"});
             add_vector("force", "N");
@@ -250,14 +251,14 @@ namespace Keyblock
               {"open [-]", "sliding [-]", "sticking [-]", "intact [-]"});
             continue;
           }
-        if (monitor->kind == "support")
+        if (monitor->kind == MonitorKind::support)
           {
             add_vector("reaction", "N");
             continue;
           }
         add_vector("u", "m");
         add_vector("v", "m/s");
-        if (monitor->kind == "block")
+        if (monitor->kind == MonitorKind::block)
           add_scalars({"rotation [rad]",
                        "angular_momentum [N m s]",
                        "mean_stress_trace [Pa]"});
@@ -435,13 +436,13 @@ namespace Keyblock
     for (unsigned int m = 0; m < scene.monitors.size(); ++m)
       {
         const Monitor<dim> &monitor = *scene.monitors[m];
-        if (monitor.kind == "joint")
+        if (monitor.kind == MonitorKind::joint)
           sample_joint(monitor, row);
-        else if (monitor.kind == "block")
+        else if (monitor.kind == MonitorKind::block)
           sample_block(block_of_monitor[m], row);
-        else if (monitor.kind == "support")
+        else if (monitor.kind == MonitorKind::support)
           sample_support(monitor, row);
-        else if (monitor.kind == "region")
+        else if (monitor.kind == MonitorKind::region)
           sample_nodes(nodes_of_monitor[m], row);
         else
           sample_nodes(node_of_monitor[m] == none

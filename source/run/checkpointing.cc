@@ -14,7 +14,8 @@ namespace Keyblock
                                     FiniteCheck<dim> &finite_check,
                                     RunRecord<dim> &record,
                                     const std::string &folder,
-                                    const std::string &command)
+                                    const std::string &command,
+                                    const double wall_start)
     : model(model)
     , monitors(monitors)
     , output(output)
@@ -22,7 +23,7 @@ namespace Keyblock
     , record(record)
     , folder(folder)
     , command(command)
-    , last_saved(MPI_Wtime())
+    , last_saved(wall_start)
   {}
 
 

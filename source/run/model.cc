@@ -40,7 +40,7 @@ namespace Keyblock
     numbering  = std::make_unique<Numbering<dim>>(communicator, scene, split);
     conditions = std::make_unique<Conditions<dim>>(
       scene, split, *numbering, cells, fields);
-    if (scene.contact.method != "none")
+    if (scene.contact.method != ContactMethod::none)
       contact = std::make_unique<Contact<dim>>(
         scene, split, blocks, *numbering, cells, fields);
     step = std::make_unique<ExplicitStep<dim>>(scene,

@@ -19,7 +19,7 @@ namespace Keyblock
     model.blocks                           = original.blocks;
     model.split                            = original.split;
     model.set_up();
-    run = std::make_unique<Run<dim>>(model, "", "");
+    run = std::make_unique<Run<dim>>(model, "", "", MPI_Wtime());
   }
 
 

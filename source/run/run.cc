@@ -6,7 +6,8 @@ namespace Keyblock
   template <int dim>
   Run<dim>::Run(Model<dim> &model,
                 const std::string &folder,
-                const std::string &command)
+                const std::string &command,
+                const double wall_start)
     : monitors(model.scene,
                model.split,
                model.blocks,
@@ -29,10 +30,12 @@ namespace Keyblock
                     finite_check,
                     record,
                     folder,
-                    command)
+                    command,
+                    wall_start)
     , safety(model, finite_check, checkpointing, record)
   {
-    AssertThrow(model.scene.checks.closed_form != "value" ||
+    record.wall_start = wall_start;
+    AssertThrow(model.scene.checks.closed_form != ClosedForm::value ||
                   monitors.history.has(model.scene.checks.quantity),
                 InputError("The entry 'Check/Quantity' is '" +
                            model.scene.checks.quantity +

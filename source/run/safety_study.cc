@@ -103,6 +103,7 @@ namespace Keyblock
         most = std::max(most, sum);
       }
     std::vector<double> costs;
+    costs.reserve(wanted.size());
     for (const unsigned int b : wanted)
       // the stage is run again for one that failed in it
       costs.push_back(

@@ -22,7 +22,7 @@ namespace Keyblock
     warning_of_welded_joints(const Scene<dim> &scene,
                              const SplitMesh<dim> &split)
     {
-      if (scene.joints.empty() || scene.contact.method == "none" ||
+      if (scene.joints.empty() || scene.contact.method == ContactMethod::none ||
           !split.interface.pairs.empty())
         return "";
       std::set<unsigned int> joints;

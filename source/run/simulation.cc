@@ -41,7 +41,7 @@ namespace Keyblock
   Simulation<dim>::set_up()
   {
     model.set_up();
-    parts    = std::make_unique<Run<dim>>(model, folder, command);
+    parts    = std::make_unique<Run<dim>>(model, folder, command, wall_start);
     recorder = std::make_unique<StageRecorder<dim>>(model,
                                                     parts->monitors,
                                                     parts->output,
@@ -50,8 +50,7 @@ namespace Keyblock
                                                     folder);
     stages =
       std::make_unique<StageRunner<dim>>(model, parts->finite_check, *recorder);
-    parts->record.wall_start = wall_start;
-    warnings                 = warnings_of_set_up(model, parts->monitors);
+    warnings = warnings_of_set_up(model, parts->monitors);
     report_stable_step(model, parts->record.report);
   }
 

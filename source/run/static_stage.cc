@@ -59,7 +59,8 @@ namespace Keyblock
     bool changes_later = false;
     for (unsigned int s = 0; s < model.scene.stages.size(); ++s)
       changes_later = changes_later || model.conditions->changes(s + 2);
-    const bool is_static = model.scene.initial_state.equilibrium == "static";
+    const bool is_static =
+      model.scene.initial_state.equilibrium == InitialEquilibrium::static_solve;
     if (!is_static && !changes_later && !model.conditions->has_far_field())
       return;
     model.step->begin_stage(Stage(), 1);

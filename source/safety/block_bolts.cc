@@ -163,7 +163,8 @@ namespace Keyblock
       area += ground.split.mesh.face_area_vector(free.faces[i].cell,
                                                  free.faces[i].face);
     SupportDemand demand;
-    const bool is_passive = ground.scene.safety.bolt_convention == "passive";
+    const bool is_passive =
+      ground.scene.safety.bolt_convention == BoltConvention::passive;
     const Tensor<1, dim> load = around.loads.without_water();
     const auto factor_with    = [&](const double force) {
       std::vector<BlockFace<dim>> faces = around.faces;

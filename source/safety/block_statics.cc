@@ -66,7 +66,7 @@ namespace Keyblock
       {
         if (!bolts.pulls.empty())
           add() << "with " << bolts.describe() << ", "
-                << scene.safety.bolt_convention;
+                << name_of(scene.safety.bolt_convention);
         if (scene.safety.wanted == 0.)
           return;
         const SupportDemand demand =
@@ -291,14 +291,14 @@ namespace Keyblock
   {
     BlockStatics<dim> statics;
     statics.around = look_around(ground, free, blocks.blocks[block], time);
-    const BlockLoads<dim> &loads = statics.around.loads;
-    statics.bolts                = find_bolts_of_block(ground, block);
-    statics.limit =
-      solve_with_bolts<dim>(statics.around.faces,
-                            loads.without_water(),
-                            statics.bolts,
-                            ground.scene.safety.bolt_convention == "passive");
-    const double factor_of_sliding      = statics.limit.factor;
+    const BlockLoads<dim> &loads   = statics.around.loads;
+    statics.bolts                  = find_bolts_of_block(ground, block);
+    statics.limit                  = solve_with_bolts<dim>(statics.around.faces,
+                                          loads.without_water(),
+                                          statics.bolts,
+                                          ground.scene.safety.bolt_convention ==
+                                            BoltConvention::passive);
+    const double factor_of_sliding = statics.limit.factor;
     std::vector<PointForce<dim>> forces = loads.all();
     for (const auto &pull : statics.bolts.pulls)
       forces.push_back({pull.place, pull.force * pull.along});

@@ -117,7 +117,7 @@ namespace Keyblock
       std::vector<ParallelJoints<dim>> sets;
       for (const auto &joint : scene.joints)
         {
-          if (joint->extent != "infinite")
+          if (joint->extent != JointShape::infinite)
             continue;
           const Tensor<1, dim> normal = joint->normal();
           const auto same =

@@ -232,8 +232,9 @@ namespace Keyblock
     trials.forget_failure();
     {
       Search search(*this, block, number, known, result.trials);
-      result.outcome =
-        scene.safety.method == "sweep" ? sweep(search) : bisect(search, known);
+      result.outcome         = scene.safety.method == FactorSearch::sweep
+                                 ? sweep(search)
+                                 : bisect(search, known);
       result.lower           = search.stable;
       result.upper           = search.unstable;
       result.undecided_lower = search.undecided_lower;
@@ -245,7 +246,7 @@ namespace Keyblock
     else if (std::isfinite(result.limit_factor))
       result.outcome = SafetyFactor::Outcome::clamped;
     if (result.outcome == SafetyFactor::Outcome::bracketed &&
-        scene.safety.reduced_joints != "all")
+        scene.safety.reduced_joints != ReducedJoints::all)
       find_group(number, known, result);
     trials.reduce(block, 1.);
     return result;
@@ -315,7 +316,7 @@ namespace Keyblock
   StrengthReductionSearch<dim>::freeze_beyond_reach(const unsigned int block)
   {
     const SafetySettings &settings = scene.safety;
-    if (settings.reach == 0. || settings.reduced_joints == "all" ||
+    if (settings.reach == 0. || settings.reduced_joints == ReducedJoints::all ||
         settings.reduces_rock)
       return false;
     std::vector<unsigned int> moving = trials.companions;

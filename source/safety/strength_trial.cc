@@ -101,7 +101,7 @@ namespace Keyblock
   StrengthTrials<dim>::reduce(const unsigned int block, const double factor)
   {
     StrengthReduction reduction;
-    if (scene.safety.reduced_joints != "all")
+    if (scene.safety.reduced_joints != ReducedJoints::all)
       {
         reduction.blocks = companions;
         reduction.blocks.push_back(block);
@@ -446,7 +446,7 @@ namespace Keyblock
   StrengthTrials<dim>::quiet_stage(const unsigned int block) const
   {
     Stage quiet;
-    quiet.kind          = "quasi-static";
+    quiet.kind          = StageKind::quasi_static;
     quiet.local_damping = scene.safety.local_damping;
     quiet.damping_ratio = scene.safety.damping_ratio;
     // critical for the block's lowest mode: 2 omega
@@ -471,7 +471,7 @@ namespace Keyblock
     moving.damping_ratio = scene.safety.damping_ratio;
     moving.reset_motion  = true;
     if (!scene.safety.true_masses)
-      moving.kind = "quasi-static";
+      moving.kind = StageKind::quasi_static;
 
     run.step.begin_stage(quiet, number);
     change_strength(block, trial);

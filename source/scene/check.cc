@@ -63,7 +63,7 @@ namespace Keyblock
   {
     const Domain<dim> &domain   = scene.domain;
     const Meshing<dim> &meshing = scene.meshing;
-    if (domain.shape == "box")
+    if (domain.shape == DomainShape::box)
       {
         require(domain.size.size() == dim,
                 "The entry 'Domain/Size' has " +
@@ -75,7 +75,7 @@ namespace Keyblock
                   "The entry 'Domain/Size' contains " + number(length) +
                     "; lengths must be positive.");
       }
-    if (domain.shape == "parallelepiped")
+    if (domain.shape == DomainShape::parallelepiped)
       {
         require(domain.edges.size() == dim,
                 "The entry 'Domain/Edges' has " +
@@ -90,23 +90,24 @@ namespace Keyblock
                   number(determinant(frame)) +
                   "; order them right-handed and not in one plane.");
       }
-    if (domain.shape == "polygon")
+    if (domain.shape == DomainShape::polygon)
       {
         require(dim == 2 && domain.polygon.size() >= 3,
                 "The entry 'Domain/Shape' is polygon, which needs Dimension "
                 "2 and at least three corners in 'Domain/Polygon'; found " +
                   std::to_string(domain.polygon.size()) + ".");
-        require(meshing.generator == "gmsh",
-                "The entry 'Mesh/Generator' is " + meshing.generator +
+        require(meshing.generator == MeshGenerator::gmsh,
+                "The entry 'Mesh/Generator' is " + name_of(meshing.generator) +
                   ", which cannot mesh a polygon; set it to gmsh.");
         if constexpr (dim == 2)
           require_simple(domain.polygon, "Domain/Polygon");
       }
-    require((domain.shape == "file") == (meshing.generator == "file"),
-            "The entries 'Domain/Shape' (" + domain.shape +
-              ") and 'Mesh/Generator' (" + meshing.generator +
+    require((domain.shape == DomainShape::file) ==
+              (meshing.generator == MeshGenerator::file),
+            "The entries 'Domain/Shape' (" + name_of(domain.shape) +
+              ") and 'Mesh/Generator' (" + name_of(meshing.generator) +
               ") contradict each other; set both to file or neither.");
-    if (domain.shape == "file")
+    if (domain.shape == DomainShape::file)
       {
         require(!domain.file.empty(),
                 "The entry 'Domain/File' is empty; name the mesh file.");
@@ -149,13 +150,13 @@ namespace Keyblock
                 std::any_of(scene.excavations.begin(),
                             scene.excavations.end(),
                             [](const auto &e) {
-                              return e->shape != "formula";
+                              return e->shape != ExcavationShape::formula;
                             }),
               "The entry 'Mesh/Refine at excavations' needs an excavation with "
               "an outline; use 'Mesh/Refinement levels'.");
       require(meshing.refine_at_joints.empty() || !scene.joints.empty(),
               "The entry 'Mesh/Refine at joints' needs 'Joints/Names'.");
-      if (meshing.generator != "structured")
+      if (meshing.generator != MeshGenerator::structured)
         return;
       require(meshing.cells.size() == dim,
               "The entry 'Mesh/Cells' has " +
@@ -176,16 +177,19 @@ namespace Keyblock
     void
     check_excavation(const Excavation<dim> &excavation)
     {
-      const std::string section = "Excavations/" + excavation.name;
-      const std::string shape   = excavation.shape;
-      require(shape != "extruded polygon" || dim == 3,
+      const std::string section   = "Excavations/" + excavation.name;
+      const ExcavationShape shape = excavation.shape;
+      require(shape != ExcavationShape::extruded_polygon || dim == 3,
               "The entry '" + section +
                 "/Shape' is extruded polygon, which needs Dimension 3; use "
                 "polygon in 2D.");
-      require((shape != "polygon" && shape != "circle") || dim == 2,
-              "The entry '" + section + "/Shape' is " + shape +
+      require((shape != ExcavationShape::polygon &&
+               shape != ExcavationShape::circle) ||
+                dim == 2,
+              "The entry '" + section + "/Shape' is " + name_of(shape) +
                 ", which needs Dimension 2; use box or extruded polygon.");
-      if (shape == "polygon" || shape == "extruded polygon")
+      if (shape == ExcavationShape::polygon ||
+          shape == ExcavationShape::extruded_polygon)
         {
           require(excavation.vertices.size() >= 3,
                   "The entry '" + section + "/Vertices' has " +
@@ -193,12 +197,12 @@ namespace Keyblock
                     " corners; a polygon needs at least three.");
           require_simple(excavation.vertices, section + "/Vertices");
         }
-      if (shape == "extruded polygon")
+      if (shape == ExcavationShape::extruded_polygon)
         require(excavation.from < excavation.to,
                 "The entry '" + section + "/From' (" + number(excavation.from) +
                   ") is not below '" + section + "/To' (" +
                   number(excavation.to) + "); exchange them.");
-      if (shape == "formula")
+      if (shape == ExcavationShape::formula)
         {
           require(!excavation.formula.empty(),
                   "The entry '" + section +
@@ -206,11 +210,11 @@ namespace Keyblock
                     "inside.");
           check_expression<dim>(excavation.formula, 1, section + "/Formula");
         }
-      if (shape == "circle")
+      if (shape == ExcavationShape::circle)
         require(excavation.radius > 0.,
                 "The entry '" + section +
                   "/Radius' is 0; give a positive radius in metres.");
-      if (shape == "box")
+      if (shape == ExcavationShape::box)
         {
           require(excavation.size.size() == dim,
                   "The entry '" + section + "/Size' has " +
@@ -261,15 +265,16 @@ namespace Keyblock
           require(largest > std::numeric_limits<double>::min(),
                   entry + "/Normal' is the zero vector; give a direction.");
         }
-      if (dim == 2 && joint.normal_entry.empty() && joint.extent != "polygon")
+      if (dim == 2 && joint.normal_entry.empty() &&
+          joint.extent != JointShape::polygon)
         require(joint.dip_direction == 90. || joint.dip_direction == 270.,
                 entry + "/Dip direction' is " + number(joint.dip_direction) +
                   "; in 2D it is 90 (descends to +x) or 270 (to -x).");
-      if (joint.extent == "disc")
+      if (joint.extent == JointShape::disc)
         require(joint.radius > 0.,
                 entry +
                   "/Radius' is 0; give the radius of the disc in metres.");
-      if (joint.extent == "polygon")
+      if (joint.extent == JointShape::polygon)
         {
           const bool is_enough =
             dim == 2 ? joint.vertices.size() == 2 : joint.vertices.size() >= 3;
@@ -455,7 +460,8 @@ namespace Keyblock
               "The entry 'Initial state/Lateral ratios' has " +
                 std::to_string(state.lateral_ratios.size()) +
                 " numbers; give one or two.");
-      require(state.equilibrium == "none" || !scene.time_stepping.is_large(),
+      require(state.equilibrium == InitialEquilibrium::none ||
+                !scene.time_stepping.is_large(),
               "The entry 'Initial state/Equilibrium' is static, which needs "
               "'Time stepping/Kinematics' = small.");
       for (const auto &stage : scene.stages)
@@ -507,14 +513,15 @@ namespace Keyblock
           require(support->boundaries.empty() != support->region.empty(),
                   "The support '" + support->name +
                     "' needs exactly one of 'Boundaries' and 'Region'.");
-          require(support->directions != "normal" || support->region.empty(),
+          require(support->directions != SupportDirections::normal ||
+                    support->region.empty(),
                   "The support '" + support->name +
                     "' has 'Directions' normal, which needs 'Boundaries'; "
                     "name boundaries or axes.");
-          require(dim == 3 ||
-                    support->directions.find('z') == std::string::npos,
+          require(dim == 3 || !support->names_axis(2),
                   "The entry '" + section + "/Directions' is " +
-                    support->directions + ", but there is no z in 2D.");
+                    name_of(support->directions) +
+                    ", but there is no z in 2D.");
         }
       for (const auto &monitor : scene.monitors)
         check_expression<dim>(monitor->region,
@@ -569,7 +576,8 @@ namespace Keyblock
                 "The entry 'Safety factor/Joints' names '" + name +
                   "', which is not in 'Joints/Names', nor another joint or a "
                   "set.");
-      require(!safety.is_wanted() || scene.contact.method != "none",
+      require(!safety.is_wanted() ||
+                scene.contact.method != ContactMethod::none,
               "The entry 'Safety factor/Blocks' needs contact; set "
               "'Contact/Method' to exact.");
       require(safety.lowest < 1. && safety.highest > 1.,
@@ -600,7 +608,8 @@ namespace Keyblock
     for (const auto &excavation : excavations)
       {
         check_excavation(*excavation);
-        require(excavation->shape != "formula" || meshing.generator != "gmsh",
+        require(excavation->shape != ExcavationShape::formula ||
+                  meshing.generator != MeshGenerator::gmsh,
                 "The entry 'Excavations/" + excavation->name +
                   "/Shape' is formula, which Gmsh cannot follow; use another "
                   "shape or another 'Mesh/Generator'.");
@@ -620,7 +629,7 @@ namespace Keyblock
     check_initial_state(*this);
     check_expressions(*this);
     for (const auto &monitor : monitors)
-      require(monitor->kind != "joint" || monitor->joint == "all" ||
+      require(monitor->kind != MonitorKind::joint || monitor->joint == "all" ||
                 has_joint(*this, monitor->joint),
               "The monitor '" + monitor->name + "' names the joint '" +
                 monitor->joint +
@@ -628,7 +637,7 @@ namespace Keyblock
                 "set; correct 'Monitors/" +
                 monitor->name + "/Joint'.");
     for (const auto &monitor : monitors)
-      require(monitor->kind != "support" ||
+      require(monitor->kind != MonitorKind::support ||
                 std::any_of(supports.begin(),
                             supports.end(),
                             [&](const auto &support) {
@@ -638,48 +647,54 @@ namespace Keyblock
                 monitor->support +
                 "', which is not in 'Supports/Names'; correct 'Monitors/" +
                 monitor->name + "/Support'.");
-    const auto has_monitor = [&](const std::string &kind) {
+    const auto has_monitor = [&](const MonitorKind kind) {
       for (const auto &monitor : monitors)
         if (monitor->kind == kind)
           return true;
       return false;
     };
-    const std::string &form = checks.closed_form;
-    const bool is_on_body   = form != "none" && !checks.needs_rock();
-    require(!is_on_body || has_monitor("block"),
-            "The entry 'Check/Closed form' is " + form +
+    const ClosedForm form = checks.closed_form;
+    const bool is_on_body = form != ClosedForm::none && !checks.needs_rock();
+    require(!is_on_body || has_monitor(MonitorKind::block),
+            "The entry 'Check/Closed form' is " + name_of(form) +
               ", which needs a monitor of kind block; add one to "
               "'Monitors/Names'.");
-    require(form != "oblique_impact" || has_monitor("region"),
+    require(form != ClosedForm::oblique_impact ||
+              has_monitor(MonitorKind::region),
             "The entry 'Check/Closed form' is oblique_impact, which needs a "
             "monitor of kind region over the middle of the slab; add one to "
             "'Monitors/Names'.");
     require(
-      form != "footing" || (has_monitor("support") && checks.length > 0.),
+      form != ClosedForm::footing ||
+        (has_monitor(MonitorKind::support) && checks.length > 0.),
       "The entry 'Check/Closed form' is footing, which needs a monitor of "
       "kind support and the loaded width in 'Check/Length'.");
-    require((form != "kirsch" && form != "salencon") ||
-              (excavations.size() == 1 && excavations[0]->shape == "circle"),
-            "The entry 'Check/Closed form' is " + form +
+    require((form != ClosedForm::kirsch && form != ClosedForm::salencon) ||
+              (excavations.size() == 1 &&
+               excavations[0]->shape == ExcavationShape::circle),
+            "The entry 'Check/Closed form' is " + name_of(form) +
               ", which needs one excavation of shape circle.");
-    require(form != "spherical_cavity" ||
+    require(form != ClosedForm::spherical_cavity ||
               (dim == 3 && excavations.size() == 1 && checks.length > 0.),
             "The entry 'Check/Closed form' is spherical_cavity, which needs "
             "'Dimension' 3, one excavation, and the radius of the cavity about "
             "the origin in 'Check/Length'.");
-    require(!is_on_body || form == "rotation" || has_monitor("joint"),
-            "The entry 'Check/Closed form' is " + form +
+    require(!is_on_body || form == ClosedForm::rotation ||
+              has_monitor(MonitorKind::joint),
+            "The entry 'Check/Closed form' is " + name_of(form) +
               ", which needs a monitor of kind joint; add one to "
               "'Monitors/Names'.");
-    require(!is_on_body || form == "rotation" || form == "bar_impact" ||
-              form == "oblique_impact" || !checks.joint.empty(),
-            "The entry 'Check/Joint' is empty, but the closed form " + form +
-              " is measured on a joint; name it.");
-    require((form != "bar_impact" && form != "bond_break") ||
+    require(!is_on_body || form == ClosedForm::rotation ||
+              form == ClosedForm::bar_impact ||
+              form == ClosedForm::oblique_impact || !checks.joint.empty(),
+            "The entry 'Check/Joint' is empty, but the closed form " +
+              name_of(form) + " is measured on a joint; name it.");
+    require((form != ClosedForm::bar_impact &&
+             form != ClosedForm::bond_break) ||
               checks.length > 0.,
-            "The entry 'Check/Length' is 0, but the closed form " + form +
-              " needs the length of the bar in metres.");
-    require(form != "newmark" ||
+            "The entry 'Check/Length' is 0, but the closed form " +
+              name_of(form) + " needs the length of the bar in metres.");
+    require(form != ClosedForm::newmark ||
               std::any_of(materials.begin(),
                           materials.end(),
                           [](const auto &m) {
@@ -687,16 +702,17 @@ namespace Keyblock
                           }),
             "The entry 'Check/Closed form' is newmark, which needs a material "
             "that moves by 'Rigid velocity'; set that of the base.");
-    require((form != "bar_impact" && form != "oblique_impact") ||
+    require((form != ClosedForm::bar_impact &&
+             form != ClosedForm::oblique_impact) ||
               !initial_state.velocity.empty(),
-            "The entry 'Check/Closed form' is " + form +
+            "The entry 'Check/Closed form' is " + name_of(form) +
               ", which needs the body's 'Initial state/Velocity'; set it.");
-    require(form != "bond_break" ||
+    require(form != ClosedForm::bond_break ||
               (!supports.empty() && !supports.front()->velocity.empty()),
             "The entry 'Check/Closed form' is bond_break, which needs a first "
             "support that pulls; set its 'Velocity'.");
-    require(form == "none" || !stages.empty(),
-            "The entry 'Check/Closed form' is " + form +
+    require(form == ClosedForm::none || !stages.empty(),
+            "The entry 'Check/Closed form' is " + name_of(form) +
               ", but 'Stages/Names' is empty; name a stage to measure.");
     const auto n_checked = joints_called(checks.joint).size();
     require(checks.joint.empty() || n_checked > 0,

@@ -80,7 +80,7 @@ namespace Keyblock
   DomainOutline<dim>::DomainOutline(const Domain<dim> &domain)
   {
     std::vector<Point<dim>> edges = domain.edges;
-    if (domain.shape == "polygon")
+    if (domain.shape == DomainShape::polygon)
       {
         lower = upper = domain.polygon[0];
         for (const Point<dim> &corner : domain.polygon)
@@ -93,7 +93,7 @@ namespace Keyblock
         corners = domain.polygon;
         return;
       }
-    if (domain.shape == "box")
+    if (domain.shape == DomainShape::box)
       {
         edges.assign(dim, Point<dim>());
         for (unsigned int d = 0; d < dim; ++d)
@@ -195,7 +195,7 @@ namespace Keyblock
     const std::vector<Point<dim>> piece = cut(joint);
     if (piece.empty())
       return false;
-    const bool is_disc = joint.extent == "disc";
+    const bool is_disc = joint.extent == JointShape::disc;
     if constexpr (dim == 2)
       {
         const Tensor<1, dim> half =
@@ -229,7 +229,7 @@ namespace Keyblock
   volume_of(const Domain<dim> &domain)
   {
     double volume = 1.;
-    if (domain.shape == "polygon")
+    if (domain.shape == DomainShape::polygon)
       {
         volume = 0.;
         for (unsigned int i = 0; i < domain.polygon.size(); ++i)
@@ -241,7 +241,7 @@ namespace Keyblock
           }
         return std::abs(volume);
       }
-    if (domain.shape == "parallelepiped")
+    if (domain.shape == DomainShape::parallelepiped)
       {
         Tensor<2, dim> frame;
         for (unsigned int d = 0; d < dim; ++d)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Every entry of a scene file: its name, default, range, unit and meaning;
 // those of joints are in scene/joint_entries.cc.
+#include <keyblock/scene/choice_patterns.h>
 #include <keyblock/scene/scene.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -14,7 +15,6 @@ namespace Keyblock
   {
     using dealii::Patterns::Double;
     using dealii::Patterns::Integer;
-    using dealii::Patterns::Selection;
 
     const Double any_number;
     const Double not_negative(0.);
@@ -31,8 +31,7 @@ namespace Keyblock
                       shape,
                       "box: axis-parallel, by Corner and Size; parallelepiped: "
                       "by Corner and Edges; polygon (2D): by Polygon; file: "
-                      "whatever the mesh in File covers.",
-                      Selection("box|parallelepiped|polygon|file"));
+                      "whatever the mesh in File covers.");
     prm.add_parameter("Corner", corner, "The corner with least x, y (z) [m].");
     prm.add_parameter("Size", size, "Lengths along x, y (z) of a box [m].");
     prm.add_parameter("Edges",
@@ -71,8 +70,7 @@ namespace Keyblock
                       "structured: equal cells in a box or parallelepiped "
                       "(joints and excavations must follow cell faces); gmsh: "
                       "a mesh that follows joints and excavations; file: "
-                      "Domain/File.",
-                      Selection("structured|gmsh|file"));
+                      "Domain/File.");
     prm.add_parameter("Cells",
                       cells,
                       "Structured: number of cells along each edge.");
@@ -157,8 +155,7 @@ namespace Keyblock
                       "polygon (2D): Vertices; circle (2D): Center and Radius, "
                       "arcs kept; box: Corner and Size; extruded polygon "
                       "(3D): Vertices in the x-z plane, From and To along y; "
-                      "formula (structured and file meshes): Formula.",
-                      Selection("polygon|circle|box|extruded polygon|formula"));
+                      "formula (structured and file meshes): Formula.");
     prm.add_parameter(
       "Formula",
       formula,
@@ -210,8 +207,7 @@ namespace Keyblock
       model,
       "elastic; mohr_coulomb: elastic until it yields; rigid: a "
       "fixed (or moved) body without strain, whose cells cost "
-      "nothing.",
-      Selection("elastic|mohr_coulomb|rigid"));
+      "nothing.");
     prm.add_parameter("Young modulus",
                       young_modulus,
                       "Young's modulus E [Pa].",
@@ -263,8 +259,7 @@ namespace Keyblock
       "Integration of elastic cells. full: each Gauss point has its own volume "
       "change; mean dilatation: the volume change is averaged over each cell, "
       "which prevents locking; automatic: mean dilatation for Poisson ratios "
-      "above 0.4. mohr_coulomb cells always have mean dilatation.",
-      Selection("automatic|full|mean dilatation"));
+      "above 0.4. mohr_coulomb cells always have mean dilatation.");
     prm.add_parameter("Rigid velocity",
                       rigid_velocity,
                       "Velocity of a rigid body, a formula in t, one component "
@@ -288,15 +283,13 @@ namespace Keyblock
       "Directions",
       directions,
       "Directions that are held. all: all axes; normal: the normal of each "
-      "named boundary, as a roller; or axes, for example x or xz.",
-      Selection("all|normal|x|y|z|xy|xz|yz"));
+      "named boundary, as a roller; or axes, for example x or xz.");
     prm.add_parameter("Kind",
                       kind,
                       "held: fixed or moved by Velocity; far field: the "
                       "stiffness of infinite rock around the model, exact for "
                       "double forces at Center if the far field encloses it "
-                      "(Boundaries only), after the initial state.",
-                      Selection("held|far field"));
+                      "(Boundaries only), after the initial state.");
     prm.add_parameter(
       "Displacement",
       displacement,
@@ -396,8 +389,7 @@ namespace Keyblock
                       "static: one elastic solve with all joints tied brings "
                       "the initial stress into equilibrium with loads and "
                       "supports, and displacements are zeroed; none: the "
-                      "stress is taken as it is.",
-                      Selection("none|static"));
+                      "stress is taken as it is.");
   }
 
   void
@@ -407,8 +399,7 @@ namespace Keyblock
                       method,
                       "Solution of contact. exact: coupled points, iterated to "
                       "Tolerance; published: one pass without coupling, "
-                      "for comparison; none: joints are ignored.",
-                      Selection("exact|published|none"));
+                      "for comparison; none: joints are ignored.");
     prm.add_parameter(
       "Default friction angle",
       default_friction_angle,
@@ -447,8 +438,7 @@ namespace Keyblock
       kinematics,
       "Geometry of the strains. small: the reference geometry, for small "
       "deformations and slip along planes; large: the current geometry with an "
-      "objective stress rate, for blocks that turn.",
-      Selection("small|large"));
+      "objective stress rate, for blocks that turn.");
     prm.add_parameter("Safety",
                       safety,
                       "Fraction of the stable time step used [-].",
@@ -495,8 +485,7 @@ namespace Keyblock
       kind,
       "Kind of the stage. dynamic: true motion over Duration; quasi-static: "
       "damped steps with scaled density until forces balance; static: one "
-      "elastic solve with all joints tied.",
-      Selection("dynamic|quasi-static|static"));
+      "elastic solve with all joints tied.");
     prm.add_parameter("Duration",
                       duration,
                       "Simulated time of the stage [s].",
@@ -568,8 +557,7 @@ namespace Keyblock
       kind,
       "point: nearest node; block: the block at Location; region: mean over "
       "the nodes where Region is positive, by mass; joint: sums over a joint; "
-      "support: reaction of a support.",
-      Selection("point|block|region|joint|support"));
+      "support: reaction of a support.");
     prm.add_parameter(
       "Location",
       location,
@@ -601,8 +589,7 @@ namespace Keyblock
                       reduced_joints,
                       "Joints whose strength a trial divides by the factor. of "
                       "the block: those of the tried block, where it touches "
-                      "others; all: those of the whole model.",
-                      Selection("of the block|all"));
+                      "others; all: those of the whole model.");
     prm.add_parameter(
       "Joints",
       joints,
@@ -632,14 +619,12 @@ namespace Keyblock
       "How the forces of bolts enter a block's factor. active: they are "
       "undivided, and taken from what drives the block; passive: their part "
       "along the plane of sliding is divided by the factor like the joints' "
-      "strength, as a part of what resists.",
-      Selection("active|passive"));
+      "strength, as a part of what resists.");
     prm.add_parameter("Method",
                       method,
                       "Search for the factor. bisection: halving of a bracket; "
                       "sweep: from Lowest upwards by Sweep step until the "
-                      "block fails (the published method).",
-                      Selection("bisection|sweep"));
+                      "block fails (the published method).");
     prm.add_parameter(
       "Sweep step",
       sweep_step,
@@ -763,12 +748,7 @@ namespace Keyblock
     prm.add_parameter("Closed form",
                       closed_form,
                       "Closed form, or other reference, with which the results "
-                      "of the last stage are compared; none: no comparison.",
-                      Selection(
-                        "none|resting|incline|bar_impact|oblique_impact|"
-                        "bond_break|newmark|gravity_column|kirsch|salencon|"
-                        "spherical_cavity|footing|value|"
-                        "toppling|rotation"));
+                      "of the last stage are compared; none: no comparison.");
     prm.add_parameter(
       "Joint",
       joint,

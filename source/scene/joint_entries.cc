@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Every entry of joints, their table and their sets.
+#include <keyblock/scene/choice_patterns.h>
 #include <keyblock/scene/scene.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -10,7 +11,6 @@ namespace Keyblock
   namespace
   {
     using dealii::Patterns::Double;
-    using dealii::Patterns::Selection;
 
     const Double not_negative(0.);
     const Double fraction(0., 1.);
@@ -61,8 +61,7 @@ namespace Keyblock
                       extent,
                       "infinite; disc: Radius about Point (in 2D a segment of "
                       "that half length); polygon: Vertices (in 2D the two "
-                      "ends).",
-                      Selection("infinite|disc|polygon"));
+                      "ends).");
     prm.add_parameter("Radius",
                       radius,
                       "Radius of the disc [m].",
@@ -107,8 +106,7 @@ namespace Keyblock
     prm.add_parameter("Spacing law",
                       spacing_law,
                       "exponential: a Poisson process; constant (infinite "
-                      "joints only).",
-                      Selection("exponential|constant"));
+                      "joints only).");
     prm.add_parameter("Jitter",
                       jitter,
                       "Largest random shift of a joint of constant spacing to "
@@ -138,8 +136,7 @@ namespace Keyblock
       "mean; uniform: from Radius minimum to Radius maximum; exponential, "
       "lognormal: of Radius mean (and Radius deviation) before the cut at "
       "minimum and maximum; power law: density r^-exponent; infinite: planes "
-      "without a rim.",
-      Selection("infinite|constant|uniform|exponential|lognormal|power law"));
+      "without a rim.");
     prm.add_parameter("Radius mean",
                       radius_mean,
                       "Mean radius [m].",

@@ -11,14 +11,13 @@ namespace Keyblock
   template <int dim>
   JointExtent<dim>::JointExtent(const Joint<dim> &joint)
     : normal(joint.normal())
-    , origin(joint.extent == "polygon" ? joint.vertices[0] : joint.point)
-    , shape(joint.extent == "infinite" ? Shape::infinite
-            : joint.extent == "disc"   ? Shape::disc
-                                       : Shape::polygon)
+    , origin(joint.extent == JointShape::polygon ? joint.vertices[0]
+                                                 : joint.point)
+    , shape(joint.extent)
     , center(joint.point)
     , radius(joint.radius)
   {
-    if (shape == Shape::polygon)
+    if (shape == JointShape::polygon)
       for (const Point<dim> &corner : joint.vertices)
         corners.push_back(corner - distance(corner) * normal);
     unsigned int steepest = 0;
@@ -35,10 +34,10 @@ namespace Keyblock
   double
   JointExtent<dim>::depth_inside(const Point<dim> &p) const
   {
-    if (shape == Shape::infinite)
+    if (shape == JointShape::infinite)
       return 1e300;
     const Point<dim> foot = p - distance(p) * normal;
-    if (shape == Shape::disc)
+    if (shape == JointShape::disc)
       return radius - foot.distance(center);
     if constexpr (dim == 2)
       {
@@ -71,7 +70,7 @@ namespace Keyblock
   JointExtent<dim>::distance_to_joint(const Point<dim> &p) const
   {
     const double height = distance(p);
-    if (shape == Shape::infinite)
+    if (shape == JointShape::infinite)
       return std::abs(height);
     return std::hypot(height, std::min(depth_inside(p), 0.));
   }
@@ -82,9 +81,9 @@ namespace Keyblock
   double
   JointExtent<dim>::half_width() const
   {
-    if (shape == Shape::infinite)
+    if (shape == JointShape::infinite)
       return 1e300;
-    if (shape == Shape::disc)
+    if (shape == JointShape::disc)
       return radius;
     if constexpr (dim == 2)
       return 0.5 * corners[0].distance(corners[1]);
@@ -113,7 +112,7 @@ namespace Keyblock
       return 2. * half_width();
     else
       {
-        if (shape == Shape::disc)
+        if (shape == JointShape::disc)
           return dealii::numbers::PI * radius * radius;
         Tensor<1, dim> twice_area;
         for (unsigned int i = 0; i < corners.size(); ++i)
@@ -130,7 +129,7 @@ namespace Keyblock
   std::vector<Point<dim>>
   JointExtent<dim>::outermost_points() const
   {
-    if (shape == Shape::polygon)
+    if (shape == JointShape::polygon)
       return corners;
     std::vector<Point<dim>> points;
     for (unsigned int d = 0; d < dim; ++d)

@@ -142,13 +142,15 @@ namespace Keyblock
                 exact_text(set.dip_direction) +
                 "; in 2D it is 90 (descends to +x) or 270 (to -x).");
       require(
-        set.radius_law == "infinite" || set.spacing_law == "exponential",
+        set.radius_law == RadiusDistribution::infinite ||
+          set.spacing_law == SpacingDistribution::exponential,
         "The entry '" + section +
           "/Spacing law' is constant, which "
           "only infinite joints can have; set 'Radius law' to infinite or "
           "'Spacing law' to exponential.");
       require(set.persistence == 1. ||
-                (set.spacing > 0. && set.radius_law != "infinite"),
+                (set.spacing > 0. &&
+                 set.radius_law != RadiusDistribution::infinite),
               "The entry '" + section + "/Persistence' is " +
                 exact_text(set.persistence) +
                 ", which goes with 'Spacing' and finite joints; give both "
@@ -166,7 +168,7 @@ namespace Keyblock
         require(length > 0.,
                 "The entry '" + section + "/Region size' contains " +
                   exact_text(length) + "; lengths must be positive.");
-      require(domain.shape != "file" || !set.region_size.empty(),
+      require(domain.shape != DomainShape::file || !set.region_size.empty(),
               "The set '" + section +
                 "' needs 'Region corner' and 'Region "
                 "size', because the size of the domain in 'Domain/File' is not "
@@ -201,7 +203,7 @@ namespace Keyblock
         const Real reach = Real(outline.lower.distance(outline.upper)) / 2;
         const double p   = intensity_of(set);
         check_number(2. * rounded(reach) * p, set.name);
-        if (set.spacing_law == "exponential")
+        if (set.spacing_law == SpacingDistribution::exponential)
           {
             const unsigned int n = random.poisson(2. * rounded(reach) * p);
             for (unsigned int i = 0; i < n; ++i)
@@ -238,7 +240,7 @@ namespace Keyblock
             for (unsigned int d = 0; d < dim; ++d)
               joint->point[d] = rounded(Real(corner[d]) +
                                         Real(random.uniform()) * Real(size[d]));
-            joint->extent = "disc";
+            joint->extent = JointShape::disc;
             joint->radius = rounded(law.draw(random));
             keep_if_inside(joint);
           }
@@ -336,11 +338,11 @@ namespace Keyblock
         lower[d] = set.region_corner[d];
         upper[d] = lower[d] + set.region_size[d];
       }
-    const DomainOutline<dim> outline = domain.shape == "file"
+    const DomainOutline<dim> outline = domain.shape == DomainShape::file
                                          ? DomainOutline<dim>(lower, upper)
                                          : DomainOutline<dim>(domain);
     SetMaker<dim> maker(set, outline);
-    if (set.radius_law == "infinite")
+    if (set.radius_law == RadiusDistribution::infinite)
       maker.make_planes();
     else
       {

@@ -211,20 +211,20 @@ namespace Keyblock
     }
 
     /** What the row says about the extent, in words or by what it gives. */
-    std::string
+    JointShape
     find_extent(const RowReader &row)
     {
       const std::string words = boost::to_lower_copy(row.text(C::extent));
-      row.require(words.empty() || words == "infinite" || words == "disc" ||
-                    words == "polygon",
+      const auto shape        = choice_called<JointShape>(words);
+      row.require(words.empty() || shape,
                   C::extent,
                   "'" + row.text(C::extent) +
                     "' is no extent; give infinite, disc or polygon.");
-      if (!words.empty())
-        return words;
+      if (shape)
+        return *shape;
       if (row.has(C::vertices) || row.has(C::x1) || row.has(C::y1) ||
           row.has(C::x2) || row.has(C::y2))
-        return "polygon";
+        return JointShape::polygon;
       const C size = row.columns.count(C::diameter) ? C::diameter : C::radius;
       if (row.columns.count(size))
         {
@@ -232,14 +232,14 @@ namespace Keyblock
                       size,
                       "there is no value; give a length, or infinite in the "
                       "column 'extent'.");
-          return "disc";
+          return JointShape::disc;
         }
       row.require(row.columns.count(C::vertices) + row.columns.count(C::x1) ==
                     0,
                   row.columns.count(C::vertices) ? C::vertices : C::x1,
                   "there is no value; give the corners, or infinite in the "
                   "column 'extent'.");
-      return "infinite";
+      return JointShape::infinite;
     }
 
     template <int dim>
@@ -249,13 +249,13 @@ namespace Keyblock
                   Joint<dim> &joint)
     {
       joint.extent = find_extent(row);
-      if (joint.extent == "polygon")
+      if (joint.extent == JointShape::polygon)
         return read_polygon(row, origin, joint);
       read_orientation(row, joint);
       const std::array<C, 3> coordinates = {{C::x, C::y, C::z}};
       for (unsigned int d = 0; d < dim; ++d)
         joint.point[d] = row.number(coordinates[d]) - origin[d];
-      if (joint.extent == "infinite")
+      if (joint.extent == JointShape::infinite)
         return;
       const bool is_diameter = row.columns.count(C::diameter) > 0;
       const C size           = is_diameter ? C::diameter : C::radius;

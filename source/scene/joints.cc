@@ -329,7 +329,7 @@ namespace Keyblock
         add("Normal", list(joint->normal_entry, joint->normal_entry.size()));
         add("Dip", exact_text(joint->dip));
         add("Dip direction", exact_text(joint->dip_direction));
-        add("Extent", joint->extent);
+        add("Extent", name_of(joint->extent));
         add("Radius", exact_text(joint->radius));
         add("Vertices", vertices);
         add("Friction angle", exact_text(joint->friction_angle));

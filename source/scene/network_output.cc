@@ -55,8 +55,8 @@ namespace Keyblock
                     const bool has_normals)
     {
       const std::string no_vector(dim - 1, ',');
-      std::string text = joint.extent + ",";
-      if (joint.extent == "polygon")
+      std::string text = name_of(joint.extent) + ",";
+      if (joint.extent == JointShape::polygon)
         {
           std::string corners;
           for (const Point<dim> &vertex : joint.vertices)
@@ -74,7 +74,9 @@ namespace Keyblock
         text +=
           "," + (has_normal ? joined(joint.normal_entry, dim, ",") : no_vector);
       return text + "," +
-             (joint.extent == "disc" ? exact_text(joint.radius) : "") + ",";
+             (joint.extent == JointShape::disc ? exact_text(joint.radius)
+                                               : "") +
+             ",";
     }
 
     /** Corners of what is drawn of a joint, in 2D two ends. */
@@ -82,9 +84,9 @@ namespace Keyblock
     std::vector<Point<dim>>
     corners_of(const Joint<dim> &joint, const DomainOutline<dim> &box)
     {
-      if (joint.extent == "polygon")
+      if (joint.extent == JointShape::polygon)
         return joint.vertices;
-      if (joint.extent == "infinite")
+      if (joint.extent == JointShape::infinite)
         return box.cut(joint);
       const Tensor<1, dim> n = joint.normal();
       std::vector<Point<dim>> corners;
@@ -233,12 +235,13 @@ namespace Keyblock
   void
   write_joint_table(const std::string &file_name, const Scene<dim> &scene)
   {
-    const bool has_normals = std::any_of(scene.joints.begin(),
-                                         scene.joints.end(),
-                                         [](const auto &joint) {
-                                           return joint->extent != "polygon" &&
-                                                  !joint->normal_entry.empty();
-                                         });
+    const bool has_normals =
+      std::any_of(scene.joints.begin(),
+                  scene.joints.end(),
+                  [](const auto &joint) {
+                    return joint->extent != JointShape::polygon &&
+                           !joint->normal_entry.empty();
+                  });
     const std::string axes = dim == 2 ? "x (m),y (m)," : "x (m),y (m),z (m),";
     const std::string normals =
       dim == 2 ? "normal x,normal y," : "normal x,normal y,normal z,";

@@ -7,6 +7,8 @@ namespace Keyblock
 {
   namespace
   {
+    using D = RadiusDistribution;
+
     /** Integral of r^p from @p a to @p b. */
     double
     integral_of_power(const double p, const double a, const double b)
@@ -40,11 +42,11 @@ namespace Keyblock
     , mean(set.radius_mean)
     , deviation(set.radius_deviation)
     , exponent(set.radius_exponent)
-    , lower(law == "constant" ? mean : set.radius_minimum)
-    , upper(law == "constant"                            ? mean
-            : set.radius_maximum > 0.                    ? set.radius_maximum
-            : law == "exponential" || law == "lognormal" ? 10. * mean
-                                                         : 0.)
+    , lower(law == D::constant ? mean : set.radius_minimum)
+    , upper(law == D::constant                             ? mean
+            : set.radius_maximum > 0.                      ? set.radius_maximum
+            : law == D::exponential || law == D::lognormal ? 10. * mean
+                                                           : 0.)
   {
     const auto require = [&](const bool condition,
                              const std::string &entry,
@@ -54,23 +56,24 @@ namespace Keyblock
                   InputError("The entry 'Joint sets/" + set.name + "/" + entry +
                              "' is " + exact_text(value) + sentence));
     };
-    if (law != "uniform" && law != "power law")
+    if (law != D::uniform && law != D::power_law)
       require(mean > 0.,
               "Radius mean",
               mean,
-              ", but the radius law " + law + " needs a positive one [m].");
-    if (law == "power law")
+              ", but the radius law " + name_of(law) +
+                " needs a positive one [m].");
+    if (law == D::power_law)
       require(lower > 0.,
               "Radius minimum",
               lower,
               ", but a power law needs a positive one [m].");
-    if (law != "constant")
+    if (law != D::constant)
       require(upper > lower,
               "Radius maximum",
               upper,
               ", which is not above 'Radius minimum' = " + exact_text(lower) +
                 "; give a larger one [m].");
-    if (law != "lognormal")
+    if (law != D::lognormal)
       return;
     require(deviation > 0.,
             "Radius deviation",
@@ -104,14 +107,14 @@ namespace Keyblock
   double
   RadiusLaw::moment(const int k) const
   {
-    if (law == "constant")
+    if (law == D::constant)
       return std::pow(mean, k);
-    if (law == "uniform")
+    if (law == D::uniform)
       return integral_of_power(k, lower, upper) / (upper - lower);
-    if (law == "power law")
+    if (law == D::power_law)
       return integral_of_power(k - exponent, lower, upper) /
              integral_of_power(-exponent, lower, upper);
-    if (law == "exponential")
+    if (law == D::exponential)
       {
         const auto integral = [&](const int n) {
           return upper_gamma(n, lower / mean) - upper_gamma(n, upper / mean);
@@ -129,9 +132,9 @@ namespace Keyblock
   RadiusLaw::draw(RandomNumbers &random) const
   {
     const Real a = lower, b = upper, m = mean;
-    if (law == "constant")
+    if (law == D::constant)
       return m;
-    if (law == "lognormal")
+    if (law == D::lognormal)
       {
         const Real ratio    = Real(deviation) / m;
         const Real variance = log(1 + ratio * ratio);
@@ -145,9 +148,9 @@ namespace Keyblock
           }
       }
     const Real u = random.uniform();
-    if (law == "uniform")
+    if (law == D::uniform)
       return a + u * (b - a);
-    if (law == "exponential")
+    if (law == D::exponential)
       return a - m * log(1 - u * (1 - exp((a - b) / m)));
     const Real p = 1 - Real(exponent);
     if (p == 0)

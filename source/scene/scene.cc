@@ -117,13 +117,13 @@ namespace Keyblock
     if (!normal_entry.empty())
       for (unsigned int d = 0; d < dim; ++d)
         n[d] = normal_entry[d];
-    else if (extent == "polygon" && dim == 2)
+    else if (extent == JointShape::polygon && dim == 2)
       {
         const Tensor<1, dim> along = vertices[1] - vertices[0];
         n[0]                       = -along[1];
         n[1]                       = along[0];
       }
-    else if (extent == "polygon")
+    else if (extent == JointShape::polygon)
       {
         const Tensor<1, dim> a = vertices[1] - vertices[0];
         for (unsigned int i = 2; i < vertices.size(); ++i)
@@ -169,7 +169,8 @@ namespace Keyblock
   double
   Joint<dim>::distance(const Point<dim> &p) const
   {
-    const Point<dim> &origin = (extent == "polygon") ? vertices[0] : point;
+    const Point<dim> &origin =
+      (extent == JointShape::polygon) ? vertices[0] : point;
     return normal() * (p - origin);
   }
 
@@ -180,9 +181,9 @@ namespace Keyblock
   Joint<dim>::is_within_extent(const Point<dim> &p,
                                const double tolerance) const
   {
-    if (extent == "infinite")
+    if (extent == JointShape::infinite)
       return true;
-    if (extent == "disc")
+    if (extent == JointShape::disc)
       return p.distance(point) <= radius + tolerance;
     if (dim == 2)
       {
@@ -210,6 +211,32 @@ namespace Keyblock
         angle += std::atan2(sine, a * b);
       }
     return std::abs(angle) > dealii::numbers::PI;
+  }
+
+
+
+  template <int dim>
+  bool
+  Support<dim>::names_axis(const unsigned int d) const
+  {
+    using D = SupportDirections;
+    switch (directions)
+      {
+        case D::x:
+          return d == 0;
+        case D::y:
+          return d == 1;
+        case D::z:
+          return d == 2;
+        case D::xy:
+          return d != 2;
+        case D::xz:
+          return d != 1;
+        case D::yz:
+          return d != 0;
+        default:
+          return false;
+      }
   }
 
 
@@ -481,6 +508,8 @@ namespace Keyblock
 
   template struct Joint<2>;
   template struct Joint<3>;
+  template bool Support<2>::names_axis(const unsigned int) const;
+  template bool Support<3>::names_axis(const unsigned int) const;
   template struct Scene<2>;
   template struct Scene<3>;
 } // namespace Keyblock

@@ -389,7 +389,7 @@ namespace Keyblock
   void
   Bolts<dim>::reduce_strength(const StrengthReduction &new_reduction)
   {
-    if (scene.safety.bolt_convention == "passive")
+    if (scene.safety.bolt_convention == BoltConvention::passive)
       reduction = new_reduction;
   }
 

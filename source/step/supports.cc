@@ -176,7 +176,7 @@ namespace Keyblock
     else if (!support.velocity.empty())
       motion = add_motion(support.velocity, "Supports/*/Velocity", false);
     const bool holds_all =
-      support.directions == "all" || support.is_far_field();
+      support.directions == SupportDirections::all || support.is_far_field();
     unsigned int n_hits = 0;
     for_each_held_vertex(
       support,
@@ -191,12 +191,12 @@ namespace Keyblock
         NodeSupport<dim> &entry = found[node];
         if (entry.is_fixed())
           return;
-        if (support.directions == "normal" && !support.is_far_field())
+        if (support.directions == SupportDirections::normal &&
+            !support.is_far_field())
           hold_direction(entry, normal);
         else
           for (int d = 0; d < dim; ++d)
-            if (holds_all ||
-                support.directions.find("xyz"[d]) != std::string::npos)
+            if (holds_all || support.names_axis(d))
               hold_axis(entry, d);
         if (motion >= 0)
           entry.motion = motion;

@@ -81,21 +81,21 @@ namespace Keyblock
   evaluate_checks(const CheckInput<dim> &input)
   {
     using Check = std::function<CheckValues(const CheckInput<dim> &)>;
-    static const std::map<std::string, Check> closed_forms = {
-      {"incline", check_incline<dim>},
-      {"resting", check_resting<dim>},
-      {"bar_impact", check_bar_impact<dim>},
-      {"oblique_impact", check_oblique_impact<dim>},
-      {"bond_break", check_bond_break<dim>},
-      {"gravity_column", check_gravity_column<dim>},
-      {"kirsch", check_kirsch<dim>},
-      {"salencon", check_salencon<dim>},
-      {"spherical_cavity", check_spherical_cavity<dim>},
-      {"footing", check_footing<dim>},
-      {"value", check_value<dim>},
-      {"newmark", check_newmark<dim>},
-      {"toppling", check_toppling<dim>},
-      {"rotation", check_rotation<dim>}};
+    static const std::map<ClosedForm, Check> closed_forms = {
+      {ClosedForm::incline, check_incline<dim>},
+      {ClosedForm::resting, check_resting<dim>},
+      {ClosedForm::bar_impact, check_bar_impact<dim>},
+      {ClosedForm::oblique_impact, check_oblique_impact<dim>},
+      {ClosedForm::bond_break, check_bond_break<dim>},
+      {ClosedForm::gravity_column, check_gravity_column<dim>},
+      {ClosedForm::kirsch, check_kirsch<dim>},
+      {ClosedForm::salencon, check_salencon<dim>},
+      {ClosedForm::spherical_cavity, check_spherical_cavity<dim>},
+      {ClosedForm::footing, check_footing<dim>},
+      {ClosedForm::value, check_value<dim>},
+      {ClosedForm::newmark, check_newmark<dim>},
+      {ClosedForm::toppling, check_toppling<dim>},
+      {ClosedForm::rotation, check_rotation<dim>}};
     const auto found = closed_forms.find(input.scene.checks.closed_form);
     return found == closed_forms.end() || !input.history.has_last_stage()
              ? CheckValues()

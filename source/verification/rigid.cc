@@ -208,7 +208,7 @@ namespace Keyblock
     std::string name;
     unsigned int index = none;
     for (unsigned int m = 0; m < input.scene.monitors.size(); ++m)
-      if (input.scene.monitors[m]->kind == "block")
+      if (input.scene.monitors[m]->kind == MonitorKind::block)
         {
           name  = input.scene.monitors[m]->name;
           index = input.block_of_monitor[m];

@@ -530,7 +530,7 @@ namespace Keyblock
                             : 2. + dealii::numbers::PI;
     std::string name;
     for (const auto &monitor : input.scene.monitors)
-      if (monitor->kind == "support")
+      if (monitor->kind == MonitorKind::support)
         name = monitor->name;
     const auto reaction =
       input.history.column(name + ".reaction_" + std::string(1, "xyz"[dim - 1]),

@@ -89,7 +89,7 @@ namespace Keyblock
     const bool sticks = tangential_speed <= friction / ratio * normal_speed;
     std::string middle;
     for (const auto &monitor : input.scene.monitors)
-      if (monitor->kind == "region")
+      if (monitor->kind == MonitorKind::region)
         middle = monitor->name;
 
     Tensor<1, dim> along, upward;

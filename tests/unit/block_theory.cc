@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(sets_are_those_of_the_scene)
   scene.joints.back()->normal_entry   = {normal[0], normal[1], normal[2]};
   scene.joints.back()->friction_angle = 20.;
   scene.joints.push_back(std::make_unique<Joint<3>>());
-  scene.joints.back()->extent = "disc";
+  scene.joints.back()->extent = JointShape::disc;
   auto theory                 = find_block_theory(scene, BlockTheorySettings());
   BOOST_TEST(theory.sets.size() == 4);
   BOOST_TEST(theory.sets[0].friction_angle == 20.);

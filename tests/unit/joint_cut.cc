@@ -114,7 +114,7 @@ namespace
             joint->point[d] = draw(0., 4.);
             joint->normal_entry.push_back(draw(-1., 1.));
           }
-        joint->extent = j % 2 ? "disc" : "infinite";
+        joint->extent = j % 2 ? JointShape::disc : JointShape::infinite;
         joint->radius = draw(0.5, 2.);
         scene.joints.push_back(std::move(joint));
       }

@@ -127,7 +127,7 @@ namespace
               const double t       = m * (joint->point - middle) / (m * n);
               const Point<3> p     = middle + t * n;
               n_crossed += std::abs(t) < half &&
-                           (joint->extent == "infinite" ||
+                           (joint->extent == JointShape::infinite ||
                             p.distance(joint->point) < joint->radius);
             }
         }
@@ -152,7 +152,7 @@ namespace
     set.dip_direction = 30.;
     set.concentration = 20.;
     set.intensity     = 0.2;
-    set.radius_law    = "constant";
+    set.radius_law    = RadiusDistribution::constant;
     set.radius_mean   = 2.;
     return set;
   }
@@ -231,12 +231,12 @@ BOOST_AUTO_TEST_CASE(intensity_of_discs)
     return measure_p32(joints, 10.);
   };
   check_mean<3>(set, cube<3>(10.), 0.2, measure);
-  set.radius_law     = "exponential";
+  set.radius_law     = RadiusDistribution::exponential;
   set.radius_maximum = 5.;
   set.radius_mean    = 1.5;
   set.radius_minimum = 0.5;
   check_mean<3>(set, cube<3>(10.), 0.2, measure);
-  set.radius_law     = "power law";
+  set.radius_law     = RadiusDistribution::power_law;
   set.radius_minimum = 1.;
   check_mean<3>(set, cube<3>(10.), 0.2, measure);
 }
@@ -254,9 +254,9 @@ BOOST_AUTO_TEST_CASE(frequency_along_the_mean_normal)
   // the same by the spacing, of planes
   set.frequency  = 0.;
   set.spacing    = 2.;
-  set.radius_law = "infinite";
+  set.radius_law = RadiusDistribution::infinite;
   check_mean<3>(set, cube<3>(20.), 0.5, measure);
-  set.spacing_law = "constant";
+  set.spacing_law = SpacingDistribution::constant;
   set.jitter      = 0.5;
   check_mean<3>(set, cube<3>(20.), 0.5, measure);
 }
@@ -266,7 +266,7 @@ BOOST_AUTO_TEST_CASE(planes_at_constant_spacing)
   JointSet<3> set;
   set.name          = "bedding";
   set.spacing       = 3.;
-  set.spacing_law   = "constant";
+  set.spacing_law   = SpacingDistribution::constant;
   const auto joints = make_joints_of_set(set, cube<3>(20.));
   BOOST_REQUIRE(joints.size() >= 6);
   for (unsigned int j = 1; j < joints.size(); ++j)
@@ -320,7 +320,7 @@ BOOST_AUTO_TEST_CASE(traces_in_the_plane)
   set.dip_direction = 270.;
   set.concentration = 9.8;
   set.intensity     = 0.5;
-  set.radius_law    = "lognormal";
+  set.radius_law    = RadiusDistribution::lognormal;
   set.radius_mean   = 3.;
 
   set.radius_deviation   = 1.;
@@ -364,12 +364,12 @@ BOOST_AUTO_TEST_CASE(moments_of_radii)
   set.radius_deviation = 1.5;
   set.radius_minimum   = 0.5;
   set.radius_maximum   = 6.;
-  for (const std::string law :
-       {"uniform", "exponential", "lognormal", "power law"})
+  using R              = RadiusDistribution;
+  for (const R law : {R::uniform, R::exponential, R::lognormal, R::power_law})
     for (const double exponent : {1., 2., 3., 3.7})
-      BOOST_TEST_CONTEXT(law << ", " << exponent)
+      BOOST_TEST_CONTEXT(name_of(law) << ", " << exponent)
       {
-        if (law != "power law" && exponent > 1.)
+        if (law != R::power_law && exponent > 1.)
           continue;
         set.radius_law      = law;
         set.radius_exponent = exponent;
@@ -406,7 +406,7 @@ BOOST_AUTO_TEST_CASE(discs_and_planes_in_a_domain)
   BOOST_TEST(!outline.meets(joint));
   // a level disc beside the edge x = y = 2, at 0.3 from it on the diagonal
   joint.normal_entry = {0., 0., 1.};
-  joint.extent       = "disc";
+  joint.extent       = JointShape::disc;
   const double place = 2. + 0.3 / std::sqrt(2.);
   joint.point        = Point<3>(place, place, 1.);
   joint.radius       = 0.31;
@@ -418,7 +418,7 @@ BOOST_AUTO_TEST_CASE(discs_and_planes_in_a_domain)
 
   // an L, and traces in its notch, through its corner and across an arm
   Domain<2> domain;
-  domain.shape   = "polygon";
+  domain.shape   = DomainShape::polygon;
   domain.polygon = {Point<2>(0., 0.),
                     Point<2>(2., 0.),
                     Point<2>(2., 1.),
@@ -427,7 +427,7 @@ BOOST_AUTO_TEST_CASE(discs_and_planes_in_a_domain)
                     Point<2>(0., 2.)};
   const DomainOutline<2> notched(domain);
   Joint<2> trace;
-  trace.extent = "disc";
+  trace.extent = JointShape::disc;
   trace.dip    = 45.;
   trace.point  = Point<2>(1.6, 1.6);
   trace.radius = 0.5;
@@ -438,7 +438,7 @@ BOOST_AUTO_TEST_CASE(discs_and_planes_in_a_domain)
   BOOST_TEST(notched.meets(trace));
   trace.point = Point<2>(1.5, 0.5);
   BOOST_TEST(notched.meets(trace));
-  trace.extent        = "infinite";
+  trace.extent        = JointShape::infinite;
   trace.point         = Point<2>(3.1, 0.);
   trace.dip_direction = 90.;
   BOOST_TEST(!notched.meets(trace));
@@ -453,7 +453,7 @@ BOOST_AUTO_TEST_CASE(persistence_is_the_jointed_share)
   set.persistence               = 0.3;
   BOOST_TEST(intensity_of(set) == 0.3 * whole,
              boost::test_tools::tolerance(1e-14));
-  set.radius_law = "infinite";
+  set.radius_law = RadiusDistribution::infinite;
   BOOST_CHECK_THROW(make_joints_of_set(set, cube<3>(10.)), InputError);
 }
 

@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(table_of_discs)
   BOOST_TEST(joints[1]->dip == 62.9);
   BOOST_TEST(joints[1]->dip_direction == 152.9);
   BOOST_TEST((joints[1]->point == Point<3>(-7.56, 6.08, 2.61)));
-  BOOST_TEST(joints[1]->extent == "disc");
+  BOOST_TEST((joints[1]->extent == JointShape::disc));
   BOOST_TEST(joints[1]->radius == 6.64);
   BOOST_TEST(joints[1]->friction_angle == 35.);
   BOOST_TEST(joints[1]->cohesion == 1e4);
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(table_of_poles)
   BOOST_REQUIRE(joints.size() == 2u);
   BOOST_TEST(joints[0]->dip == 55.);
   BOOST_TEST(joints[0]->dip_direction == 20.);
-  BOOST_TEST(joints[0]->extent == "infinite");
+  BOOST_TEST((joints[0]->extent == JointShape::infinite));
   BOOST_TEST(joints[0]->point[2] == 1.5);
   BOOST_TEST(joints[1]->dip == 0.);
   BOOST_TEST(joints[1]->radius == 2.);
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(table_of_polygons_and_traces)
     {
       const auto joints = read<3>(text, Point<3>(1., 0., 0.));
       BOOST_REQUIRE(joints.size() == 1u);
-      BOOST_TEST(joints[0]->extent == "polygon");
+      BOOST_TEST((joints[0]->extent == JointShape::polygon));
       BOOST_TEST((joints[0]->vertices == corners));
       BOOST_TEST(joints[0]->friction_angle == 20.);
     }

@@ -62,6 +62,7 @@ namespace Keyblock
                  std::string T::*const member)
   {
     std::vector<std::string> texts;
+    texts.reserve(items.size());
     for (const T &item : items)
       texts.push_back(item.*member);
     file.exchange(entry, texts);

@@ -16,14 +16,16 @@ namespace Keyblock
   {
   public:
     /** @param folder of output, with '/' at its end
-     * @param command that starts the run anew */
+     * @param command that starts the run anew
+     * @param wall_start from which the interval of checkpoints counts [s] */
     Checkpointing(Model<dim> &model,
                   Monitors<dim> &monitors,
                   Output<dim> &output,
                   FiniteCheck<dim> &finite_check,
                   RunRecord<dim> &record,
                   const std::string &folder,
-                  const std::string &command);
+                  const std::string &command,
+                  const double wall_start);
 
     /** Save the run if that is due. Throws StopRequest if a signal asks for an
      * end. */

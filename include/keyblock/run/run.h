@@ -16,10 +16,12 @@ namespace Keyblock
   {
     /** @param folder of output, with '/' at its end
      * @param command that starts the run anew
+     * @param wall_start when the run began [s]
      * Throws InputError. */
     Run(Model<dim> &model,
         const std::string &folder,
-        const std::string &command);
+        const std::string &command,
+        const double wall_start);
 
     Monitors<dim> monitors;
     Output<dim> output;

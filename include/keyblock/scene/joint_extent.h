@@ -49,17 +49,11 @@ namespace Keyblock
     bool
     is_infinite() const
     {
-      return shape == Shape::infinite;
+      return shape == JointShape::infinite;
     }
 
   private:
-    enum class Shape
-    {
-      infinite,
-      disc,
-      polygon
-    };
-    Shape shape;
+    JointShape shape;
     Point<dim> center;
     double radius;
     std::vector<Point<dim>> corners; ///< on the plane

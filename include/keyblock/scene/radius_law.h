@@ -37,7 +37,7 @@ namespace Keyblock
      * bounds. */
     double share_within_bounds(const int k) const;
 
-    const std::string law;
+    const RadiusDistribution law;
     const double mean, deviation, exponent;
     const double lower;
     double upper;

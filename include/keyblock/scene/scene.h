@@ -8,6 +8,7 @@
 #include <keyblock/base/communicator.h>
 #include <keyblock/law/joint_strength.h>
 #include <keyblock/scene/bolts.h>
+#include <keyblock/scene/choices.h>
 
 #include <memory>
 #include <string>
@@ -28,7 +29,7 @@ namespace Keyblock
   template <int dim>
   struct Domain
   {
-    std::string shape = "box";
+    DomainShape shape = DomainShape::box;
     Point<dim> corner;
     std::vector<double> size;
     std::vector<Point<dim>> edges;
@@ -44,7 +45,7 @@ namespace Keyblock
   template <int dim>
   struct Meshing
   {
-    std::string generator = "structured";
+    MeshGenerator generator = MeshGenerator::structured;
     std::vector<unsigned int> cells;
     std::vector<std::string> gradings;
     double size               = 0.;
@@ -76,7 +77,7 @@ namespace Keyblock
   struct Excavation
   {
     std::string name;
-    std::string shape = "polygon";
+    ExcavationShape shape = ExcavationShape::polygon;
     std::vector<Point<2>> vertices;
     Point<dim> corner;
     std::vector<double> size;
@@ -103,7 +104,7 @@ namespace Keyblock
     std::vector<double> normal_entry;
     double dip           = 0.;
     double dip_direction = 90.;
-    std::string extent   = "infinite";
+    JointShape extent    = JointShape::infinite;
     double radius        = 0.;
     std::vector<Point<dim>> vertices;
 
@@ -142,20 +143,20 @@ namespace Keyblock
     double concentration = -1.; ///< Fisher's or von Mises' kappa; -1: parallel
 
     // how many; at most one of the three is positive
-    double spacing          = 0.; ///< mean, along the mean normal [m]
-    std::string spacing_law = "exponential";
-    double jitter           = 0.; ///< share of a constant spacing [-]
-    double persistence      = 1.; ///< jointed share of the planes spaced so [-]
-    double intensity        = 0.; ///< P32 [m2/m3]; in 2D P21 [m/m2]
-    double frequency        = 0.; ///< P10 along the mean normal [1/m]
+    double spacing                  = 0.; ///< mean, along the mean normal [m]
+    SpacingDistribution spacing_law = SpacingDistribution::exponential;
+    double jitter                   = 0.; ///< share of a constant spacing [-]
+    double persistence = 1.; ///< jointed share of the planes spaced so [-]
+    double intensity   = 0.; ///< P32 [m2/m3]; in 2D P21 [m/m2]
+    double frequency   = 0.; ///< P10 along the mean normal [1/m]
 
     // how large
-    std::string radius_law  = "infinite";
-    double radius_mean      = 0.;
-    double radius_deviation = 0.;
-    double radius_minimum   = 0.;
-    double radius_maximum   = 0.;
-    double radius_exponent  = 3.;
+    RadiusDistribution radius_law = RadiusDistribution::infinite;
+    double radius_mean            = 0.;
+    double radius_deviation       = 0.;
+    double radius_minimum         = 0.;
+    double radius_maximum         = 0.;
+    double radius_exponent        = 3.;
 
     // where
     std::vector<double> region_corner;
@@ -181,7 +182,7 @@ namespace Keyblock
     std::string name;
     std::string region         = "all";
     std::string stage          = ""; ///< from which on; empty: the start
-    std::string model          = "elastic";
+    MaterialModel model        = MaterialModel::elastic;
     double young_modulus       = 15e9;
     double poisson_ratio       = 0.25;
     double density             = 2700.;
@@ -196,17 +197,17 @@ namespace Keyblock
     double residual_friction_angle   = -1.;
     double residual_tensile_strength = -1.;
     double softening_strain          = 0.;
-    std::string integration          = "automatic";
+    CellIntegration integration      = CellIntegration::automatic;
 
     bool
     is_rigid() const
     {
-      return model == "rigid";
+      return model == MaterialModel::rigid;
     }
     bool
     is_plastic() const
     {
-      return model == "mohr_coulomb";
+      return model == MaterialModel::mohr_coulomb;
     }
 
     /** Whether the volume change is averaged over each cell (B-bar), so that
@@ -214,8 +215,8 @@ namespace Keyblock
     bool
     has_mean_dilatation() const
     {
-      return integration == "mean dilatation" ||
-             (integration == "automatic" &&
+      return integration == CellIntegration::mean_dilatation ||
+             (integration == CellIntegration::automatic &&
               (is_plastic() || poisson_ratio > 0.4));
     }
 
@@ -245,17 +246,20 @@ namespace Keyblock
     std::string name;
     std::vector<std::string> boundaries;
     std::string region;
-    std::string directions = "all";
+    SupportDirections directions = SupportDirections::all;
     std::string velocity;
     std::string displacement;
-    std::string kind = "held";
+    SupportKind kind = SupportKind::held;
     Point<dim> center;
 
     bool
     is_far_field() const
     {
-      return kind == "far field";
+      return kind == SupportKind::far_field;
     }
+
+    /** Whether `Directions` names the axis @p d (0: x). */
+    bool names_axis(const unsigned int d) const;
 
     void declare(ParameterHandler &prm);
   };
@@ -288,7 +292,7 @@ namespace Keyblock
     std::vector<double> lateral_ratios = {1.};
     double lateral_azimuth             = 90.;
 
-    std::string equilibrium = "none";
+    InitialEquilibrium equilibrium = InitialEquilibrium::none;
 
     // stress inverted from measurements
     std::string measured_points;
@@ -306,7 +310,7 @@ namespace Keyblock
   /** How contact is found and solved. */
   struct ContactSettings
   {
-    std::string method              = "exact";
+    ContactMethod method            = ContactMethod::exact;
     double default_friction_angle   = 30.;
     double tolerance                = 1e-8;
     unsigned int maximum_iterations = 2000;
@@ -317,7 +321,7 @@ namespace Keyblock
     bool
     is_published_variant() const
     {
-      return method == "published";
+      return method == ContactMethod::published;
     }
 
     void declare(ParameterHandler &prm);
@@ -326,7 +330,7 @@ namespace Keyblock
   /** The explicit step. */
   struct TimeStepping
   {
-    std::string kinematics    = "small";
+    Kinematics kinematics     = Kinematics::small;
     double safety             = 0.9;
     double maximum_step       = 0.;
     double least_step         = 0.;
@@ -338,7 +342,7 @@ namespace Keyblock
     bool
     is_large() const
     {
-      return kinematics == "large";
+      return kinematics == Kinematics::large;
     }
 
     void declare(ParameterHandler &prm);
@@ -349,7 +353,7 @@ namespace Keyblock
   struct Stage
   {
     std::string name;
-    std::string kind               = "dynamic";
+    StageKind kind                 = StageKind::dynamic;
     double duration                = 0.;
     unsigned int maximum_steps     = 0;
     double unbalanced_ratio        = 0.;
@@ -366,12 +370,12 @@ namespace Keyblock
     bool
     is_quasi_static() const
     {
-      return kind == "quasi-static";
+      return kind == StageKind::quasi_static;
     }
     bool
     is_static() const
     {
-      return kind == "static";
+      return kind == StageKind::static_solve;
     }
 
     /** Give the entries of a quasi-static stage that were left at zero the
@@ -387,28 +391,28 @@ namespace Keyblock
     std::string blocks = "none";
     std::vector<std::string> stages;
     std::vector<std::string> joints;
-    std::string reduced_joints = "of the block";
-    bool reduces_rock          = false;
-    std::string method         = "bisection";
-    double sweep_step          = 0.01;
-    double bracket             = 0.005;
-    double lowest              = 0.1;
-    double highest             = 100.;
-    double mass_damping        = 0.2;
-    double local_damping       = 0.;
-    double damping_ratio       = 1.;
-    double window              = 1.;
-    double maximum_periods     = 100.;
-    unsigned int trial_steps   = 0;
-    bool warm_start            = true;
-    bool adaptive_damping      = true;
-    bool true_masses           = false;
-    double reach               = 3.;
+    ReducedJoints reduced_joints = ReducedJoints::of_block;
+    bool reduces_rock            = false;
+    FactorSearch method          = FactorSearch::bisection;
+    double sweep_step            = 0.01;
+    double bracket               = 0.005;
+    double lowest                = 0.1;
+    double highest               = 100.;
+    double mass_damping          = 0.2;
+    double local_damping         = 0.;
+    double damping_ratio         = 1.;
+    double window                = 1.;
+    double maximum_periods       = 100.;
+    unsigned int trial_steps     = 0;
+    bool warm_start              = true;
+    bool adaptive_damping        = true;
+    bool true_masses             = false;
+    double reach                 = 3.;
     std::vector<double> seismic_coefficient;
-    double removal_slip         = 0.05;
-    std::string bolt_convention = "active";
-    double wanted               = 0.; ///< factor [-]
-    unsigned int rank_groups    = 1;
+    double removal_slip            = 0.05;
+    BoltConvention bolt_convention = BoltConvention::active;
+    double wanted                  = 0.; ///< factor [-]
+    unsigned int rank_groups       = 1;
 
     bool
     is_wanted() const
@@ -446,7 +450,7 @@ namespace Keyblock
   struct Monitor
   {
     std::string name;
-    std::string kind   = "point";
+    MonitorKind kind   = MonitorKind::point;
     std::string region = "1";
     std::string joint;
     std::string support;
@@ -458,21 +462,24 @@ namespace Keyblock
   /** The closed form that the scene is compared with. */
   struct CheckSettings
   {
-    std::string closed_form = "none";
-    std::string joint       = "";
-    double reference_time   = 0.;
-    double window_start     = 0.;
-    double length           = 0.;
-    std::string quantity    = "";
-    double reference        = 0.;
+    ClosedForm closed_form = ClosedForm::none;
+    std::string joint      = "";
+    double reference_time  = 0.;
+    double window_start    = 0.;
+    double length          = 0.;
+    std::string quantity   = "";
+    double reference       = 0.;
 
     /** Whether it is measured in the rock and not by monitors. */
     bool
     needs_rock() const
     {
-      return closed_form == "gravity_column" || closed_form == "kirsch" ||
-             closed_form == "salencon" || closed_form == "footing" ||
-             closed_form == "spherical_cavity" || closed_form == "value";
+      return closed_form == ClosedForm::gravity_column ||
+             closed_form == ClosedForm::kirsch ||
+             closed_form == ClosedForm::salencon ||
+             closed_form == ClosedForm::footing ||
+             closed_form == ClosedForm::spherical_cavity ||
+             closed_form == ClosedForm::value;
     }
 
     void declare(ParameterHandler &prm);

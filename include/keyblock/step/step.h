@@ -229,6 +229,7 @@ namespace Keyblock
 
     terms = sums.as_array();
     std::vector<double *> shares;
+    shares.reserve(terms.size() + 6);
     for (double &term : terms)
       shares.push_back(&term);
     for (double *const share : {&contact_work_at_start.friction,

@@ -76,19 +76,19 @@ namespace Keyblock
       for (unsigned int m = 0; m < input.scene.monitors.size(); ++m)
         {
           const Monitor<dim> &monitor = *input.scene.monitors[m];
-          if (monitor.kind == "block" && body_name.empty())
+          if (monitor.kind == MonitorKind::block && body_name.empty())
             {
               body_name = monitor.name;
               body      = input.block_of_monitor[m];
             }
-          if (monitor.kind == "joint" && joint_name.empty() &&
+          if (monitor.kind == MonitorKind::joint && joint_name.empty() &&
               (input.scene.checks.joint.empty() ||
                monitor.joint == input.scene.checks.joint))
             joint_name = monitor.name;
         }
       AssertThrow(!body_name.empty() && !joint_name.empty(),
                   InputError("The entry 'Check/Closed form' is '" +
-                             input.scene.checks.closed_form +
+                             name_of(input.scene.checks.closed_form) +
                              "', which needs a monitor of kind block and "
                              "one of kind joint in 'Monitors/Names'; add "
                              "them."));
