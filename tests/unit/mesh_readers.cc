@@ -2,8 +2,8 @@
 // Mesh files of each kind: what is read, and what is said of bad ones.
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/base/errors.h>
 #include <keyblock/base/communicator.h>
+#include <keyblock/base/errors.h>
 #include <keyblock/mesh/mesh.h>
 
 #include <algorithm>
