@@ -46,9 +46,11 @@ keyblock_restart(roof_block verification/roof_block_falls
   --set "Materials/rock/Model=mohr_coulomb"
   --set "Materials/rock/Cohesion=1e5")
 keyblock_restart(factor_incline verification/factor_incline)
+# long enough for a signal to arrive before the end
 keyblock_restart(factor_incline_stopped verification/factor_incline
-  ARGUMENTS --by stop --breaks 2 --set "Safety factor/Bracket=0.003")
-# factors by teams, each of a block, after two stages
+  ARGUMENTS --by stop --breaks 2 --set "Safety factor/Bracket=0.003"
+  --set "Mesh/Cells=80, 16")
+# factors by rank groups, each of a block, after two stages
 set(two_teams --ranks 2 --set "Safety factor/Rank groups=2" --set "Mesh/Cells=80, 16"
   --set "Excavations/Names=uphill, downhill, slot"
   --set "Excavations/slot/Shape=box" --set "Excavations/slot/Corner=-0.05, 0"
