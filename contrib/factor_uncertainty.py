@@ -32,6 +32,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from report.run_files import entries_of
 from script_tools import make_parser, split_arguments
 
 HALF_DAMPING = ("Safety factor/Mass damping", "Safety factor/Damping ratio")
@@ -39,17 +40,8 @@ HALF_DAMPING = ("Safety factor/Mass damping", "Safety factor/Damping ratio")
 
 def read_entries(path):
     """The entries of a used.prm by their path, as in Stages/dig/Kind."""
-    entries, above = {}, []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        words = line.partition("#")[0].split(maxsplit=1)
-        if words[:1] == ["subsection"]:
-            above.append(words[1].strip())
-        elif words == ["end"]:
-            above.pop()
-        elif words[:1] == ["set"] and "=" in words[1]:
-            name, value = words[1].split("=", 1)
-            entries["/".join([*above, name.strip()])] = value.strip()
-    return entries
+    return {name: value for name, value, _ in
+            entries_of(path.read_text(encoding="utf-8"))}
 
 
 def finer_mesh(entries, halvings):

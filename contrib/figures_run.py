@@ -3,11 +3,11 @@
 import json
 import pathlib
 import sys
-import xml.etree.ElementTree
 
 import numpy
 
 from render import read_grid, values_of, vtk_to_numpy
+from report.run_files import states_of
 
 
 def fail(sentence):
@@ -84,16 +84,9 @@ def read_states(folder):
     if not path.exists():
         return []
     try:
-        root = xml.etree.ElementTree.parse(path).getroot()
-        sets = [(float(s.get("timestep")), s.get("name"), s.get("file"))
-                for s in root.iter("DataSet")]
-    except (OSError, ValueError, TypeError,
-            xml.etree.ElementTree.ParseError) as error:
-        fail(f"'{path}' cannot be read: {error}.")
-    rock = [(time, name) for time, kind, name in sets if kind == "rock"]
-    joints = [name for _, kind, name in sets if kind == "interface"]
-    return [(time, folder / a, folder / b)
-            for (time, a), b in zip(rock, joints)]
+        return states_of(path)
+    except ValueError as error:
+        fail(str(error))
 
 
 class Run:

@@ -46,6 +46,18 @@ keyblock_restart(roof_block verification/roof_block_falls
   --set "Materials/rock/Model=mohr_coulomb"
   --set "Materials/rock/Cohesion=1e5")
 keyblock_restart(factor_incline verification/factor_incline)
+# a bolt that yields, and one installed in a later stage
+set(bolted --set "Stages/Names=rest, again" --set "Stages/again/Kind=quasi-static"
+  --set "Stages/again/Friction angle override=84.2894"
+  --set "Stages/again/Unbalanced ratio=1e-7" --set "Bolts/Names=anchor, late"
+  --set "Bolts/late/Stage=again" --set "Bolts/late/Heads=-0.1, 0.1"
+  --set "Bolts/late/Ends=-0.1, -0.08" --set "Bolts/late/Area=1e-6"
+  --set "Bolts/late/Yield force=50" --set "Bolts/late/Bond stiffness=1e8"
+  --set "Bolts/late/Bond strength=1e5" --set "Bolts/late/Dowel stiffness=1e5"
+  --set "Bolts/late/Dowel strength=2" --set "Mesh/Cells=80, 16")
+keyblock_restart(bolted verification/bolted_incline ARGUMENTS ${bolted})
+keyblock_restart(bolted_2 verification/bolted_incline RANKS 2
+  ARGUMENTS --ranks 2 ${bolted})
 # long enough for a signal to arrive before the end
 keyblock_restart(factor_incline_stopped verification/factor_incline
   ARGUMENTS --by stop --breaks 2 --set "Safety factor/Bracket=0.003"

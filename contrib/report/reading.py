@@ -6,9 +6,10 @@ import math
 import pathlib
 import re
 import time
-import xml.etree.ElementTree
 
 import numpy
+
+from .run_files import entries_of, states_of
 
 MOST_STATES = 30  # a face says in one number in which of them it is seen
 
@@ -45,24 +46,16 @@ def read_entries(folder):
     """Entries of used.prm by path, and those that differ from defaults.
 
     The program writes the default behind what differs from it."""
-    entries, changed, above = {}, [], []
+    entries, changed = {}, []
     try:
-        lines = (folder / "used.prm").read_text(encoding="utf-8").splitlines()
+        text = (folder / "used.prm").read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):
         return entries, changed
-    for line in lines:
-        words = line.partition("#")[0].split(maxsplit=1)
-        if words[:1] == ["subsection"]:
-            above.append(words[1].strip())
-        elif words == ["end"]:
-            above.pop()
-        elif words[:1] == ["set"] and "=" in words[1]:
-            name, value = words[1].split("=", 1)
-            path = "/".join([*above, name.strip()])
-            entries[path] = value.strip()
-            if "# default:" in line:
-                default = line.split("# default:", 1)[1].strip()
-                changed.append((path, value.strip(), default))
+    for path, value, comment in entries_of(text):
+        entries[path] = value
+        if comment.startswith("default:"):
+            default = comment.split("default:", 1)[1].strip()
+            changed.append((path, value, default))
     return entries, changed
 
 
@@ -97,16 +90,9 @@ def read_states(folder):
     if not path.exists():
         return []
     try:
-        root = xml.etree.ElementTree.parse(path).getroot()
-        sets = [(float(s.get("timestep")), s.get("name"), s.get("file"))
-                for s in root.iter("DataSet")]
-    except (OSError, ValueError, TypeError,
-            xml.etree.ElementTree.ParseError) as error:
-        raise ReportError(f"'{path}' cannot be read: {error}.") from None
-    rock = [(when, name) for when, kind, name in sets if kind == "rock"]
-    joints = {when: name for when, kind, name in sets if kind == "interface"}
-    return [(when, folder / name, folder / joints[when]
-             if when in joints else None) for when, name in rock]
+        return states_of(path)
+    except ValueError as error:
+        raise ReportError(str(error)) from None
 
 
 class Run:

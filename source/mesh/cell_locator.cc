@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/mesh/cell_locator.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace Keyblock
 {
@@ -110,7 +112,7 @@ namespace Keyblock
 
 
   template <int dim>
-  std::optional<typename CellLocator<dim>::Place>
+  CellPoint<dim>
   CellLocator<dim>::find(const Point<dim> &point) const
   {
     std::vector<Entry> near;
@@ -121,7 +123,7 @@ namespace Keyblock
     });
     for (const Entry &entry : near)
       if (const auto weight = weights_in<dim>(mesh, entry.second, point))
-        return Place{entry.second, *weight};
+        return {entry.second, *weight};
     return {};
   }
 

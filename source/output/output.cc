@@ -6,81 +6,12 @@
 #include <deal.II/numerics/data_out.h>
 
 #include <keyblock/output/output.h>
+#include <keyblock/output/patches.h>
 
 #include <fstream>
 
 namespace Keyblock
 {
-  namespace
-  {
-    dealii::DataOutBase::VtkFlags
-    vtk_flags(const double time)
-    {
-      dealii::DataOutBase::VtkFlags flags;
-      flags.time                = time;
-      flags.print_date_and_time = false;
-      flags.compression_level =
-        dealii::DataOutBase::VtkFlags::ZlibCompressionLevel::best_speed;
-      return flags;
-    }
-
-    /** Write a VTU file; returns whether that worked. */
-    template <typename Data>
-    bool
-    write_file(const Data &data, const std::string &name)
-    {
-      std::ofstream out(name);
-      try
-        {
-          data.write_vtu(out);
-        }
-      catch (const dealii::ExcIO &)
-        {
-          return false;
-        }
-      return bool(out.flush());
-    }
-
-    /** The faces of the interface as patches, values at their corners. */
-    template <int dim>
-    class FacePatches : public dealii::DataOutInterface<dim - 1, dim>
-    {
-    public:
-      using Patch = dealii::DataOutBase::Patch<dim - 1, dim>;
-
-      std::vector<Patch> patches;
-      std::vector<std::string> names;
-      std::vector<std::tuple<
-        unsigned int,
-        unsigned int,
-        std::string,
-        dealii::DataComponentInterpretation::DataComponentInterpretation>>
-        vectors;
-
-      const std::vector<Patch> &
-      get_patches() const override
-      {
-        return patches;
-      }
-      std::vector<std::string>
-      get_dataset_names() const override
-      {
-        return names;
-      }
-      std::vector<std::tuple<
-        unsigned int,
-        unsigned int,
-        std::string,
-        dealii::DataComponentInterpretation::DataComponentInterpretation>>
-      get_nonscalar_data_ranges() const override
-      {
-        return vectors;
-      }
-    };
-  } // namespace
-
-
-
   template <int dim>
   Output<dim>::Output(const Scene<dim> &scene,
                       const SplitMesh<dim> &split,
@@ -227,7 +158,7 @@ namespace Keyblock
       if (cell->is_locally_owned())
         is_local[numbering.mesh_cell_of(cell)] = true;
 
-    FacePatches<dim> faces;
+    PatchOutput<dim - 1, dim> faces;
     faces.names = {
       "status", "is_intact", "gap", "slip", "pressure", "shear", "joint"};
     if (contact)
@@ -248,13 +179,7 @@ namespace Keyblock
             const bool is_here = is_local[face.minus_cell];
             if (!is_here)
               continue;
-            typename FacePatches<dim>::Patch patch;
-            patch.patch_index    = faces.patches.size();
-            patch.n_subdivisions = 1;
-            patch.reference_cell = dim == 2
-                                     ? dealii::ReferenceCells::Line
-                                     : dealii::ReferenceCells::Quadrilateral;
-            patch.data.reinit(faces.names.size(), minus.size());
+            auto &patch = faces.add();
             for (unsigned int v = 0; v < minus.size(); ++v)
               {
                 const unsigned int nm = numbering.local_node(minus[v]);
@@ -292,7 +217,6 @@ namespace Keyblock
                   scale * norm<dim>(add<dim>(states[p].impulse, -pressure, n));
                 patch.data(6, v) = face.joint;
               }
-            faces.patches.push_back(patch);
           }
       }
     write(faces, "interface");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/rock/bolt_chain.h>
 
+#include <boost/math/tools/roots.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +12,14 @@ namespace Keyblock
   {
     constexpr unsigned int maximum_iterations = 100;
 
-    /** Residual over the largest force in the bolt that counts as none. */
-    constexpr double tolerance = 1e-13;
+    /** Residual that counts as none, over the largest force in the bolt, and
+     * over what its stiffest spring would bear at the largest displacement: the
+     * round-off of that stays. */
+    constexpr double tolerance = 1e-13, round_off = 1e-15;
+
+    /** Stiffness of a plate for which the scene gives none, over that of a
+     * metre of the bar. */
+    constexpr double plate_over_bar = 10.;
 
     /** Stiffness that keeps a bolt in place which nothing else holds, over
      * that of the stiffest spring. */
@@ -21,8 +29,8 @@ namespace Keyblock
      * matrix of Newton's method alone. */
     constexpr double plastic_stiffness = 1e-5;
 
-    /** Halvings of a way along which the energy rises again. */
-    constexpr unsigned int maximum_cuts = 40;
+    /** Steps by which the least energy on a way is bracketed. */
+    constexpr std::uintmax_t maximum_cuts = 40;
 
     /** Solve a symmetric tridiagonal system, in place; @p off: beside the
      * diagonal. */
@@ -164,12 +172,14 @@ namespace Keyblock
     for (unsigned int iteration = 0; iteration < maximum_iterations;
          ++iteration)
       {
-        double scale = std::max(0., jack);
+        double scale = std::max(0., jack), farthest = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          farthest = std::max({farthest, std::abs(w[i]), std::abs(rock[i])});
         for (const double force : response.segment)
           scale = std::max(scale, std::abs(force));
         for (const double force : response.bond)
           scale = std::max(scale, std::abs(force));
-        if (size <= tolerance * scale)
+        if (size <= tolerance * scale + round_off * stiffest * farthest)
           break;
         for (unsigned int i = 0; i < n; ++i)
           diagonal[i] = std::max(response.bond_stiffness[i],
@@ -204,16 +214,17 @@ namespace Keyblock
             slope += residual[i] * change[i];
           return slope;
         };
-        double slope = slope_at(1.), falls = 0., rises = 1.;
-        for (unsigned int cut = 0; cut < maximum_cuts && slope < 0.; ++cut)
+        if (slope_at(1.) < 0.)
           {
-            const double middle                     = 0.5 * (falls + rises);
-            (slope_at(middle) > 0. ? falls : rises) = middle;
-            if (rises - falls < 0.1 * rises)
-              break;
+            std::uintmax_t n_cuts = maximum_cuts;
+            const auto least      = boost::math::tools::bisect(
+              slope_at,
+              0.,
+              1.,
+              [](const double a, const double b) { return b - a < 0.1 * b; },
+              n_cuts);
+            slope_at(least.first > 0. ? least.first : least.second);
           }
-        if (slope < 0.)
-          slope_at(falls > 0. ? falls : rises);
       }
     commit(rock, response);
   }
@@ -364,4 +375,46 @@ namespace Keyblock
       result = {anchor, Capacity::Limit::anchor};
     return result;
   }
+
+
+
+  template <int dim>
+  BoltProperties
+  properties_of(const BoltSet<dim> &set)
+  {
+    BoltProperties p;
+    p.axial_stiffness = set.young_modulus * set.area;
+    p.yield_force     = set.yield_force;
+    p.rupture_strain  = set.rupture_strain;
+    p.bond_stiffness  = set.bond_stiffness;
+    p.bond_strength   = set.bond_strength;
+    p.free_length     = set.free_length;
+    p.plate_stiffness = set.plate_stiffness > 0.
+                          ? set.plate_stiffness
+                          : plate_over_bar * p.axial_stiffness;
+    p.plate_strength  = set.plate_strength;
+    p.pretension      = set.pretension;
+    p.dowel_stiffness = set.dowel_stiffness;
+    p.dowel_strength  = set.dowel_strength;
+    return p;
+  }
+
+
+
+  std::string
+  describe(const BoltChain::Capacity::Limit limit)
+  {
+    switch (limit)
+      {
+        case BoltChain::Capacity::Limit::yield:
+          return "yield";
+        case BoltChain::Capacity::Limit::head:
+          return "bond inside and plate";
+        default:
+          return "bond outside";
+      }
+  }
+
+  template BoltProperties properties_of(const BoltSet<2> &);
+  template BoltProperties properties_of(const BoltSet<3> &);
 } // namespace Keyblock

@@ -45,6 +45,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   void
   Checkpointing<dim>::save()
@@ -66,11 +67,9 @@ namespace Keyblock
     else if (model.communicator.is_root())
       std::cerr << "Warning: The checkpoint '" << name
                 << "' cannot be written (" << failure << ")."
-                << (last_checkpoint.empty()
-                      ? " There is no checkpoint of this run."
-                      : name_last_checkpoint())
-                << std::endl;
+                << say_where_to_continue() << std::endl;
   }
+
 
 
   template <int dim>
@@ -87,6 +86,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   void
   Checkpointing<dim>::note_checkpoint(const std::string &name)
@@ -100,6 +100,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   std::string
   Checkpointing<dim>::name_last_checkpoint() const
@@ -111,6 +112,17 @@ namespace Keyblock
   }
 
 
+
+  template <int dim>
+  std::string
+  Checkpointing<dim>::say_where_to_continue() const
+  {
+    return last_checkpoint.empty() ? " There is no checkpoint of this run."
+                                   : name_last_checkpoint();
+  }
+
+
+
   template <int dim>
   void
   Checkpointing<dim>::save_and_stop(const StopRequest &request)
@@ -118,11 +130,9 @@ namespace Keyblock
     save();
     monitors.write_csv(folder + "history.csv");
     model.out << "Stopped by a signal (" << strsignal(request.signal) << ")."
-              << (last_checkpoint.empty()
-                    ? " There is no checkpoint of this run."
-                    : name_last_checkpoint())
-              << std::endl;
+              << say_where_to_continue() << std::endl;
   }
+
 
 
   template <int dim>
@@ -157,6 +167,7 @@ namespace Keyblock
                          dim,
                          model.numbering->n_local());
   }
+
 
 
   template <int dim>
@@ -198,6 +209,7 @@ namespace Keyblock
                           &n_capped});
     model.contact->tally.n_capped = n_capped;
   }
+
 
 
   template <int dim>

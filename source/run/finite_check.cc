@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/run/finite_check.h>
 
+#include <keyblock/base/number_text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -17,13 +19,6 @@ namespace Keyblock
       });
     }
 
-    std::string
-    text_of(const double value)
-    {
-      std::ostringstream out;
-      out << value;
-      return out.str();
-    }
   } // namespace
 
 

@@ -33,6 +33,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   void
   Model<dim>::set_up()
@@ -59,6 +60,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   void
   Model<dim>::count_cells()
@@ -66,6 +68,7 @@ namespace Keyblock
     n_cells_global =
       communicator.sum(static_cast<unsigned long long>(cells.nodes.size()));
   }
+
 
 
   template <int dim>
@@ -76,6 +79,7 @@ namespace Keyblock
       if (stage->duration > 0. && n_cells_global > 0)
         count_steps(*stage, step->longest_step(*stage));
   }
+
 
 
   template <int dim>

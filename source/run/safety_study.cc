@@ -62,6 +62,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   std::vector<unsigned int>
   SafetyStudy<dim>::list_wanted_blocks() const
@@ -84,6 +85,7 @@ namespace Keyblock
       }
     return wanted;
   }
+
 
 
   template <int dim>
@@ -121,6 +123,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   SafetyFactor
   SafetyStudy<dim>::factor_of_failed_block(StrengthReductionSearch<dim> &search,
@@ -155,6 +158,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   SafetyFactor
   SafetyStudy<dim>::factor_of_standing_block(
@@ -187,6 +191,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   bool
   SafetyStudy<dim>::holds_when_strong(const unsigned int block)
@@ -206,6 +211,7 @@ namespace Keyblock
     runner.complete(trial);
     return trial.removal_stage[block] == 0;
   }
+
 
 
   template <int dim>
@@ -244,6 +250,7 @@ namespace Keyblock
         throw;
       }
   }
+
 
 
   template <int dim>

@@ -36,6 +36,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   void
   Simulation<dim>::set_up()
@@ -53,6 +54,7 @@ namespace Keyblock
     warnings = warnings_of_set_up(model, parts->monitors);
     report_stable_step(model, parts->record.report);
   }
+
 
 
   template <int dim>
@@ -92,6 +94,7 @@ namespace Keyblock
         out << "The scene is valid.\n";
       }
   }
+
 
 
   template <int dim>
@@ -138,6 +141,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   void
   Simulation<dim>::open_output()
@@ -165,6 +169,7 @@ namespace Keyblock
         }
     });
   }
+
 
 
   template <int dim>
@@ -250,6 +255,7 @@ namespace Keyblock
     else if (present.wants_factors)
       parts->safety.find_remaining_factors(*groups);
   }
+
 
 
   template <int dim>

@@ -141,12 +141,8 @@ namespace Keyblock
     if (last_printed == 0.)
       last_printed = time;
     // all ranks must agree on taking part in the sums
-    bool is_due =
-      model.step->n_steps % 50 == 0 && time - last_printed > interval;
-    if (model.step->n_steps % 50 != 0)
-      return;
-    is_due = model.communicator.on_any(is_due);
-    if (!is_due)
+    if (model.step->n_steps % 50 != 0 ||
+        !model.communicator.on_any(time - last_printed > interval))
       return;
     last_printed = time;
     JointSums<dim> points;

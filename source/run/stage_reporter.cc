@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/number_text.h>
 #include <keyblock/run/stage_reporter.h>
 #include <keyblock/run/static_stage.h>
 
@@ -17,14 +18,6 @@ namespace Keyblock
 
     /** Overlaps from this share of the largest displacement on are told [-]. */
     constexpr double notable_overlap = 0.02;
-
-    std::string
-    short_number(const double value)
-    {
-      std::ostringstream text;
-      text << std::setprecision(2) << value;
-      return text.str();
-    }
 
 
 
@@ -108,7 +101,7 @@ namespace Keyblock
              << (movers[i].is_moving ? " is moving off (" : " moved off (")
              << std::setprecision(3) << movers[i].way << " m"
              << (movers[i].speed > 0.
-                   ? ", " + short_number(movers[i].speed) + " m/s)"
+                   ? ", " + text_of(movers[i].speed, 2) + " m/s)"
                    : ")");
       if (movers.size() > n_named)
         text << "; and " << movers.size() - n_named << " more";

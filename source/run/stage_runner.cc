@@ -73,6 +73,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   void
   StageRunner<dim>::complete(StageProgress<dim> &progress)
@@ -89,6 +90,7 @@ namespace Keyblock
       step_through(stage, progress);
     observer.ended(progress, stage);
   }
+
 
 
   template <int dim>
@@ -139,6 +141,7 @@ namespace Keyblock
   }
 
 
+
   template <int dim>
   void
   StageRunner<dim>::pace_ramp(const Stage &stage)
@@ -149,6 +152,7 @@ namespace Keyblock
     model.conditions->loads.set_ramp_pace(
       std::min(1., stage.ramp_unbalance / model.step->unbalanced_ratio));
   }
+
 
 
   template <int dim>
@@ -165,6 +169,7 @@ namespace Keyblock
                              model.conditions->elements);
     return 4. * solver.lowest_period();
   }
+
 
 
   template <int dim>
@@ -194,6 +199,7 @@ namespace Keyblock
         failed.push_back(b);
     return failed;
   }
+
 
 
   template <int dim>

@@ -2,7 +2,6 @@
 #include <keyblock/safety/block_bolts.h>
 
 #include <keyblock/blocks/bolt_layout.h>
-#include <keyblock/step/bolts.h>
 
 #include <cmath>
 #include <limits>
@@ -85,7 +84,6 @@ namespace Keyblock
   find_bolts_of_block(const Ground<dim> &ground, const unsigned int block)
   {
     BlockBolts<dim> result;
-    std::unique_ptr<CellLocator<dim>> rock;
     for (const Bolt<dim> &bolt : ground.split.bolts)
       {
         const BoltSet<dim> &set = *ground.scene.bolts[bolt.set];
@@ -97,14 +95,8 @@ namespace Keyblock
                        is_far  = crossing.block[1] == block;
             if (is_near == is_far)
               continue;
-            if (rock == nullptr)
-              rock =
-                std::make_unique<CellLocator<dim>>(locate_rock<dim>(ground));
             BoltChain chain(properties_of(set), bolt.places);
-            std::vector<bool> is_held;
-            for (const double s : bolt.places)
-              is_held.push_back(bool(rock->find(bolt.at(s))));
-            chain.set_ground(is_held);
+            chain.set_ground(list_held_nodes(bolt, ground));
             const BoltChain::Capacity capacity = chain.capacity(crossing.place);
             typename BlockBolts<dim>::Pull pull;
             pull.place          = bolt.at(crossing.place);

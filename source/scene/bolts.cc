@@ -4,9 +4,9 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
-#include <keyblock/scene/scene.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/scene/check.h>
 
 #include <algorithm>
 #include <sstream>
@@ -20,19 +20,6 @@ namespace Keyblock
     const Double not_negative(0.);
     const Double positive(1e-300);
 
-    std::string
-    number(const double value)
-    {
-      std::ostringstream out;
-      out << value;
-      return out.str();
-    }
-
-    void
-    require(const bool condition, const std::string &sentence)
-    {
-      AssertThrow(condition, InputError(sentence));
-    }
   } // namespace
 
 
@@ -186,7 +173,7 @@ namespace Keyblock
                 "The entry '" + section + "/Excavations' names '" + name +
                   "', which is not in 'Excavations/Names'; correct the name.");
       require(!set.is_pattern() || set.length > 0.,
-              "The entry '" + section + "/Length' is " + number(set.length) +
+              "The entry '" + section + "/Length' is " + text_of(set.length) +
                 "; a pattern needs the length of its bolts.");
       require(set.spacing.size() == 2 && set.spacing[0] > 0. &&
                 set.spacing[1] > 0.,
@@ -218,14 +205,14 @@ namespace Keyblock
                 "nothing holds its bolts in the rock; give both.");
       require(set.pretension <= set.plate_strength,
               "The entry '" + section + "/Pretension' is " +
-                number(set.pretension) + " N, more than the plate bears ('" +
-                section + "/Plate strength' is " + number(set.plate_strength) +
+                text_of(set.pretension) + " N, more than the plate bears ('" +
+                section + "/Plate strength' is " + text_of(set.plate_strength) +
                 " N); give a stronger plate.");
       require(set.pretension <= set.yield_force,
               "The entry '" + section + "/Pretension' is " +
-                number(set.pretension) +
+                text_of(set.pretension) +
                 " N, more than the bar bears ('Yield force' is " +
-                number(set.yield_force) + " N); lower it.");
+                text_of(set.yield_force) + " N); lower it.");
       require(set.dowel_strength == 0. || set.dowel_stiffness > 0.,
               "The entry '" + section +
                 "/Dowel stiffness' is 0, but there is a dowel strength; give "

@@ -4,6 +4,7 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
+#include <keyblock/base/number_text.h>
 #include <keyblock/law/joint_law.h>
 #include <keyblock/scene/check.h>
 #include <keyblock/scene/polygon.h>
@@ -18,19 +19,6 @@ namespace Keyblock
 {
   namespace
   {
-    std::string
-    number(const double value)
-    {
-      std::ostringstream out;
-      out << value;
-      return out.str();
-    }
-
-    void
-    require(const bool condition, const std::string &sentence)
-    {
-      AssertThrow(condition, InputError(sentence));
-    }
 
     void
     require_simple(const std::vector<Point<2>> &corners,
@@ -72,7 +60,7 @@ namespace Keyblock
                   "; give one length per axis.");
         for (const double length : domain.size)
           require(length > 0.,
-                  "The entry 'Domain/Size' contains " + number(length) +
+                  "The entry 'Domain/Size' contains " + text_of(length) +
                     "; lengths must be positive.");
       }
     if (domain.shape == DomainShape::parallelepiped)
@@ -87,7 +75,7 @@ namespace Keyblock
           frame[d] = domain.edges[d];
         require(determinant(frame) > 0.,
                 "The vectors of 'Domain/Edges' span a volume of " +
-                  number(determinant(frame)) +
+                  text_of(determinant(frame)) +
                   "; order them right-handed and not in one plane.");
       }
     if (domain.shape == DomainShape::polygon)
@@ -199,9 +187,9 @@ namespace Keyblock
         }
       if (shape == ExcavationShape::extruded_polygon)
         require(excavation.from < excavation.to,
-                "The entry '" + section + "/From' (" + number(excavation.from) +
-                  ") is not below '" + section + "/To' (" +
-                  number(excavation.to) + "); exchange them.");
+                "The entry '" + section + "/From' (" +
+                  text_of(excavation.from) + ") is not below '" + section +
+                  "/To' (" + text_of(excavation.to) + "); exchange them.");
       if (shape == ExcavationShape::formula)
         {
           require(!excavation.formula.empty(),
@@ -223,7 +211,7 @@ namespace Keyblock
           for (const double length : excavation.size)
             require(length > 0.,
                     "The entry '" + section + "/Size' contains " +
-                      number(length) + "; lengths must be positive.");
+                      text_of(length) + "; lengths must be positive.");
         }
     }
 
@@ -268,7 +256,7 @@ namespace Keyblock
       if (dim == 2 && joint.normal_entry.empty() &&
           joint.extent != JointShape::polygon)
         require(joint.dip_direction == 90. || joint.dip_direction == 270.,
-                entry + "/Dip direction' is " + number(joint.dip_direction) +
+                entry + "/Dip direction' is " + text_of(joint.dip_direction) +
                   "; in 2D it is 90 (descends to +x) or 270 (to -x).");
       if (joint.extent == JointShape::disc)
         require(joint.radius > 0.,
@@ -294,7 +282,7 @@ namespace Keyblock
           for (const Point<dim> &vertex : joint.vertices)
             require(std::abs(joint.distance(vertex)) < 1e-6 * size,
                     "A corner of '" + section + "/Vertices' is " +
-                      number(joint.distance(vertex)) +
+                      text_of(joint.distance(vertex)) +
                       " m off the plane of the others; joints are plane.");
           if (dim == 3)
             require_simple(corners_in_plane(joint), section + "/Vertices");
@@ -303,20 +291,20 @@ namespace Keyblock
         std::tan(joint.friction_angle * dealii::numbers::PI / 180.);
       require(joint.tensile_strength * tangent <= joint.cohesion * (1. + 1e-9),
               entry + "/Tensile strength' is " +
-                number(joint.tensile_strength) +
+                text_of(joint.tensile_strength) +
                 " Pa, beyond the apex cohesion / tan(friction angle) = " +
-                number(joint.cohesion / tangent) +
+                text_of(joint.cohesion / tangent) +
                 " Pa; lower it or raise 'Cohesion'.");
       require(joint.kinetic_friction_angle <= joint.friction_angle,
               entry + "/Kinetic friction angle' is " +
-                number(joint.kinetic_friction_angle) +
+                text_of(joint.kinetic_friction_angle) +
                 " deg, above 'Friction angle' = " +
-                number(joint.friction_angle) +
+                text_of(joint.friction_angle) +
                 " deg; sliding friction cannot exceed static friction.");
       require(joint.residual_cohesion <= joint.cohesion,
               entry + "/Residual cohesion' is " +
-                number(joint.residual_cohesion) + " Pa, above 'Cohesion' = " +
-                number(joint.cohesion) + " Pa; lower it.");
+                text_of(joint.residual_cohesion) + " Pa, above 'Cohesion' = " +
+                text_of(joint.cohesion) + " Pa; lower it.");
       make_joint_law(joint, section);
     }
 
@@ -338,9 +326,9 @@ namespace Keyblock
         return;
       require(material.dilation_angle <= material.friction_angle,
               "The entry '" + section + "/Dilation angle' is " +
-                number(material.dilation_angle) +
+                text_of(material.dilation_angle) +
                 " degrees, above the friction angle of " +
-                number(material.friction_angle) +
+                text_of(material.friction_angle) +
                 "; such rock would create energy, lower it.");
       require(material.cohesion > 0. || material.friction_angle > 0.,
               "The material '" + material.name +
@@ -420,7 +408,7 @@ namespace Keyblock
       require(stepping.maximum_step == 0. ||
                 stepping.least_step <= stepping.maximum_step,
               "The entry 'Time stepping/Least step' is " +
-                number(stepping.least_step) +
+                text_of(stepping.least_step) +
                 " s, above 'Time stepping/Maximum step'; mass would be moved "
                 "for nothing: lower one or raise the other.");
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/errors.h>
+#include <keyblock/base/number_text.h>
 #include <keyblock/scene/step_count.h>
 
 #include <algorithm>
@@ -13,14 +14,6 @@ namespace Keyblock
     /** Share of a step that is not counted as one [-]. */
     constexpr double least_share = 1e-9;
 
-    std::string
-    text_of(const double value)
-    {
-      std::ostringstream out;
-      out.precision(10);
-      out << value;
-      return out.str();
-    }
   } // namespace
 
 

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 namespace Keyblock
@@ -16,6 +17,16 @@ namespace Keyblock
     char text[32];
     const auto end = std::to_chars(text, text + sizeof(text), value).ptr;
     return std::string(text, end);
+  }
+
+  /** A number for people, with so many significant digits. */
+  inline std::string
+  text_of(const double value, const unsigned int digits = 6)
+  {
+    std::ostringstream out;
+    out.precision(digits);
+    out << value;
+    return out.str();
   }
 
   /** Whether all of @p text is one finite number, which is then put into

@@ -2,7 +2,7 @@
 #ifndef keyblock_blocks_bolt_h
 #define keyblock_blocks_bolt_h
 
-#include <keyblock/mesh/mesh.h>
+#include <keyblock/mesh/cell_point.h>
 
 namespace Keyblock
 {
@@ -13,16 +13,26 @@ namespace Keyblock
     double place = 0.; ///< distance from the head [m]
     std::array<unsigned int, 2> block{{none, none}}; ///< towards head and end
     unsigned int joint = none;
-    Tensor<1, dim> normal; ///< of the joint there, towards the end
+    std::array<CellPoint<dim>, 2> side; ///< the rock just before and behind
+    Tensor<1, dim> normal;              ///< of the joint there, towards the end
   };
 
   /** A bolt: where it is, and of which set. */
   template <int dim>
   struct Bolt
   {
-    unsigned int set = 0; ///< index into Scene::bolts
+    Bolt(const unsigned int set, const Point<dim> &head, const Point<dim> &end)
+      : set(set)
+      , head(head)
+      , end(end)
+    {}
+
+    unsigned int set; ///< index into Scene::bolts
     Point<dim> head, end;
     std::vector<double> places; ///< of its nodes, from the head [m]
+
+    /** The rock at each of them when it is installed. */
+    std::vector<CellPoint<dim>> rock;
 
     /** Where it goes from one block to another when it is installed. */
     std::vector<BoltCrossing<dim>> crossings;

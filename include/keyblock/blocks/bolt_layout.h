@@ -3,22 +3,31 @@
 #define keyblock_blocks_bolt_layout_h
 
 #include <keyblock/blocks/ground.h>
-#include <keyblock/mesh/cell_locator.h>
 
 namespace Keyblock
 {
   /**
    * All bolts of the scene, those of patterns set out on the faces that their
-   * stage has laid bare. Throws InputError if a bolt has no end in the rock, or
-   * a pattern no face. The same on every rank.
+   * stage has laid bare, with the rock around them then. Throws InputError if a
+   * bolt does not end in the rock, or a pattern has no face. The same on every
+   * rank.
    */
   template <int dim>
   std::vector<Bolt<dim>> lay_out_bolts(const Scene<dim> &scene,
                                        const SplitMesh<dim> &split);
 
-  /** The cells that are there at the stage of @p ground. */
+  /** Whether the rock at a point is there at the stage of @p ground. */
   template <int dim>
-  CellLocator<dim> locate_rock(const Ground<dim> &ground);
+  bool
+  is_there(const CellPoint<dim> &point, const Ground<dim> &ground)
+  {
+    return point.cell != none && !ground.is_excavated(point.cell);
+  }
+
+  /** The same for each node of a bolt. */
+  template <int dim>
+  std::vector<bool> list_held_nodes(const Bolt<dim> &bolt,
+                                    const Ground<dim> &ground);
 } // namespace Keyblock
 
 #endif

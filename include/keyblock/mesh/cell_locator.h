@@ -4,10 +4,9 @@
 
 #include <deal.II/numerics/rtree.h>
 
-#include <keyblock/mesh/mesh.h>
+#include <keyblock/mesh/cell_point.h>
 
 #include <functional>
-#include <optional>
 
 namespace Keyblock
 {
@@ -20,16 +19,8 @@ namespace Keyblock
     CellLocator(const Mesh<dim> &mesh,
                 const std::function<bool(unsigned int)> &is_there);
 
-    /** A cell and the shares of its vertices in a point of it. */
-    struct Place
-    {
-      unsigned int cell;
-      std::array<double, Mesh<dim>::n_cell_vertices> weight; ///< sum 1 [-]
-    };
-
-    /** The cell that contains @p point, the first of several; nothing if there
-     * is none. */
-    std::optional<Place> find(const Point<dim> &point) const;
+    /** Where @p point is, in the first of several cells. */
+    CellPoint<dim> find(const Point<dim> &point) const;
 
   private:
     using Entry = std::pair<dealii::BoundingBox<dim>, unsigned int>;

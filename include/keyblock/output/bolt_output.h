@@ -27,8 +27,8 @@ namespace Keyblock
                const Scene<dim> &scene);
 
   /**
-   * Write bolts as lines, their forces as cell data and their slips as point
-   * data, for the last of @p records (Output::records), and bolts.pvd with all
+   * Write bolts as lines where they were installed, with forces and slips, for
+   * the last of @p records (Output::records), and bolts.pvd with all
    * of them; nothing if there are no bolts. Rank 0 only.
    */
   template <int dim>

@@ -2,7 +2,10 @@
 #ifndef keyblock_rock_bolt_chain_h
 #define keyblock_rock_bolt_chain_h
 
+#include <keyblock/scene/bolts.h>
+
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace Keyblock
@@ -157,6 +160,13 @@ namespace Keyblock
     std::vector<double> rock_force, segment_force;
     double present_plate_force = 0.;
   };
+
+  /** What bolts are made of, as the scene says. */
+  template <int dim>
+  BoltProperties properties_of(const BoltSet<dim> &set);
+
+  /** What limits a bolt, in words. */
+  std::string describe(const BoltChain::Capacity::Limit limit);
 } // namespace Keyblock
 
 #endif

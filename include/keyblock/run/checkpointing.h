@@ -45,6 +45,9 @@ namespace Keyblock
 
   private:
     void save();
+
+    /** name_last_checkpoint(), or that there is none. */
+    std::string say_where_to_continue() const;
     void exchange_progress(StateFile &file);
     void exchange_results(StateFile &file);
 

@@ -2,10 +2,18 @@
 #ifndef keyblock_scene_check_h
 #define keyblock_scene_check_h
 
+#include <keyblock/base/errors.h>
 #include <keyblock/scene/scene.h>
 
 namespace Keyblock
 {
+  /** Throw InputError with @p sentence unless @p condition holds. */
+  inline void
+  require(const bool condition, const std::string &sentence)
+  {
+    AssertThrow(condition, InputError(sentence));
+  }
+
   /** Contradictions between the entries of the domain; throws InputError. They
    * are looked for before joints are made in it. */
   template <int dim>

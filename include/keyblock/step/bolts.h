@@ -2,31 +2,13 @@
 #ifndef keyblock_step_bolts_h
 #define keyblock_step_bolts_h
 
-#include <keyblock/blocks/bolt_layout.h>
-#include <keyblock/rock/bolt_chain.h>
+#include <keyblock/step/bolt_in_rock.h>
 #include <keyblock/step/force_element.h>
 
 namespace Keyblock
 {
-  /** What a bolt does now, for output. */
-  template <int dim>
-  struct BoltReport
-  {
-    const Bolt<dim> *bolt = nullptr;
-    std::vector<double> axial_force; ///< of its segments, tension positive [N]
-    std::vector<double> slip;        ///< of the grout at its nodes [m]
-    std::vector<Tensor<1, dim>> displacement; ///< of the rock there [m]
-    double plate_force       = 0.;            ///< [N]
-    double dowel_force       = 0.; ///< largest at a joint that it crosses [N]
-    bool is_broken           = false;
-    unsigned int n_crossings = 0; ///< of joints, between blocks
-    std::string limit;            ///< what would govern it: see describe()
-  };
-
   /**
-   * Bolts and cables: chains without mass (rock/bolt_chain.h) whose nodes go
-   * with the cells they lie in, and dowels where they cross joints. Forces act
-   * along the bolt as it was installed.
+   * All bolts and cables. Forces act along each as it was installed.
    *
    * Every rank follows all of them, from displacements that all ranks add up,
    * and puts forces on its own nodes.
@@ -38,7 +20,6 @@ namespace Keyblock
     Bolts(const Scene<dim> &scene,
           const SplitMesh<dim> &split,
           const Numbering<dim> &numbering);
-    ~Bolts() override;
 
     std::string
     name() const override
@@ -65,45 +46,27 @@ namespace Keyblock
     std::vector<BoltReport<dim>> report() const;
 
   private:
-    /** A point of the rock and the nodes of this rank that carry it. */
-    struct Binding
+    /** Call @p action with those of the present stage. */
+    template <typename List, typename Action>
+    void
+    for_each_present(List &list, const Action &action) const
     {
-      bool is_held = false;                                  ///< there is rock
-      std::vector<std::pair<unsigned int, double>> carriers; ///< node, weight
-    };
-    struct Dowel;
-    struct Member;
+      for (auto &bolt : list)
+        if (bolt.stage_number() <= stage_number)
+          action(bolt);
+    }
 
-    Binding bind(const CellLocator<dim> &rock, const Point<dim> &point) const;
-    /** Displacements of all points that bolts are bound to, the same on every
-     * rank (collective) [m]. */
+    /** Displacements of the points of the present ones, the same on every rank
+     * (collective) [m]. */
     std::vector<Tensor<1, dim>>
     rock_displacements(const std::vector<double> &displacement) const;
 
-    template <typename Action>
-    void for_each_binding(const Action &action) const;
-
-    void put_force(const Binding &binding,
-                   const Tensor<1, dim> &force,
-                   std::vector<double> &forces) const;
-
     const Scene<dim> &scene;
-    const SplitMesh<dim> &split;
     const Numbering<dim> &numbering;
-    const std::vector<Bolt<dim>> &bolts;
-    std::vector<Member> members; ///< one for each of bolts
+    std::vector<BoltInRock<dim>> bolts;
     unsigned int stage_number = 1;
-    std::vector<Tensor<1, dim>> present; ///< displacements at all bindings
-
     StrengthReduction reduction;
   };
-
-  /** What bolts are made of, as the scene says. */
-  template <int dim>
-  BoltProperties properties_of(const BoltSet<dim> &set);
-
-  /** What limits a bolt, in words. */
-  std::string describe(const BoltChain::Capacity::Limit limit);
 } // namespace Keyblock
 
 #endif

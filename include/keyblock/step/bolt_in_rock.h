@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_step_bolt_in_rock_h
+#define keyblock_step_bolt_in_rock_h
+
+#include <keyblock/contact/state.h>
+#include <keyblock/rock/bolt_chain.h>
+#include <keyblock/step/rock_binding.h>
+
+#include <string>
+
+namespace Keyblock
+{
+  /** What a bolt does now, for output. */
+  template <int dim>
+  struct BoltReport
+  {
+    const Bolt<dim> *bolt = nullptr;
+    std::vector<double> axial_force; ///< of its segments, tension positive [N]
+    std::vector<double> slip;        ///< of the grout at its nodes [m]
+    double plate_force = 0.;         ///< [N]
+    double dowel_force = 0.;         ///< largest at a joint it crosses [N]
+    bool is_broken     = false;
+    std::string limit; ///< describe(BoltChain::Capacity::Limit) where it is
+                       ///< weakest; empty: it crosses no joint between blocks
+  };
+
+  /**
+   * One bolt and the rock around it: a chain (rock/bolt_chain.h) whose nodes go
+   * with the cells they lie in, and a dowel where it crosses a joint. Its
+   * points are the nodes, then the two sides of each crossing.
+   */
+  template <int dim>
+  class BoltInRock
+  {
+  public:
+    BoltInRock(const Bolt<dim> &bolt, const Scene<dim> &scene);
+
+    /** Number of the stage at whose beginning it is installed. */
+    unsigned int
+    stage_number() const
+    {
+      return first_stage;
+    }
+
+    /** What of the rock around it is there. */
+    void take_ground(const Ground<dim> &ground,
+                     const Numbering<dim> &numbering);
+
+    /** The rock at its points; empty before take_ground(). */
+    const std::vector<RockBinding<dim>> &
+    points() const
+    {
+      return bindings;
+    }
+
+    /**
+     * Forces on the rock at its points when these are displaced by
+     * @p displacement (first of as many as points) [m, N]. The first time it is
+     * installed there. Of forces along joints that @p reduction means, the
+     * share is left.
+     */
+    const std::vector<Tensor<1, dim>> &
+    respond(const Tensor<1, dim> *displacement,
+            const StrengthReduction &reduction);
+
+    /** Call @p add(binding, bound): no more than this stiffness in any
+     * direction of an axis acts at it [N/m]. */
+    template <typename Action>
+    void
+    for_each_stiffness_bound(const Action &add) const
+    {
+      const std::vector<double> bound = chain.stiffness_bound();
+      const double shape              = row_sum(way);
+      for (unsigned int i = 0; i < bound.size(); ++i)
+        add(bindings[i], share * shape * bound[i]);
+      if (chain.material().dowel_strength > 0.)
+        for (unsigned int i = bound.size(); i < bindings.size(); ++i)
+          add(bindings[i], 2. * share * chain.material().dowel_stiffness);
+    }
+
+    double stored_energy() const;     ///< [J]
+    double dissipated_energy() const; ///< so far [J]
+
+    /** Append all that it remembers, and take it from @p at on again. */
+    void remember(std::vector<double> &numbers) const;
+    void recall(const std::vector<double> &numbers, std::size_t &at);
+
+    bool
+    is_installed() const
+    {
+      return was_installed;
+    }
+
+    BoltReport<dim> report() const;
+
+  private:
+    /** Where it crosses a joint. */
+    struct Dowel
+    {
+      Tensor<1, dim> reference; ///< behind less before when installed [m]
+      Tensor<1, dim> slip;      ///< plastic, across the bolt [m]
+      Tensor<1, dim> force;     ///< on the rock before it [N]
+      double dissipated = 0.;   ///< [J]
+    };
+
+    /** Largest sum of a row of the matrix of @p way with itself [-]. */
+    static double row_sum(const Tensor<1, dim> &way);
+
+    void install(const Tensor<1, dim> *displacement);
+
+    /** Follow the jump of the rock across a joint [m]. */
+    void follow(Dowel &dowel, Tensor<1, dim> jump) const;
+
+    /** Axial force where it crosses a joint [N]. */
+    double axial_force_at(const BoltCrossing<dim> &crossing) const;
+
+    const Bolt<dim> &bolt;
+    Tensor<1, dim> way;
+    double share; ///< of a bolt, per metre in 2D
+    unsigned int first_stage;
+    bool was_installed = false;
+    BoltChain chain;
+    std::vector<RockBinding<dim>> bindings;
+    std::vector<Tensor<1, dim>> reference; ///< of nodes when installed [m]
+    std::vector<Dowel> dowels;             ///< one for each crossing
+    std::vector<Tensor<1, dim>> forces;    ///< at its points [N]
+  };
+} // namespace Keyblock
+
+#endif

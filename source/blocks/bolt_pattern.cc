@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/blocks/bolt_pattern.h>
+
+#include <keyblock/base/errors.h>
+#include <keyblock/base/expression.h>
+#include <keyblock/mesh/excavation_region.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** A straight piece of the outline of an excavation's section, and the
+     * normal there, into the rock. */
+    template <int dim>
+    struct Piece
+    {
+      Point<dim> begin, end;
+      Tensor<1, dim> inward;
+    };
+
+    template <int dim>
+    using Outline = std::vector<Piece<dim>>;
+
+    /** Whether a face with the normal @p inward is of one of the parts. */
+    template <int dim>
+    bool
+    is_of_parts(const Tensor<1, dim> &inward,
+                const std::vector<std::string> &parts)
+    {
+      const double up        = inward[dim - 1];
+      const std::string part = std::abs(up) < std::sqrt(0.5) ? "walls"
+                               : up > 0.                     ? "roof"
+                                                             : "floor";
+      return std::find(parts.begin(), parts.end(), part) != parts.end();
+    }
+
+    /** Free faces of the rock beside one of the set's excavations. */
+    template <int dim>
+    std::vector<CellFace>
+    list_faces(const BoltSet<dim> &set, const Ground<dim> &ground)
+    {
+      const Mesh<dim> &mesh = ground.split.mesh;
+      std::vector<CellFace> found;
+      for (const CellFace &f : list_free_faces(ground))
+        {
+          if (mesh.boundary[f.cell][f.face] != none)
+            continue;
+          const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
+          const double depth = 1e-3 * std::pow(area.norm(), 1. / (dim - 1));
+          const Point<dim> outside =
+            mesh.face_center(f.cell, f.face) + depth / area.norm() * area;
+          const unsigned int across = mesh.neighbor[f.cell][f.face];
+          for (unsigned int e = 0; e < ground.scene.excavations.size(); ++e)
+            {
+              const auto &excavation = *ground.scene.excavations[e];
+              if (std::find(set.excavations.begin(),
+                            set.excavations.end(),
+                            excavation.name) == set.excavations.end())
+                continue;
+              if ((across != none && mesh.excavation_stage[across] > 0 &&
+                   mesh.excavation[across] == e) ||
+                  (excavation.shape != ExcavationShape::formula &&
+                   depth_inside(excavation, outside) > 0.))
+                {
+                  found.push_back(f);
+                  break;
+                }
+            }
+        }
+      return found;
+    }
+
+    /** Where the plane of a ring cuts a face: nothing, or a piece. */
+    void
+    add_cut(const Mesh<3> &mesh,
+            const CellFace &face,
+            const Tensor<1, 3> &axis,
+            const double place,
+            Outline<3> &pieces)
+    {
+      const Tensor<1, 3> area = mesh.face_area_vector(face.cell, face.face);
+      const auto vertices     = mesh.face_vertices(face.cell, face.face);
+      // around the face, not in the order of its vertices
+      const std::array<unsigned int, 4> around = {{0, 1, 3, 2}};
+      std::vector<Point<3>> points;
+      for (unsigned int i = 0; i < 4; ++i)
+        {
+          const Point<3> &a = mesh.vertices[vertices[around[i]]],
+                         &b = mesh.vertices[vertices[around[(i + 1) % 4]]];
+          const double u = a * axis - place, v = b * axis - place;
+          if ((u > 0.) != (v > 0.))
+            points.push_back(a + u / (u - v) * (b - a));
+        }
+      if (points.size() != 2 || points[0].distance(points[1]) == 0.)
+        return;
+      Tensor<1, 3> inward = -area / area.norm();
+      inward -= (inward * axis) * axis;
+      if (inward.norm() > 0.1) // not the end of a cavern
+        pieces.push_back({points[0], points[1], inward / inward.norm()});
+    }
+
+    /** Put pieces that touch into rows, each from one end to the other. */
+    template <int dim>
+    std::vector<Outline<dim>>
+    put_in_rows(const Outline<dim> &pieces)
+    {
+      double size = 0.;
+      for (const Piece<dim> &piece : pieces)
+        size = std::max(size, piece.begin.distance(piece.end));
+      const auto key = [&](const Point<dim> &p) {
+        std::array<long long, dim> k;
+        for (unsigned int d = 0; d < dim; ++d)
+          k[d] = std::llround(p[d] / (1e-6 * size));
+        return k;
+      };
+      std::map<std::array<long long, dim>, std::vector<unsigned int>> at;
+      for (unsigned int i = 0; i < pieces.size(); ++i)
+        for (const Point<dim> &p : {pieces[i].begin, pieces[i].end})
+          at[key(p)].push_back(i);
+
+      std::vector<bool> is_used(pieces.size(), false);
+      std::vector<Outline<dim>> rows;
+      const auto walk = [&](const unsigned int first, const Point<dim> &from) {
+        rows.emplace_back();
+        unsigned int i    = first;
+        Point<dim> corner = from;
+        while (true)
+          {
+            is_used[i]        = true;
+            Piece<dim> piece  = pieces[i];
+            const bool is_fwd = key(piece.begin) == key(corner);
+            if (!is_fwd)
+              std::swap(piece.begin, piece.end);
+            rows.back().push_back(piece);
+            corner                  = piece.end;
+            const unsigned int last = i;
+            for (const unsigned int other : at[key(corner)])
+              if (!is_used[other])
+                {
+                  i = other;
+                  break;
+                }
+            if (i == last)
+              return;
+          }
+      };
+      // open rows from their ends, then closed ones from anywhere
+      for (unsigned int i = 0; i < pieces.size(); ++i)
+        for (const Point<dim> &p : {pieces[i].begin, pieces[i].end})
+          if (!is_used[i] && at[key(p)].size() == 1)
+            walk(i, p);
+      for (unsigned int i = 0; i < pieces.size(); ++i)
+        if (!is_used[i])
+          walk(i, pieces[i].begin);
+      return rows;
+    }
+
+    /** Bolts along a row, the first and the last as far from its ends. */
+    template <int dim>
+    void
+    add_along(const Outline<dim> &row,
+              const BoltSet<dim> &set,
+              const unsigned int index,
+              const Tensor<1, dim> &axis,
+              std::vector<Bolt<dim>> &bolts)
+    {
+      double length = 0.;
+      for (const Piece<dim> &piece : row)
+        length += piece.begin.distance(piece.end);
+      const unsigned int n =
+        std::max(1., std::floor(length / set.spacing[0] + 1e-9));
+      double next    = 0.5 * (length - (n - 1) * set.spacing[0]);
+      double passed  = 0.;
+      unsigned int k = 0;
+      for (const Piece<dim> &piece : row)
+        {
+          const double here = piece.begin.distance(piece.end);
+          for (; k < n && next <= passed + here + 1e-9 * length;
+               next += set.spacing[0], ++k)
+            {
+              const double share =
+                std::min(1., std::max(0., (next - passed) / here));
+              const Point<dim> head =
+                piece.begin + share * (piece.end - piece.begin);
+              const double angle = set.inclination * dealii::numbers::PI / 180.;
+              Tensor<1, dim> across;
+              if (dim == 2)
+                {
+                  across[0] = -piece.inward[1];
+                  across[1] = piece.inward[0];
+                }
+              else
+                across = axis;
+              Tensor<1, dim> way =
+                std::cos(angle) * piece.inward + std::sin(angle) * across;
+              if (set.direction.norm() > 0.)
+                way = set.direction / set.direction.norm();
+              bolts.emplace_back(index, head, head + set.length * way);
+            }
+          passed += here;
+        }
+    }
+
+    template <int dim>
+    Tensor<1, dim>
+    axis_of(const BoltSet<dim> &set,
+            const Mesh<dim> &mesh,
+            const std::vector<CellFace> &faces)
+    {
+      if (set.axis.norm() > 0.)
+        return set.axis / set.axis.norm();
+      Point<dim> low  = mesh.face_center(faces[0].cell, faces[0].face),
+                 high = low;
+      for (const CellFace &f : faces)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double x = mesh.face_center(f.cell, f.face)[d];
+            low[d]         = std::min(low[d], x);
+            high[d]        = std::max(high[d], x);
+          }
+      unsigned int longest = 0;
+      for (unsigned int d = 0; d + 1 < dim; ++d) // not upwards
+        if (high[d] - low[d] > high[longest] - low[longest])
+          longest = d;
+      Tensor<1, dim> axis;
+      axis[longest] = 1.;
+      return axis;
+    }
+
+    template <int dim>
+    std::vector<Outline<dim>>
+    list_rings(const BoltSet<dim> &set,
+               const Mesh<dim> &mesh,
+               const std::vector<CellFace> &faces,
+               const Tensor<1, dim> &axis)
+    {
+      std::vector<Outline<dim>> rings;
+      if constexpr (dim == 2)
+        {
+          (void)axis;
+          (void)set;
+          rings.emplace_back();
+          for (const CellFace &f : faces)
+            {
+              const auto v              = mesh.face_vertices(f.cell, f.face);
+              const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
+              rings[0].push_back({mesh.vertices[v[0]],
+                                  mesh.vertices[v[1]],
+                                  -area / area.norm()});
+            }
+        }
+      else
+        {
+          double low = 1e300, high = -1e300;
+          for (const CellFace &f : faces)
+            for (const unsigned int v : mesh.face_vertices(f.cell, f.face))
+              {
+                low  = std::min(low, mesh.vertices[v] * axis);
+                high = std::max(high, mesh.vertices[v] * axis);
+              }
+          const unsigned int n =
+            std::max(1., std::floor((high - low) / set.spacing[1] + 1e-9));
+          const double first =
+            low + 0.5 * (high - low - (n - 1) * set.spacing[1]);
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              rings.emplace_back();
+              for (const CellFace &f : faces)
+                add_cut(
+                  mesh, f, axis, first + k * set.spacing[1], rings.back());
+            }
+        }
+      return rings;
+    }
+
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<Bolt<dim>>
+  set_out_pattern(const BoltSet<dim> &set,
+                  const unsigned int index,
+                  const Ground<dim> &ground)
+  {
+    const std::vector<CellFace> faces = list_faces(set, ground);
+    std::vector<Bolt<dim>> pattern;
+    if (!faces.empty())
+      {
+        const Mesh<dim> &mesh     = ground.split.mesh;
+        const Tensor<1, dim> axis = axis_of(set, mesh, faces);
+        for (const Outline<dim> &ring : list_rings(set, mesh, faces, axis))
+          {
+            Outline<dim> wanted;
+            for (const Piece<dim> &piece : ring)
+              if (is_of_parts<dim>(piece.inward, set.parts))
+                wanted.push_back(piece);
+            for (const Outline<dim> &row : put_in_rows<dim>(wanted))
+              add_along<dim>(row, set, index, axis, pattern);
+          }
+      }
+    if (!set.region.empty())
+      {
+        const Expression<dim> inside(set.region,
+                                     1,
+                                     "Bolts/" + set.name + "/Region");
+        pattern.erase(std::remove_if(pattern.begin(),
+                                     pattern.end(),
+                                     [&](const Bolt<dim> &bolt) {
+                                       return inside.value(bolt.head, 0., 0) <=
+                                              0.;
+                                     }),
+                      pattern.end());
+      }
+    AssertThrow(!pattern.empty(),
+                InputError("The bolts 'Bolts/" + set.name +
+                           "' have no place: after stage '" + set.stage +
+                           "' there is no free face of their excavations, "
+                           "'Parts' and 'Region'; correct these, or their "
+                           "'Stage'."));
+    return pattern;
+  }
+
+
+  template std::vector<Bolt<2>>
+  set_out_pattern(const BoltSet<2> &, const unsigned int, const Ground<2> &);
+  template std::vector<Bolt<3>>
+  set_out_pattern(const BoltSet<3> &, const unsigned int, const Ground<3> &);
+} // namespace Keyblock
