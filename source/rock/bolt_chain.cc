@@ -4,6 +4,7 @@
 #include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace Keyblock
@@ -58,87 +59,125 @@ namespace Keyblock
                        const std::vector<double> &places)
     : properties(properties)
     , place(places)
-    , bonded_length(places.size(), 0.)
-    , is_held(places.size(), true)
+    , bonds(places.size())
+    , segments(places.size() - 1)
     , rock_force(places.size(), 0.)
-    , segment_force(places.size() - 1, 0.)
+    , residual(places.size())
+    , diagonal(places.size())
+    , off(places.size() - 1)
+    , change(places.size())
   {
-    const unsigned int n = place.size();
+    const unsigned int n = n_nodes();
     state.displacement.assign(n, 0.);
     state.slip.assign(n, 0.);
     state.elongation.assign(n - 1, 0.);
     state.is_broken.assign(n - 1, 0.);
-    // what of each half segment is grouted
+    stiffest = properties.bond_stiffness * place.back();
     for (unsigned int j = 0; j + 1 < n; ++j)
       {
-        const double middle  = 0.5 * (place[j] + place[j + 1]),
-                     grouted = properties.free_length;
-        bonded_length[j] += std::max(0., middle - std::max(place[j], grouted));
-        bonded_length[j + 1] +=
-          std::max(0., place[j + 1] - std::max(middle, grouted));
+        segments.stiffness[j] = properties.axial_stiffness / segment_length(j);
+        segments.strength[j]  = properties.yield_force;
+        stiffest              = std::max(stiffest, segments.stiffness[j]);
       }
-  }
-
-
-
-  void
-  BoltChain::set_ground(const std::vector<bool> &is_held_now)
-  {
-    is_held = is_held_now;
+    set_ground(std::vector<bool>(n, true));
   }
 
 
 
   double
-  BoltChain::bond_stiffness_of(const unsigned int i) const
+  BoltChain::grouted_length(const unsigned int i,
+                            const double from,
+                            const double to) const
   {
-    return is_held[i] ? properties.bond_stiffness * bonded_length[i] : 0.;
+    const double begin = i > 0 ? 0.5 * (place[i - 1] + place[i]) : place[0];
+    const double end =
+      i + 1 < n_nodes() ? 0.5 * (place[i] + place[i + 1]) : place[i];
+    return std::max(0.,
+                    std::min(end, to) -
+                      std::max({begin, from, properties.free_length}));
   }
 
 
 
-  BoltChain::Response
-  BoltChain::respond(const std::vector<double> &w,
-                     const std::vector<double> &rock) const
+  void
+  BoltChain::set_ground(const std::vector<bool> &is_held)
   {
-    const unsigned int n = n_nodes();
-    Response r;
-    r.bond.assign(n, 0.);
-    r.bond_stiffness.assign(n, 0.);
-    r.segment.assign(n - 1, 0.);
-    r.segment_stiffness.assign(n - 1, 0.);
-    for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int i = 0; i < n_nodes(); ++i)
       {
-        if (!is_held[i] || bonded_length[i] == 0.)
-          continue;
-        const double stiffness = bond_stiffness_of(i),
-                     strength  = properties.bond_strength * bonded_length[i],
-                     force     = stiffness * (rock[i] - w[i] - state.slip[i]);
-        r.bond[i]              = std::clamp(force, -strength, strength);
-        if (std::abs(force) <= strength)
-          r.bond_stiffness[i] = stiffness;
+        const double length =
+          is_held[i] ? grouted_length(i, 0., place.back()) : 0.;
+        bonds.stiffness[i] = properties.bond_stiffness * length;
+        bonds.strength[i]  = properties.bond_strength * length;
       }
-    for (unsigned int j = 0; j + 1 < n; ++j)
+    is_plate_held = is_held[0] && properties.plate_strength > 0.;
+  }
+
+
+
+  void
+  BoltChain::respond(const std::vector<double> &rock)
+  {
+    const std::vector<double> &w = state.displacement;
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      bonds.respond(i, bonds.stiffness[i] * (rock[i] - w[i] - state.slip[i]));
+    for (unsigned int j = 0; j + 1 < n_nodes(); ++j)
+      segments.respond(j,
+                       state.is_broken[j] != 0.
+                         ? 0.
+                         : segments.stiffness[j] *
+                             (w[j + 1] - w[j] - state.elongation[j]));
+    present_plate_force = 0.;
+    is_plate_elastic    = false;
+    if (!is_plate_held)
+      return;
+    const double force =
+      properties.plate_stiffness * (w[0] - rock[0] - state.plate_shift);
+    present_plate_force = std::clamp(force, 0., properties.plate_strength);
+    is_plate_elastic    = force == present_plate_force;
+  }
+
+
+
+  double
+  BoltChain::find_residual(const double jack)
+  {
+    double largest = 0.;
+    for (unsigned int i = 0; i < n_nodes(); ++i)
       {
-        if (state.is_broken[j] != 0.)
-          continue;
-        const double stiffness = properties.axial_stiffness / segment_length(j);
-        const double force =
-          stiffness * (w[j + 1] - w[j] - state.elongation[j]);
-        r.segment[j] =
-          std::clamp(force, -properties.yield_force, properties.yield_force);
-        if (std::abs(force) <= properties.yield_force)
-          r.segment_stiffness[j] = stiffness;
+        residual[i] =
+          bonds.force[i] + (i + 1 < n_nodes() ? segments.force[i] : 0.);
+        residual[i] -= i > 0        ? segments.force[i - 1]
+                       : jack >= 0. ? jack
+                                    : present_plate_force;
+        largest = std::max(largest, std::abs(residual[i]));
       }
-    if (is_held[0] && properties.plate_strength > 0.)
+    return largest;
+  }
+
+
+
+  void
+  BoltChain::find_change(const double jack)
+  {
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      diagonal[i] =
+        bonds.stiffness[i] * (bonds.is_elastic[i] ? 1. : plastic_stiffness) +
+        least_stiffness * stiffest;
+    if (jack < 0. && is_plate_elastic)
+      diagonal[0] += properties.plate_stiffness;
+    for (unsigned int j = 0; j + 1 < n_nodes(); ++j)
       {
-        const double force =
-          properties.plate_stiffness * (w[0] - rock[0] - state.plate_shift);
-        r.plate = std::clamp(force, 0., properties.plate_strength);
-        if (force >= 0. && force <= properties.plate_strength)
-          r.plate_stiffness = properties.plate_stiffness;
+        const double stiffness =
+          state.is_broken[j] != 0.
+            ? 0.
+            : segments.stiffness[j] *
+                (segments.is_elastic[j] ? 1. : plastic_stiffness);
+        diagonal[j] += stiffness;
+        diagonal[j + 1] += stiffness;
+        off[j] = -stiffness;
       }
-    return r;
+    change = residual;
+    solve_tridiagonal(diagonal, off, change);
   }
 
 
@@ -146,72 +185,33 @@ namespace Keyblock
   void
   BoltChain::solve(const std::vector<double> &rock, const double jack)
   {
-    const unsigned int n   = n_nodes();
     std::vector<double> &w = state.displacement;
-    double stiffest        = properties.bond_stiffness * place.back();
-    for (unsigned int j = 0; j + 1 < n; ++j)
-      stiffest =
-        std::max(stiffest, properties.axial_stiffness / segment_length(j));
-
-    std::vector<double> residual(n), diagonal(n), off(n - 1);
-    const auto unbalanced = [&](const Response &r) {
-      double largest = 0.;
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          residual[i] = r.bond[i] + (i + 1 < n ? r.segment[i] : 0.) -
-                        (i > 0 ? r.segment[i - 1] : 0.);
-          if (i == 0)
-            residual[i] -= jack >= 0. ? jack : r.plate;
-          largest = std::max(largest, std::abs(residual[i]));
-        }
-      return largest;
-    };
-
-    Response response = respond(w, rock);
-    double size       = unbalanced(response);
-    for (unsigned int iteration = 0; iteration < maximum_iterations;
-         ++iteration)
+    respond(rock);
+    double size = find_residual(jack);
+    for (unsigned int i = 0; i < maximum_iterations; ++i)
       {
         double scale = std::max(0., jack), farthest = 0.;
-        for (unsigned int i = 0; i < n; ++i)
-          farthest = std::max({farthest, std::abs(w[i]), std::abs(rock[i])});
-        for (const double force : response.segment)
-          scale = std::max(scale, std::abs(force));
-        for (const double force : response.bond)
-          scale = std::max(scale, std::abs(force));
+        for (const auto *springs : {&segments, &bonds})
+          for (const double force : springs->force)
+            scale = std::max(scale, std::abs(force));
+        for (const std::vector<double> *displacement :
+             std::array<const std::vector<double> *, 2>{{&w, &rock}})
+          for (const double u : *displacement)
+            farthest = std::max(farthest, std::abs(u));
         if (size <= tolerance * scale + round_off * stiffest * farthest)
           break;
-        for (unsigned int i = 0; i < n; ++i)
-          diagonal[i] = std::max(response.bond_stiffness[i],
-                                 plastic_stiffness * bond_stiffness_of(i)) +
-                        least_stiffness * stiffest;
-        if (jack < 0.)
-          diagonal[0] += response.plate_stiffness;
-        for (unsigned int j = 0; j + 1 < n; ++j)
-          {
-            const double stiffness =
-              std::max(response.segment_stiffness[j],
-                       state.is_broken[j] != 0.
-                         ? 0.
-                         : plastic_stiffness * properties.axial_stiffness /
-                             segment_length(j));
-            diagonal[j] += stiffness;
-            diagonal[j + 1] += stiffness;
-            off[j] = -stiffness;
-          }
-        std::vector<double> change = residual;
-        solve_tridiagonal(diagonal, off, change);
+        find_change(jack);
         // the energy is convex: go on where it still falls at the end of the
         // way, else to its least value on the way
-        const std::vector<double> before = w;
-        const auto slope_at              = [&](const double share) {
-          for (unsigned int i = 0; i < n; ++i)
-            w[i] = before[i] + share * change[i];
-          response     = respond(w, rock);
-          size         = unbalanced(response);
+        before              = w;
+        const auto slope_at = [&](const double share) {
+          for (unsigned int k = 0; k < w.size(); ++k)
+            w[k] = before[k] + share * change[k];
+          respond(rock);
+          size         = find_residual(jack);
           double slope = 0.;
-          for (unsigned int i = 0; i < n; ++i)
-            slope += residual[i] * change[i];
+          for (unsigned int k = 0; k < w.size(); ++k)
+            slope += residual[k] * change[k];
           return slope;
         };
         if (slope_at(1.) < 0.)
@@ -226,41 +226,32 @@ namespace Keyblock
             slope_at(least.first > 0. ? least.first : least.second);
           }
       }
-    commit(rock, response);
+    commit(rock);
   }
 
 
 
   void
-  BoltChain::commit(const std::vector<double> &rock, const Response &response)
+  BoltChain::commit(const std::vector<double> &rock)
   {
-    const unsigned int n         = n_nodes();
     const std::vector<double> &w = state.displacement;
-    for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int i = 0; i < n_nodes(); ++i)
       {
-        rock_force[i] = -response.bond[i];
-        if (!is_held[i] || bonded_length[i] == 0.)
+        rock_force[i] = -bonds.force[i];
+        if (bonds.is_elastic[i])
           continue;
         const double slip =
-          rock[i] - w[i] -
-          response.bond[i] / (properties.bond_stiffness * bonded_length[i]);
-        if (response.bond_stiffness[i] == 0.)
-          {
-            state.dissipated += response.bond[i] * (slip - state.slip[i]);
-            state.slip[i] = slip;
-          }
+          rock[i] - w[i] - bonds.force[i] / bonds.stiffness[i];
+        state.dissipated += bonds.force[i] * (slip - state.slip[i]);
+        state.slip[i] = slip;
       }
-    for (unsigned int j = 0; j + 1 < n; ++j)
+    for (unsigned int j = 0; j + 1 < n_nodes(); ++j)
       {
-        segment_force[j]     = response.segment[j];
-        const double stretch = w[j + 1] - w[j];
-        if (state.is_broken[j] == 0. && response.segment_stiffness[j] == 0.)
+        const double force = segments.force[j], stretch = w[j + 1] - w[j];
+        if (!segments.is_elastic[j])
           {
-            const double elongation = stretch - response.segment[j] *
-                                                  segment_length(j) /
-                                                  properties.axial_stiffness;
-            state.dissipated +=
-              response.segment[j] * (elongation - state.elongation[j]);
+            const double elongation = stretch - force / segments.stiffness[j];
+            state.dissipated += force * (elongation - state.elongation[j]);
             state.elongation[j] = elongation;
           }
         // what it had stored goes with it
@@ -268,20 +259,16 @@ namespace Keyblock
             stretch > properties.rupture_strain * segment_length(j))
           {
             state.is_broken[j] = 1.;
-            state.dissipated += 0.5 * response.segment[j] *
-                                response.segment[j] * segment_length(j) /
-                                properties.axial_stiffness;
-            segment_force[j] = 0.;
+            state.dissipated += 0.5 * force * force / segments.stiffness[j];
+            segments.force[j] = 0.;
           }
       }
-    present_plate_force = response.plate;
-    rock_force[0] += response.plate;
-    if (response.plate >= properties.plate_strength && response.plate > 0. &&
-        response.plate_stiffness == 0.)
+    rock_force[0] += present_plate_force;
+    if (is_plate_held && !is_plate_elastic && present_plate_force > 0.)
       {
         const double shift =
-          w[0] - rock[0] - response.plate / properties.plate_stiffness;
-        state.dissipated += response.plate * (shift - state.plate_shift);
+          w[0] - rock[0] - present_plate_force / properties.plate_stiffness;
+        state.dissipated += present_plate_force * (shift - state.plate_shift);
         state.plate_shift = shift;
       }
   }
@@ -314,17 +301,11 @@ namespace Keyblock
   BoltChain::stored_energy() const
   {
     double energy = 0.;
-    for (unsigned int i = 0; i < n_nodes(); ++i)
-      if (bonded_length[i] > 0.)
-        {
-          const double force =
-            rock_force[i] - (i == 0 ? present_plate_force : 0.);
-          energy += 0.5 * force * force /
-                    (properties.bond_stiffness * bonded_length[i]);
-        }
-    for (unsigned int j = 0; j + 1 < n_nodes(); ++j)
-      energy += 0.5 * segment_force[j] * segment_force[j] * segment_length(j) /
-                properties.axial_stiffness;
+    for (const auto *springs : {&bonds, &segments})
+      for (unsigned int i = 0; i < springs->force.size(); ++i)
+        if (springs->stiffness[i] > 0.)
+          energy +=
+            0.5 * springs->force[i] * springs->force[i] / springs->stiffness[i];
     if (properties.plate_strength > 0.)
       energy += 0.5 * present_plate_force * present_plate_force /
                 properties.plate_stiffness;
@@ -336,15 +317,12 @@ namespace Keyblock
   std::vector<double>
   BoltChain::stiffness_bound() const
   {
-    std::vector<double> bound(n_nodes(), 0.);
-    for (unsigned int i = 0; i < n_nodes(); ++i)
-      bound[i] = properties.bond_stiffness * bonded_length[i];
-    // in a row with the first segment
-    if (properties.plate_strength > 0.)
+    std::vector<double> bound = bonds.stiffness;
+    if (is_plate_held)
       bound[0] += properties.plate_stiffness;
-    const double first = properties.axial_stiffness / segment_length(0);
+    // in a row with the first segment
     if (bound[0] > 0.)
-      bound[0] = bound[0] * first / (bound[0] + first);
+      bound[0] *= segments.stiffness[0] / (bound[0] + segments.stiffness[0]);
     return bound;
   }
 
@@ -353,20 +331,13 @@ namespace Keyblock
   BoltChain::Capacity
   BoltChain::capacity(const double s) const
   {
-    double head = is_held[0] ? properties.plate_strength : 0., anchor = 0.;
+    double head = is_plate_held ? properties.plate_strength : 0., anchor = 0.;
     for (unsigned int i = 0; i < n_nodes(); ++i)
-      if (is_held[i])
+      if (bonds.strength[i] > 0.)
         {
-          // the stretch of this node, as far as it is grouted, on either side
-          const double begin =
-            std::max(properties.free_length,
-                     i > 0 ? 0.5 * (place[i - 1] + place[i]) : place[0]);
-          const double end =
-            i + 1 < n_nodes() ? 0.5 * (place[i] + place[i + 1]) : place[i];
-          head +=
-            properties.bond_strength * std::max(0., std::min(end, s) - begin);
+          head += properties.bond_strength * grouted_length(i, 0., s);
           anchor +=
-            properties.bond_strength * std::max(0., end - std::max(begin, s));
+            properties.bond_strength * grouted_length(i, s, place.back());
         }
     Capacity result{properties.yield_force, Capacity::Limit::yield};
     if (head < result.force)

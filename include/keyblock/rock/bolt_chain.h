@@ -82,7 +82,7 @@ namespace Keyblock
     const std::vector<double> &
     axial_force() const
     {
-      return segment_force;
+      return segments.force;
     }
 
     /** Of the plate on the rock [N]. */
@@ -118,34 +118,30 @@ namespace Keyblock
       return properties;
     }
 
-    const std::vector<double> &
-    places() const
-    {
-      return place;
-    }
-
     BoltChainState state;
 
   private:
-    /** Forces at @p w, and how they change with it. */
-    struct Response
-    {
-      std::vector<double> bond, bond_stiffness;       // by node
-      std::vector<double> segment, segment_stiffness; // by segment
-      double plate = 0., plate_stiffness = 0.;
-    };
-    Response respond(const std::vector<double> &w,
-                     const std::vector<double> &rock) const;
+    /** Set forces and tangents to those at the present displacement. */
+    void respond(const std::vector<double> &rock);
 
     /** Displacements of the nodes in equilibrium. @p jack: pulls the head in
      * place of the plate, unless it is negative [N] */
     void solve(const std::vector<double> &rock, const double jack);
 
-    /** Slip and yield for good. */
-    void commit(const std::vector<double> &rock, const Response &response);
+    /** Set the residual to the unbalanced forces of the nodes, and return the
+     * largest [N]. */
+    double find_residual(const double jack);
 
-    /** Of the grout at a node [N/m]. */
-    double bond_stiffness_of(const unsigned int i) const;
+    /** Set the change to that of Newton's method for the residual. */
+    void find_change(const double jack);
+
+    /** Slip and yield for good. */
+    void commit(const std::vector<double> &rock);
+
+    /** Grout of node @p i between two distances from the head [m]. */
+    double grouted_length(const unsigned int i,
+                          const double from,
+                          const double to) const;
 
     double
     segment_length(const unsigned int j) const
@@ -153,12 +149,42 @@ namespace Keyblock
       return place[j + 1] - place[j];
     }
 
+    /** Springs of a row, their limits, and what they do now. */
+    struct Springs
+    {
+      std::vector<double> stiffness; ///< 0: there is none [N/m]
+      std::vector<double> strength;  ///< [N]
+      std::vector<double> force;     ///< [N]
+      std::vector<bool> is_elastic;  ///< not at its limit
+
+      explicit Springs(const unsigned int n)
+        : stiffness(n, 0.)
+        , strength(n, 0.)
+        , force(n, 0.)
+        , is_elastic(n, true)
+      {}
+
+      /** Take the force @p trial of spring @p i back to its limit. */
+      void
+      respond(const unsigned int i, const double trial)
+      {
+        is_elastic[i] = trial <= strength[i] && trial >= -strength[i];
+        force[i] =
+          is_elastic[i] ? trial : (trial > 0. ? strength[i] : -strength[i]);
+      }
+    };
+
     BoltProperties properties;
     std::vector<double> place;         ///< of the nodes [m]
-    std::vector<double> bonded_length; ///< grouted, of each node [m]
-    std::vector<bool> is_held;         ///< by rock
-    std::vector<double> rock_force, segment_force;
+    Springs bonds, segments;           ///< of nodes; between them
+    double stiffest            = 0.;   ///< of all springs [N/m]
+    bool is_plate_held         = true; ///< by rock
     double present_plate_force = 0.;
+    bool is_plate_elastic      = true;
+    std::vector<double> rock_force; ///< [N]
+
+    // of one solution
+    std::vector<double> residual, diagonal, off, change, before;
   };
 
   /** What bolts are made of, as the scene says. */
