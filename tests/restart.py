@@ -15,7 +15,8 @@ usage: restart.py KEYBLOCK SCENE FOLDER [options]
   --set A=B        as for keyblock
 
 All runs but the first, uninterrupted one save themselves every 20 ms. What was
-broken off must have been resumed, from its checkpoint.
+broken off must have been resumed, from its checkpoint. At last a run goes on
+from the last checkpoint of one that ended.
 """
 import argparse
 import csv
@@ -278,6 +279,15 @@ while broken < options.breaks:
             # counts if it had saved itself
             broken += has_saved
     largest = max(largest, compare(folder, reference))
+
+# nothing is left to be done after the last checkpoint of a run
+ended, at_end = options.folder + "_ended", options.folder + "_at_end"
+expect(run(command_of(ended, options.ranks[0], 1e-6, [])), 0)
+done = run(command_of(at_end, options.ranks[-1], 0,
+                      ["--restart", ended + "/checkpoint.h5"]))
+expect(done, 0, "Resumed ")
+largest = max(largest, compare(at_end, reference))
+
 print(f"{broken} runs broken off, {n_runs} taken to the end, {resumed} of them "
       "from a checkpoint; "
       f"largest difference {largest:g}, uninterrupted {duration:.1f} s")

@@ -72,6 +72,8 @@ namespace Keyblock
     state.slip.assign(n, 0.);
     state.elongation.assign(n - 1, 0.);
     state.is_broken.assign(n - 1, 0.);
+    state.bond_force.assign(n, 0.);
+    state.axial_force.assign(n - 1, 0.);
     stiffest = properties.bond_stiffness * place.back();
     for (unsigned int j = 0; j + 1 < n; ++j)
       {
@@ -119,21 +121,23 @@ namespace Keyblock
   {
     const std::vector<double> &w = state.displacement;
     for (unsigned int i = 0; i < n_nodes(); ++i)
-      bonds.respond(i, bonds.stiffness[i] * (rock[i] - w[i] - state.slip[i]));
+      state.bond_force[i] =
+        bonds.limit(i, bonds.stiffness[i] * (rock[i] - w[i] - state.slip[i]));
     for (unsigned int j = 0; j + 1 < n_nodes(); ++j)
-      segments.respond(j,
+      state.axial_force[j] =
+        segments.limit(j,
                        state.is_broken[j] != 0.
                          ? 0.
                          : segments.stiffness[j] *
                              (w[j + 1] - w[j] - state.elongation[j]));
-    present_plate_force = 0.;
-    is_plate_elastic    = false;
+    state.plate_force = 0.;
+    is_plate_elastic  = false;
     if (!is_plate_held)
       return;
     const double force =
       properties.plate_stiffness * (w[0] - rock[0] - state.plate_shift);
-    present_plate_force = std::clamp(force, 0., properties.plate_strength);
-    is_plate_elastic    = force == present_plate_force;
+    state.plate_force = std::clamp(force, 0., properties.plate_strength);
+    is_plate_elastic  = force == state.plate_force;
   }
 
 
@@ -145,10 +149,10 @@ namespace Keyblock
     for (unsigned int i = 0; i < n_nodes(); ++i)
       {
         residual[i] =
-          bonds.force[i] + (i + 1 < n_nodes() ? segments.force[i] : 0.);
-        residual[i] -= i > 0        ? segments.force[i - 1]
+          state.bond_force[i] + (i + 1 < n_nodes() ? state.axial_force[i] : 0.);
+        residual[i] -= i > 0        ? state.axial_force[i - 1]
                        : jack >= 0. ? jack
-                                    : present_plate_force;
+                                    : state.plate_force;
         largest = std::max(largest, std::abs(residual[i]));
       }
     return largest;
@@ -191,8 +195,8 @@ namespace Keyblock
     for (unsigned int i = 0; i < maximum_iterations; ++i)
       {
         double scale = std::max(0., jack), farthest = 0.;
-        for (const auto *springs : {&segments, &bonds})
-          for (const double force : springs->force)
+        for (const auto *forces : {&state.axial_force, &state.bond_force})
+          for (const double force : *forces)
             scale = std::max(scale, std::abs(force));
         for (const std::vector<double> *displacement :
              std::array<const std::vector<double> *, 2>{{&w, &rock}})
@@ -237,17 +241,17 @@ namespace Keyblock
     const std::vector<double> &w = state.displacement;
     for (unsigned int i = 0; i < n_nodes(); ++i)
       {
-        rock_force[i] = -bonds.force[i];
+        rock_force[i] = -state.bond_force[i];
         if (bonds.is_elastic[i])
           continue;
         const double slip =
-          rock[i] - w[i] - bonds.force[i] / bonds.stiffness[i];
-        state.dissipated += bonds.force[i] * (slip - state.slip[i]);
+          rock[i] - w[i] - state.bond_force[i] / bonds.stiffness[i];
+        state.dissipated += state.bond_force[i] * (slip - state.slip[i]);
         state.slip[i] = slip;
       }
     for (unsigned int j = 0; j + 1 < n_nodes(); ++j)
       {
-        const double force = segments.force[j], stretch = w[j + 1] - w[j];
+        const double force = state.axial_force[j], stretch = w[j + 1] - w[j];
         if (!segments.is_elastic[j])
           {
             const double elongation = stretch - force / segments.stiffness[j];
@@ -260,15 +264,15 @@ namespace Keyblock
           {
             state.is_broken[j] = 1.;
             state.dissipated += 0.5 * force * force / segments.stiffness[j];
-            segments.force[j] = 0.;
+            state.axial_force[j] = 0.;
           }
       }
-    rock_force[0] += present_plate_force;
-    if (is_plate_held && !is_plate_elastic && present_plate_force > 0.)
+    rock_force[0] += state.plate_force;
+    if (is_plate_held && !is_plate_elastic && state.plate_force > 0.)
       {
         const double shift =
-          w[0] - rock[0] - present_plate_force / properties.plate_stiffness;
-        state.dissipated += present_plate_force * (shift - state.plate_shift);
+          w[0] - rock[0] - state.plate_force / properties.plate_stiffness;
+        state.dissipated += state.plate_force * (shift - state.plate_shift);
         state.plate_shift = shift;
       }
   }
@@ -300,14 +304,17 @@ namespace Keyblock
   double
   BoltChain::stored_energy() const
   {
-    double energy = 0.;
-    for (const auto *springs : {&bonds, &segments})
-      for (unsigned int i = 0; i < springs->force.size(); ++i)
-        if (springs->stiffness[i] > 0.)
-          energy +=
-            0.5 * springs->force[i] * springs->force[i] / springs->stiffness[i];
+    double energy  = 0.;
+    const auto add = [&](const std::vector<double> &forces,
+                         const Springs &springs) {
+      for (unsigned int i = 0; i < forces.size(); ++i)
+        if (springs.stiffness[i] > 0.)
+          energy += 0.5 * forces[i] * forces[i] / springs.stiffness[i];
+    };
+    add(state.bond_force, bonds);
+    add(state.axial_force, segments);
     if (properties.plate_strength > 0.)
-      energy += 0.5 * present_plate_force * present_plate_force /
+      energy += 0.5 * state.plate_force * state.plate_force /
                 properties.plate_stiffness;
     return energy;
   }

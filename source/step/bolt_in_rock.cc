@@ -202,14 +202,18 @@ namespace Keyblock
     for (const auto *list : {&state.displacement,
                              &state.slip,
                              &state.elongation,
-                             &state.is_broken})
+                             &state.is_broken,
+                             &state.bond_force,
+                             &state.axial_force})
       numbers.insert(numbers.end(), list->begin(), list->end());
     numbers.push_back(state.plate_shift);
+    numbers.push_back(state.plate_force);
     numbers.push_back(state.dissipated);
     for (const Dowel &dowel : dowels)
       {
         append(numbers, dowel.reference);
         append(numbers, dowel.slip);
+        append(numbers, dowel.force);
         numbers.push_back(dowel.dissipated);
       }
   }
@@ -227,15 +231,19 @@ namespace Keyblock
     for (auto *list : {&state.displacement,
                        &state.slip,
                        &state.elongation,
-                       &state.is_broken})
+                       &state.is_broken,
+                       &state.bond_force,
+                       &state.axial_force})
       for (double &value : *list)
         value = numbers.at(at++);
     state.plate_shift = numbers.at(at++);
+    state.plate_force = numbers.at(at++);
     state.dissipated  = numbers.at(at++);
     for (Dowel &dowel : dowels)
       {
         take(numbers, at, dowel.reference);
         take(numbers, at, dowel.slip);
+        take(numbers, at, dowel.force);
         dowel.dissipated = numbers.at(at++);
       }
   }

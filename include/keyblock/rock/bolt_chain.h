@@ -35,6 +35,10 @@ namespace Keyblock
     std::vector<double> is_broken;    ///< 1 or 0, of each segment
     double plate_shift = 0.;          ///< of the plate on the bolt [m]
     double dissipated  = 0.;          ///< so far [J]
+
+    std::vector<double> bond_force;  ///< of the rock on each node [N]
+    std::vector<double> axial_force; ///< of each segment, tension positive [N]
+    double plate_force = 0.;         ///< on the rock [N]
   };
 
   /**
@@ -82,14 +86,14 @@ namespace Keyblock
     const std::vector<double> &
     axial_force() const
     {
-      return segments.force;
+      return state.axial_force;
     }
 
     /** Of the plate on the rock [N]. */
     double
     plate_force() const
     {
-      return present_plate_force;
+      return state.plate_force;
     }
 
     double stored_energy() const; ///< [J]
@@ -149,38 +153,35 @@ namespace Keyblock
       return place[j + 1] - place[j];
     }
 
-    /** Springs of a row, their limits, and what they do now. */
+    /** Springs of a row, and whether they are at their limits. */
     struct Springs
     {
       std::vector<double> stiffness; ///< 0: there is none [N/m]
       std::vector<double> strength;  ///< [N]
-      std::vector<double> force;     ///< [N]
       std::vector<bool> is_elastic;  ///< not at its limit
 
       explicit Springs(const unsigned int n)
         : stiffness(n, 0.)
         , strength(n, 0.)
-        , force(n, 0.)
         , is_elastic(n, true)
       {}
 
-      /** Take the force @p trial of spring @p i back to its limit. */
-      void
-      respond(const unsigned int i, const double trial)
+      /** The force @p trial of spring @p i, taken back to its limit. */
+      double
+      limit(const unsigned int i, const double trial)
       {
         is_elastic[i] = trial <= strength[i] && trial >= -strength[i];
-        force[i] =
-          is_elastic[i] ? trial : (trial > 0. ? strength[i] : -strength[i]);
+        return is_elastic[i] ? trial
+                             : (trial > 0. ? strength[i] : -strength[i]);
       }
     };
 
     BoltProperties properties;
-    std::vector<double> place;         ///< of the nodes [m]
-    Springs bonds, segments;           ///< of nodes; between them
-    double stiffest            = 0.;   ///< of all springs [N/m]
-    bool is_plate_held         = true; ///< by rock
-    double present_plate_force = 0.;
-    bool is_plate_elastic      = true;
+    std::vector<double> place;    ///< of the nodes [m]
+    Springs bonds, segments;      ///< of nodes; between them
+    double stiffest       = 0.;   ///< of all springs [N/m]
+    bool is_plate_held    = true; ///< by rock
+    bool is_plate_elastic = true;
     std::vector<double> rock_force; ///< [N]
 
     // of one solution
