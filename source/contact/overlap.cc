@@ -240,7 +240,7 @@ namespace Keyblock
     const std::vector<bool> &is_removed_block) const
   {
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
-    for (unsigned int f = 0; f < nodes_of_face.size(); ++f)
+    for (const unsigned int f : faces_with_area)
       if (!is_removed_block[interface.surface[f].block])
         boxes.emplace_back(box_of(position, f, skin_width), f);
     const auto tree = dealii::pack_rtree(boxes);

@@ -5,6 +5,7 @@
 #include <keyblock/contact/search.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace Keyblock
 {
@@ -99,6 +100,21 @@ namespace Keyblock
           slack)
         return false;
     return true;
+  }
+
+
+
+  template <int dim>
+  bool
+  ContactSearch<dim>::is_on_joint(const unsigned int node,
+                                  const unsigned int joint) const
+  {
+    return joint != none &&
+           std::any_of(faces_of_node[node].begin(),
+                       faces_of_node[node].end(),
+                       [&](const unsigned int f) {
+                         return interface.surface[f].joint == joint;
+                       });
   }
 
 
@@ -223,19 +239,44 @@ namespace Keyblock
     const double distance = norm<dim>(nearest->offset);
     if (distance > reach)
       return;
+    // of faces that meet there those of the slave's own joints, if any: it
+    // slides along them
+    const auto is_there = [&](const Projection &projection) {
+      return norm<dim>(difference<dim>(projection.offset, nearest->offset)) <
+             1e-9 * nearest->size;
+    };
+    const auto is_on_own_joint = [&](const Projection &projection) {
+      return is_there(projection) &&
+             is_on_joint(candidate.slave,
+                         interface.surface[projection.face].joint);
+    };
+    const bool has_own =
+      std::any_of(outside.begin(), outside.end(), is_on_own_joint);
+    std::vector<Projection> there;
+    std::copy_if(outside.begin(),
+                 outside.end(),
+                 std::back_inserter(there),
+                 [&](const Projection &projection) {
+                   return has_own ? is_on_own_joint(projection)
+                                  : is_there(projection);
+                 });
     Vector<dim> mean{};
-    for (const Projection &projection : outside)
-      if (norm<dim>(difference<dim>(projection.offset, nearest->offset)) <
-          1e-9 * nearest->size)
-        mean = add<dim>(mean, 1., projection.normal);
+    for (const Projection &projection : there)
+      mean = add<dim>(mean, 1., projection.normal);
     mean                     = unit<dim>(mean);
     const double gap         = dot<dim>(nearest->offset, mean);
     const bool is_off        = distance > 1e-6 * nearest->size && gap > 0.;
     const Vector<dim> normal = is_off ? unit<dim>(nearest->offset) : mean;
-    if ((is_off || distance < 0.1 * nearest->size) &&
-        opposes(position, candidate.slave, normal) &&
-        can_stand_on(position, candidate.slave, normal))
-      add_contact(*nearest, normal, is_off ? distance : gap);
+    if ((!is_off && distance >= 0.1 * nearest->size) ||
+        !opposes(position, candidate.slave, normal) ||
+        !can_stand_on(position, candidate.slave, normal))
+      return;
+    const Projection *across = &there[0];
+    for (const Projection &projection : there)
+      if (dot<dim>(projection.normal, normal) >
+          dot<dim>(across->normal, normal) + 1e-9)
+        across = &projection;
+    add_contact(*across, normal, is_off ? distance : gap);
   }
 
 

@@ -47,6 +47,9 @@ namespace Keyblock
     /** Ridges nearer to parallel than this (sine) meet by their nodes. */
     constexpr double least_sine = 0.02;
 
+    /** Cosines nearer than this are equal but for rounding. */
+    constexpr double equal_alignment = 1e-9;
+
     bool
     is_inside(const double s)
     {
@@ -65,7 +68,7 @@ namespace Keyblock
       for (unsigned int d = 0; d < 3; ++d)
         position[3 * node + d] = place_of_node[node][d];
     std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> faces_at;
-    for (unsigned int f = 0; f < nodes_of_face.size(); ++f)
+    for (const unsigned int f : faces_with_area)
       for (const auto &[i, j] :
            {std::array<unsigned int, 2>{{0, 1}}, {{2, 3}}, {{0, 2}}, {{1, 3}}})
         faces_at[{{std::min(nodes_of_face[f][i], nodes_of_face[f][j]),
@@ -203,6 +206,32 @@ namespace Keyblock
 
 
   template <>
+  unsigned int
+  ContactSearch<3>::joint_between(const std::vector<double> &position,
+                                  const Ridge &master,
+                                  const Ridge &slave,
+                                  const Vector<3> &normal) const
+  {
+    unsigned int joint = none;
+    double most        = -1.;
+    for (const Ridge *ridge : {&master, &slave})
+      for (const unsigned int f : ridge->faces)
+        {
+          const double alignment =
+            std::abs(dot<3>(face_normal(position, f), normal));
+          if (interface.surface[f].joint != none &&
+              alignment > most + equal_alignment)
+            {
+              most  = alignment;
+              joint = interface.surface[f].joint;
+            }
+        }
+    return joint;
+  }
+
+
+
+  template <>
   void
   ContactSearch<3>::add_ridge_contacts(
     const std::vector<double> &position,
@@ -236,13 +265,11 @@ namespace Keyblock
                                difference<3>(Vector<3>{}, normal)))
           continue;
         SurfaceContact<3> contact;
-        contact.slave        = slave.surface_nodes[0];
-        contact.face         = master.faces[0];
-        contact.is_ridge     = true;
-        contact.joint        = interface.surface[master.faces[0]].joint;
-        contact.master_block = interface.surface[master.faces[0]].block;
-        if (contact.joint == none)
-          contact.joint = interface.surface[master.faces[1]].joint;
+        contact.slave         = slave.surface_nodes[0];
+        contact.face          = master.faces[0];
+        contact.is_ridge      = true;
+        contact.joint         = joint_between(position, master, slave, normal);
+        contact.master_block  = interface.surface[master.faces[0]].block;
         contact.point.n_nodes = 4;
         contact.point.node    = {{slave.surface_nodes[0],
                                   slave.surface_nodes[1],

@@ -2,7 +2,7 @@
 // Broad phase: which nodes may meet which faces.
 #include <keyblock/contact/geometry.h>
 #include <keyblock/contact/search.h>
-#include <keyblock/scene/joint_extent.h>
+#include <keyblock/contact/surface_places.h>
 
 #include <deal.II/numerics/rtree.h>
 
@@ -13,16 +13,6 @@ namespace Keyblock
 {
   namespace
   {
-    /** Joints with a smaller sine between them count as one. */
-    constexpr double least_sine = 1e-2;
-
-    /** Free faces with a larger sine between them make an edge. */
-    constexpr double least_sine_of_edge = 0.34;
-
-    /** Shifts of vertices onto their joints that count as the mesh's bend, over
-     * the size of a face [-]. */
-    constexpr double least_bend = 1e-4, farthest_bend = 2.;
-
     /** Sine of what an edge may dip below the plane on which its end stands. */
     constexpr double dip_of_edges = 0.34;
 
@@ -73,8 +63,23 @@ namespace Keyblock
         block_volume.push_back(blocks.blocks[b].volume);
         is_rigid_block.push_back(blocks.blocks[b].is_rigid);
       }
-    skin_width = 0.5 * smallest;
-    place_surface_nodes(mesh, scene);
+    skin_width                      = 0.5 * smallest;
+    const SurfacePlaces<dim> places = place_in_joint_planes<dim>(
+      mesh,
+      scene,
+      interface.surface,
+      {vertex_of_node, faces_of_node, nodes_of_face});
+    place_of_node = places.of_node;
+    for (unsigned int f = 0; f < nodes_of_face.size(); ++f)
+      if (!places.is_flat[f])
+        faces_with_area.push_back(f);
+    for (std::vector<unsigned int> &faces : faces_of_node)
+      faces.erase(std::remove_if(faces.begin(),
+                                 faces.end(),
+                                 [&](const unsigned int f) {
+                                   return places.is_flat[f];
+                                 }),
+                  faces.end());
     start_position.resize(dim * n_surface_nodes());
     for (unsigned int node = 0; node < n_surface_nodes(); ++node)
       for (int d = 0; d < dim; ++d)
@@ -91,65 +96,6 @@ namespace Keyblock
                                                     faces_of_node[node][0])) <
                                  cosine_of_sharp;
         is_sharp.push_back(is_edge);
-      }
-  }
-
-
-
-  template <int dim>
-  void
-  ContactSearch<dim>::place_surface_nodes(const Mesh<dim> &mesh,
-                                          const Scene<dim> &scene)
-  {
-    std::vector<JointExtent<dim>> planes;
-    planes.reserve(scene.joints.size());
-    for (const auto &joint : scene.joints)
-      planes.emplace_back(*joint);
-    for (unsigned int node = 0; node < n_surface_nodes(); ++node)
-      {
-        const Point<dim> &vertex = mesh.vertices[vertex_of_node[node]];
-        Point<dim> place         = vertex;
-        double size              = 0.;
-        std::vector<Tensor<1, dim>> used;
-        std::vector<unsigned int> joints;
-        // free faces stay where they are
-        for (const unsigned int f : faces_of_node[node])
-          if (interface.surface[f].joint == none)
-            {
-              const SurfaceFace<dim> &face = interface.surface[f];
-              const Tensor<1, dim> area =
-                mesh.face_area_vector(face.cell, face.face);
-              Tensor<1, dim> n = area / area.norm();
-              for (const auto &other : used)
-                n -= (n * other) * other;
-              if (used.size() < dim && n.norm() > least_sine_of_edge)
-                used.push_back(n / n.norm());
-            }
-        for (const unsigned int f : faces_of_node[node])
-          {
-            const SurfaceFace<dim> &face = interface.surface[f];
-            size                         = std::max(size,
-                            mesh.vertices[face.vertices[0]].distance(
-                              mesh.vertices[face.vertices[1]]));
-            if (face.joint == none ||
-                std::find(joints.begin(), joints.end(), face.joint) !=
-                  joints.end())
-              continue;
-            joints.push_back(face.joint);
-            Tensor<1, dim> way = planes[face.joint].normal;
-            for (const auto &n : used)
-              way -= (way * n) * n;
-            if (used.size() == dim || way.norm() < least_sine)
-              continue;
-            place -=
-              planes[face.joint].distance(place) / way.norm_square() * way;
-            used.push_back(way / way.norm());
-          }
-        // rounding is no bend, and planes that meet far away do not meet here
-        const double shift = place.distance(vertex);
-        place_of_node.push_back(
-          shift > least_bend * size && shift < farthest_bend * size ? place
-                                                                    : vertex);
       }
   }
 
@@ -345,7 +291,7 @@ namespace Keyblock
     const std::vector<bool> &has_changed)
   {
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
-    for (unsigned int f = 0; f < nodes_of_face.size(); ++f)
+    for (const unsigned int f : faces_with_area)
       boxes.emplace_back(box_of(position, f, skin_width), f);
     const auto tree = dealii::pack_rtree(boxes);
 

@@ -141,9 +141,7 @@ namespace Keyblock
     std::vector<unsigned int> node_of_vertex;
     std::vector<unsigned int> block_of_node; ///< one of them, see is_on_block()
 
-    /** Where each surface node is at the start [m]: its vertex, but in the
-     * planes of the joints of its faces, which the mesh may have bent. So bent
-     * faces do not interlock. */
+    /** Where each is at the start [m], see place_in_joint_planes(). */
     std::vector<Point<dim>> place_of_node;
 
     /** Surface nodes of each surface face, outward by the right-hand rule. */
@@ -183,8 +181,6 @@ namespace Keyblock
       double largest_overlap; ///< as in CandidateFace [m]
     };
 
-    void place_surface_nodes(const Mesh<dim> &mesh, const Scene<dim> &scene);
-
     void find_ridges();
 
     void search_ridges(
@@ -194,6 +190,13 @@ namespace Keyblock
     /** Overlap beyond which crossing ridges are no contact [m]: less for such
      * as lay beyond each other from the start. */
     double largest_overlap_of(const Ridge &master, const Ridge &slave) const;
+
+    /** The joint that ridges meet on: of those of their faces the one whose
+     * face is most nearly across @p normal; `none` if there is none. */
+    unsigned int joint_between(const std::vector<double> &position,
+                               const Ridge &master,
+                               const Ridge &slave,
+                               const Vector<dim> &normal) const;
 
     void add_ridge_contacts(const std::vector<double> &position,
                             const double reach,
@@ -282,6 +285,10 @@ namespace Keyblock
                         const unsigned int node,
                         const std::vector<unsigned int> &faces) const;
 
+    /** Whether a surface node is on a face of @p joint; not if that is `none`.
+     */
+    bool is_on_joint(const unsigned int node, const unsigned int joint) const;
+
     bool opposes(const std::vector<double> &position,
                  const unsigned int slave,
                  const Vector<dim> &normal) const;
@@ -292,7 +299,8 @@ namespace Keyblock
     std::vector<bool> is_rigid_block;
     std::vector<bool> is_sharp;         ///< surface node on an edge or corner
     std::vector<double> start_position; ///< place_of_node, dim values each
-    std::vector<std::vector<unsigned int>> faces_of_node;
+    std::vector<unsigned int> faces_with_area;            ///< all but flat ones
+    std::vector<std::vector<unsigned int>> faces_of_node; ///< of those
     std::vector<Candidate> candidates;
     std::vector<Ridge> ridges;
     std::vector<RidgePair> ridge_pairs;
@@ -320,6 +328,12 @@ namespace Keyblock
   template <>
   double ContactSearch<3>::largest_overlap_of(const Ridge &master,
                                               const Ridge &slave) const;
+  template <>
+  unsigned int
+  ContactSearch<3>::joint_between(const std::vector<double> &position,
+                                  const Ridge &master,
+                                  const Ridge &slave,
+                                  const Vector<3> &normal) const;
   template <>
   void ContactSearch<3>::add_ridge_contacts(
     const std::vector<double> &position,
