@@ -5,33 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <numeric>
-#include <ostream>
 #include <set>
 
 namespace Keyblock
 {
-  std::string
-  to_string(const BlockClass block_class)
-  {
-    switch (block_class)
-      {
-        case BlockClass::attached:
-          return "attached";
-        case BlockClass::exposed:
-          return "exposed";
-        case BlockClass::hidden:
-          return "hidden";
-        case BlockClass::infinite:
-          return "infinite";
-        default:
-          return "rigid";
-      }
-  }
-
-
-
   template <int dim>
   std::vector<std::vector<signed char>>
   sign_code(const Mesh<dim> &mesh, const Scene<dim> &scene)
@@ -396,47 +374,12 @@ namespace Keyblock
 
 
 
-  template <int dim>
-  void
-  print_block_table(std::ostream &out,
-                    const Blocks<dim> &blocks,
-                    const Scene<dim> &scene)
-  {
-    out << "Blocks\n  id  class      removable  "
-        << (dim == 2 ? "area [m2]  " : "volume [m3]")
-        << "   weight [kN]  centroid [m]                 joints\n";
-    for (const auto &block : blocks.blocks)
-      {
-        out << std::setw(4) << block.id << "  " << std::left << std::setw(11)
-            << to_string(block.class_of_stage.back()) << std::setw(9)
-            << (block.is_removable ? "yes" : "no") << std::right
-            << std::setprecision(6) << std::setw(12) << block.volume
-            << std::setw(13) << block.mass * 9.81e-3 << "  (";
-        for (unsigned int d = 0; d < dim; ++d)
-          out << (d ? ", " : "") << std::setprecision(4) << block.centroid[d];
-        out << ")  ";
-        for (const auto &[joint, area] : block.joint_area)
-          out << scene.joints[joint]->name << ' ';
-        if (block.exact.is_known &&
-            std::abs(block.exact.volume - block.volume) > 1e-9 * block.volume)
-          out << " (exactly " << std::setprecision(6) << block.exact.volume
-              << (dim == 2 ? " m2)" : " m3)");
-        if (block.exposed_stage != none && is_too_coarse(block, scene))
-          out << " (only " << std::setprecision(2) << block.cells_across()
-              << " cells across)";
-        out << '\n';
-      }
-  }
-
 #define INSTANTIATE(dim)                                                       \
   template struct Blocks<dim>;                                                 \
   template std::vector<std::vector<signed char>> sign_code(                    \
     const Mesh<dim> &, const Scene<dim> &);                                    \
   template Blocks<dim> find_blocks(const Mesh<dim> &, const Scene<dim> &);     \
-  template bool is_removable(const std::vector<Tensor<1, dim>> &);             \
-  template void print_block_table(std::ostream &,                              \
-                                  const Blocks<dim> &,                         \
-                                  const Scene<dim> &);
+  template bool is_removable(const std::vector<Tensor<1, dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

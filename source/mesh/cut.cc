@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Cells of any shape: taken from Gmsh, cut into quadrilaterals and hexahedra.
+// Cells of any shape, cut into quadrilaterals and hexahedra.
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
-#include <gmsh.h>
 #include <keyblock/base/errors.h>
 #include <keyblock/mesh/cut.h>
+#include <keyblock/mesh/side_check.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
-#include <cstdlib>
-#include <exception>
 #include <map>
 #include <sstream>
-#include <tuple>
-#include <unordered_map>
 
 namespace Keyblock
 {
@@ -25,49 +20,6 @@ namespace Keyblock
 
     /** Below this a cell counts as flat or folded [-]. */
     constexpr double least_scaled_jacobian = 1e-8;
-
-    /** Elements of the current Gmsh model, their corners being node tags. */
-    struct TaggedElements
-    {
-      std::vector<std::vector<std::size_t>> corners;
-      std::vector<unsigned int> ids;
-    };
-
-    TaggedElements
-    get_elements(const int dimension)
-    {
-      TaggedElements result;
-      gmsh::vectorpair entities;
-      gmsh::model::getEntities(entities, dimension);
-      for (const auto &[entity_dimension, entity] : entities)
-        {
-          std::vector<int> groups;
-          gmsh::model::getPhysicalGroupsForEntity(entity_dimension,
-                                                  entity,
-                                                  groups);
-          const unsigned int id = groups.empty() ? 0 : std::abs(groups.front());
-
-          std::vector<int> types;
-          std::vector<std::vector<std::size_t>> elements, nodes;
-          gmsh::model::mesh::getElements(
-            types, elements, nodes, entity_dimension, entity);
-          for (unsigned int t = 0; t < types.size(); ++t)
-            {
-              std::string name;
-              std::vector<double> reference_nodes;
-              int d, order, n_nodes, n_corners;
-              gmsh::model::mesh::getElementProperties(
-                types[t], name, d, order, n_nodes, reference_nodes, n_corners);
-              for (auto node = nodes[t].begin(); node != nodes[t].end();
-                   node += n_nodes)
-                {
-                  result.corners.emplace_back(node, node + n_corners);
-                  result.ids.push_back(id);
-                }
-            }
-        }
-      return result;
-    }
 
     /** Corners of each facet (2D: edge, 3D: face) of a cell, by the number of
      * its corners; empty for a shape that cannot be cut. */
@@ -312,72 +264,6 @@ namespace Keyblock
         }
     }
 
-    /** A face as one of its cells sees it. */
-    template <int dim>
-    struct Side
-    {
-      typename Mesh<dim>::FaceVertices sorted_vertices;
-      bool is_right_handed;
-      unsigned int cell;
-    };
-
-    /** Whether the vertices of a face, from the smallest to the smaller of its
-     * neighbours, turn clockwise around the normal that points out of the cell
-     * (in 2D: whether they are passed clockwise). Cells on the two sides of a
-     * face answer differently. */
-    template <int dim>
-    Side<dim>
-    side_of_face(const Mesh<dim> &mesh,
-                 const unsigned int c,
-                 const unsigned int face)
-    {
-      auto vertices = mesh.face_vertices(c, face);
-      const bool is_outward =
-        (dim == 2) ? (face == 1 || face == 2) : (face % 2 == 1);
-      bool is_ascending = vertices[0] < vertices[1];
-      if (dim == 3)
-        {
-          std::swap(vertices[2], vertices.back());
-          const unsigned int i =
-            std::min_element(vertices.begin(), vertices.end()) -
-            vertices.begin();
-          is_ascending = vertices[(i + 1) % 4] < vertices[(i + 3) % 4];
-        }
-      std::sort(vertices.begin(), vertices.end());
-      return {vertices, is_ascending == is_outward, c};
-    }
-
-    /** Mirroring must not have hidden cells that lie on top of each other. */
-    template <int dim>
-    void
-    check_sides(const Mesh<dim> &mesh,
-                const std::string &origin,
-                const std::string &remedy)
-    {
-      std::vector<Side<dim>> sides;
-      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-        for (unsigned int face = 0; face < Mesh<dim>::n_cell_faces; ++face)
-          sides.push_back(side_of_face(mesh, c, face));
-      std::sort(sides.begin(), sides.end(), [](const auto &a, const auto &b) {
-        return std::tie(a.sorted_vertices, a.is_right_handed) <
-               std::tie(b.sorted_vertices, b.is_right_handed);
-      });
-      const auto twice =
-        std::adjacent_find(sides.begin(),
-                           sides.end(),
-                           [](const auto &a, const auto &b) {
-                             return a.sorted_vertices == b.sorted_vertices &&
-                                    a.is_right_handed == b.is_right_handed;
-                           });
-      if (twice == sides.end())
-        return;
-      std::ostringstream text;
-      text << origin << " has two cells on the same side of a face, at ("
-           << mesh.cell_center(twice->cell) << ") and ("
-           << mesh.cell_center((twice + 1)->cell) << ") m; " << remedy << ".";
-      AssertThrow(false, InputError(text.str()));
-    }
-
     /** One refinement of inconsistently ordered quadrilaterals loses area. */
     void
     order_cells(Mesh<2> &mesh)
@@ -396,124 +282,6 @@ namespace Keyblock
     order_cells(Mesh<3> &)
     {}
   } // namespace
-
-
-
-  GmshSession::GmshSession()
-  {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0.);
-    gmsh::option::setNumber("General.NumThreads", 1.);
-    gmsh::option::setNumber("Mesh.MaxNumThreads1D", 1.);
-    gmsh::option::setNumber("Mesh.MaxNumThreads2D", 1.);
-    gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1.);
-  }
-
-
-
-  GmshSession::~GmshSession()
-  {
-    gmsh::finalize();
-  }
-
-
-
-  std::string
-  reason_of_failure(const std::function<void()> &action)
-  {
-    std::string reason;
-    try
-      {
-        action();
-        return "";
-      }
-    catch (const InputError &error)
-      {
-        reason = error.message;
-      }
-    catch (const std::bad_alloc &)
-      {
-        reason = "there is not enough memory for it";
-      }
-    catch (const std::exception &exception)
-      {
-        reason = exception.what();
-      }
-    catch (const std::string &message)
-      {
-        reason = message;
-      }
-    catch (...)
-      {
-        // OpenCASCADE's exceptions are of no standard type
-        reason = "";
-      }
-    // one sentence, whatever a file makes others quote
-    for (char &letter : reason)
-      if (std::iscntrl(static_cast<unsigned char>(letter)))
-        letter = ' ';
-    return reason.empty() ? "unknown reason" : reason;
-  }
-
-
-
-  template <int dim>
-  MixedMesh
-  read_gmsh_model()
-  {
-    std::unordered_map<std::size_t, unsigned int> vertex_of_tag;
-    return read_gmsh_model<dim>(vertex_of_tag);
-  }
-
-
-
-  template <int dim>
-  MixedMesh
-  read_gmsh_model(std::unordered_map<std::size_t, unsigned int> &vertex_of_tag)
-  {
-    std::vector<std::size_t> tags;
-    std::vector<double> coordinates, parameters;
-    gmsh::model::mesh::getNodes(
-      tags, coordinates, parameters, -1, -1, false, false);
-    std::unordered_map<std::size_t, std::size_t> node_of_tag;
-    for (std::size_t i = 0; i < tags.size(); ++i)
-      node_of_tag[tags[i]] = i;
-
-    MixedMesh mixed;
-    const TaggedElements cells = get_elements(dim);
-    for (std::size_t c = 0; c < cells.ids.size(); ++c)
-      {
-        mixed.cells.push_back({{}, cells.ids[c]});
-        for (const std::size_t tag : cells.corners[c])
-          {
-            const auto [entry, is_new] =
-              vertex_of_tag.try_emplace(tag, mixed.vertices.size());
-            if (is_new)
-              {
-                const auto node = node_of_tag.find(tag);
-                if (node == node_of_tag.end())
-                  throw std::runtime_error(
-                    "an element names a node that does not exist");
-                const double *x = &coordinates.at(3 * node->second);
-                mixed.vertices.emplace_back(x[0], x[1], x[2]);
-              }
-            mixed.cells.back().vertices.push_back(entry->second);
-          }
-      }
-
-    const TaggedElements faces = get_elements(dim - 1);
-    for (std::size_t f = 0; f < faces.ids.size(); ++f)
-      {
-        MixedMesh::Element face{{}, faces.ids[f]};
-        for (const std::size_t tag : faces.corners[f])
-          if (const auto found = vertex_of_tag.find(tag);
-              found != vertex_of_tag.end())
-            face.vertices.push_back(found->second);
-        if (face.id != 0 && face.vertices.size() == faces.corners[f].size())
-          mixed.faces.push_back(face);
-      }
-    return mixed;
-  }
 
 
 
@@ -565,12 +333,6 @@ namespace Keyblock
     return mesh;
   }
 
-  template MixedMesh
-  read_gmsh_model<2>(std::unordered_map<std::size_t, unsigned int> &);
-  template MixedMesh
-  read_gmsh_model<3>(std::unordered_map<std::size_t, unsigned int> &);
-  template MixedMesh read_gmsh_model<2>();
-  template MixedMesh read_gmsh_model<3>();
   template Mesh<2>
   cut_mesh(const MixedMesh &, const std::string &, const std::string &);
   template Mesh<3>

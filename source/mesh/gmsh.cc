@@ -8,6 +8,7 @@
 #include <keyblock/mesh/gmsh_model.h>
 #include <keyblock/mesh/improvement.h>
 #include <keyblock/mesh/joint_cut.h>
+#include <keyblock/mesh/marked_mesh.h>
 #include <keyblock/mesh/size.h>
 #include <keyblock/mesh/size_limit.h>
 #include <keyblock/scene/domain_outline.h>
@@ -27,13 +28,6 @@ namespace Keyblock
   namespace
   {
     using gmsh::vectorpair;
-
-    /** Wanted edges of simplices over the size of the cells they are cut into:
-     * the square root of the area of a third of a regular triangle is 0.38 of
-     * its edge; the cube root of the volume of a quarter of a regular
-     * tetrahedron 0.31, and Gmsh's are not regular. */
-    template <int dim>
-    constexpr double simplex_coarsening = (dim == 2) ? 2.6 : 3.;
 
     /** The same for Gmsh's quadrilaterals, which it halves. */
     constexpr double quadrilateral_coarsening = 2.;
@@ -114,16 +108,6 @@ namespace Keyblock
     }
 
 
-    template <int dim>
-    Point<dim>
-    in_model(const Point<3> &p)
-    {
-      Point<dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = p[d];
-      return result;
-    }
-
     /** Ask for the sizes of the section Mesh, no others, times @p coarsening.
      */
     template <int dim>
@@ -156,245 +140,6 @@ namespace Keyblock
       return MeshSize<dim>(scene,
                            std::max({sides[0], sides[1], sides[2]}),
                            demands);
-    }
-
-    /** Gmsh's elements with what they lie on. */
-    template <int dim>
-    struct MarkedMesh
-    {
-      MixedMesh mixed;
-      std::vector<Surface<dim>> surfaces; ///< first those of the joints
-
-      /** Vertices at points of the model and, in 3D, on the rims of joints. */
-      std::vector<unsigned int> corners;
-    };
-
-    /** Line, plane or circle through an element of an outline. */
-    template <int dim>
-    Surface<dim>
-    surface_through(const std::vector<Point<dim>> &element,
-                    const bool is_circle,
-                    const Scene<dim> &scene)
-    {
-      Surface<dim> surface;
-      surface.point = element[0];
-      if constexpr (dim == 2)
-        {
-          surface.normal = cross_product_2d(element[1] - element[0]);
-          if (is_circle)
-            for (const auto &excavation : scene.excavations)
-              if (excavation->shape == ExcavationShape::circle &&
-                  std::abs(depth_inside(*excavation, element[0])) +
-                      std::abs(depth_inside(*excavation, element[1])) <
-                    1e-6 * excavation->radius)
-                {
-                  surface.point  = excavation->center;
-                  surface.radius = excavation->radius;
-                }
-        }
-      else
-        surface.normal =
-          cross_product_3d(element[1] - element[0], element[2] - element[0]);
-      surface.normal /= surface.normal.norm();
-      return surface;
-    }
-
-    /** Reads Gmsh's current mesh. */
-    template <int dim>
-    class Reader
-    {
-    public:
-      Reader(const GmshModel<dim> &model, const Scene<dim> &scene)
-        : model(model)
-        , scene(scene)
-      {}
-
-      MarkedMesh<dim>
-      read()
-      {
-        result.mixed = read_gmsh_model<dim>(vertex_of_tag);
-        if (!model.joints.empty())
-          for (unsigned int j = 0; j < scene.joints.size(); ++j)
-            {
-              const JointExtent<dim> extent(*scene.joints[j]);
-              result.surfaces.push_back({extent.origin, extent.normal, 0., j});
-              for (const auto &[dimension, tag] : model.joints[j])
-                joints_of_entity[tag].push_back(j);
-            }
-        vectorpair entities;
-        gmsh::model::getEntities(entities, dim - 1);
-        for (const auto &[dimension, tag] : entities)
-          read_outline(tag);
-        list_corners();
-        return result;
-      }
-
-    private:
-      void
-      read_outline(const int tag)
-      {
-        std::vector<int> types;
-        std::vector<std::vector<std::size_t>> elements, nodes;
-        gmsh::model::mesh::getElements(types, elements, nodes, dim - 1, tag);
-        std::string type;
-        gmsh::model::getType(dim - 1, tag, type);
-        const auto joints = joints_of_entity.find(tag);
-        bool is_new       = (joints == joints_of_entity.end());
-        for (unsigned int t = 0; t < types.size(); ++t)
-          for (std::size_t i = 0; i + dim <= nodes[t].size(); i += dim)
-            {
-              MixedMesh::Element face;
-              for (unsigned int k = 0; k < dim; ++k)
-                {
-                  const auto found = vertex_of_tag.find(nodes[t][i + k]);
-                  if (found != vertex_of_tag.end())
-                    face.vertices.push_back(found->second);
-                }
-              if (face.vertices.size() != dim)
-                continue;
-              std::vector<Point<dim>> places;
-              for (const unsigned int v : face.vertices)
-                places.push_back(in_model<dim>(result.mixed.vertices[v]));
-              if (is_new)
-                {
-                  result.surfaces.push_back(
-                    surface_through<dim>(places, type == "Circle", scene));
-                  is_new = false;
-                }
-              if (joints == joints_of_entity.end())
-                mark(face, result.surfaces.size() - 1, places);
-              else
-                for (const unsigned int j : joints->second)
-                  mark(face, j, places);
-            }
-      }
-
-      /** The plus side is where the surface's normal points to. */
-      void
-      mark(MixedMesh::Element face,
-           const unsigned int surface,
-           const std::vector<Point<dim>> &places)
-      {
-        Tensor<1, dim> left; // or the right-hand normal
-        if constexpr (dim == 2)
-          left = -cross_product_2d(places[1] - places[0]);
-        else
-          left = cross_product_3d(places[1] - places[0], places[2] - places[0]);
-        if (left * result.surfaces[surface].normal < 0.)
-          std::swap(face.vertices[0], face.vertices[1]);
-        face.id = surface;
-        result.mixed.marked_faces.push_back(face);
-      }
-
-      void
-      list_corners()
-      {
-        for (int dimension = 0; dimension < dim - 1; ++dimension)
-          {
-            vectorpair entities;
-            gmsh::model::getEntities(entities, dimension);
-            for (const auto &[d, tag] : entities)
-              if (d == 0 || bounds_one_surface(tag))
-                {
-                  std::vector<std::size_t> tags;
-                  std::vector<double> coordinates, parameters;
-                  gmsh::model::mesh::getNodes(
-                    tags, coordinates, parameters, d, tag);
-                  for (const std::size_t node : tags)
-                    if (vertex_of_tag.count(node) > 0)
-                      result.corners.push_back(vertex_of_tag.at(node));
-                }
-          }
-      }
-
-      /** Whether no second surface keeps the nodes of a curve in place. */
-      static bool
-      bounds_one_surface(const int tag)
-      {
-        std::vector<int> surfaces, lower;
-        gmsh::model::getAdjacencies(1, tag, surfaces, lower);
-        return surfaces.size() < 2;
-      }
-
-      const GmshModel<dim> &model;
-      const Scene<dim> &scene;
-      MarkedMesh<dim> result;
-      std::unordered_map<std::size_t, unsigned int> vertex_of_tag;
-      std::map<int, std::vector<unsigned int>> joints_of_entity;
-    };
-
-    /** Triangles or tetrahedra ready to be cut or mended. */
-    template <int dim>
-    SimplexMesh<dim>
-    make_simplex_mesh(const MarkedMesh<dim> &marked, const MeshSize<dim> &size)
-    {
-      SimplexMesh<dim> mesh;
-      mesh.surfaces = marked.surfaces;
-      for (const Point<3> &vertex : marked.mixed.vertices)
-        {
-          const Point<dim> p = in_model<dim>(vertex);
-          mesh.add_vertex(p, simplex_coarsening<dim> * size(p));
-        }
-      for (const unsigned int corner : marked.corners)
-        mesh.is_fixed[corner] = true;
-      for (const MixedMesh::Element &element : marked.mixed.cells)
-        {
-          typename SimplexMesh<dim>::CellVertices cell;
-          std::copy(element.vertices.begin(),
-                    element.vertices.end(),
-                    cell.begin());
-          if (mesh.volume(cell) < 0.)
-            std::swap(cell[0], cell[1]);
-          mesh.add_cell(cell);
-        }
-      for (const MixedMesh::Element &face : marked.mixed.marked_faces)
-        {
-          typename SimplexMesh<dim>::Facet facet;
-          std::copy(face.vertices.begin(), face.vertices.end(), facet.begin());
-          bool is_odd;
-          facet = mesh.sorted(facet, is_odd);
-          mesh.add_mark(facet, {face.id, !is_odd});
-        }
-      return mesh;
-    }
-
-    /** The live cells and marked facets of @p mesh. */
-    template <int dim>
-    MarkedMesh<dim>
-    to_marked_mesh(const SimplexMesh<dim> &mesh)
-    {
-      MarkedMesh<dim> result;
-      result.surfaces = mesh.surfaces;
-      std::vector<unsigned int> number(mesh.vertices.size(), no_index);
-      for (const auto &cell : mesh.cells)
-        if (cell.is_alive)
-          {
-            MixedMesh::Element element{{}, 0};
-            for (const unsigned int v : cell.vertices)
-              {
-                if (number[v] == no_index)
-                  {
-                    number[v] = result.mixed.vertices.size();
-                    Point<3> p;
-                    for (unsigned int d = 0; d < dim; ++d)
-                      p[d] = mesh.vertices[v][d];
-                    result.mixed.vertices.push_back(p);
-                  }
-                element.vertices.push_back(number[v]);
-              }
-            result.mixed.cells.push_back(element);
-          }
-      for (const auto &facet : mesh.marked_facets())
-        for (const auto &mark : mesh.marks.at(facet))
-          {
-            MixedMesh::Element face{{}, mark.surface};
-            for (const unsigned int v : facet)
-              face.vertices.push_back(number[v]);
-            if (!mark.plus_is_positive)
-              std::swap(face.vertices[0], face.vertices[1]);
-            result.mixed.marked_faces.push_back(face);
-          }
-      return result;
     }
 
     void
@@ -476,7 +221,7 @@ namespace Keyblock
         require_meshed(mesh_with_quadrilaterals());
       else
         mesh_volumes(size, must_be);
-      MarkedMesh<dim> marked = Reader<dim>(model, scene).read();
+      MarkedMesh<dim> marked = read_marked_mesh(model, scene);
       if (dim == 2)
         return marked;
       SimplexMesh<dim> mesh = make_simplex_mesh(marked, size);
@@ -500,114 +245,10 @@ namespace Keyblock
       else
         mesh_volumes(size, true);
       SimplexMesh<dim> mesh =
-        make_simplex_mesh(Reader<dim>(model, scene).read(), size);
+        make_simplex_mesh(read_marked_mesh(model, scene), size);
       report =
         cut_joints(mesh, scene, scene.meshing.snap, simplex_coarsening<dim>);
       return to_marked_mesh(mesh);
-    }
-
-    /** Put the new vertices in the middle of chords onto their circles, unless
-     * that turns a thin cell beside them bad. */
-    template <int dim>
-    void
-    bend_outlines(Mesh<dim> &mesh)
-    {
-      constexpr double least_jacobian = 0.05;
-      std::map<unsigned int, Point<dim>> straight;
-      for (const auto &face : mesh.marked_faces)
-        if (mesh.surfaces[face.surface].radius > 0.)
-          for (const unsigned int v : face.vertices)
-            {
-              const Surface<dim> &circle = mesh.surfaces[face.surface];
-              const double distance      = circle.distance(mesh.vertices[v]);
-              if (std::abs(distance) < 1e-12 * circle.radius)
-                continue;
-              straight[v] = mesh.vertices[v];
-              mesh.vertices[v] -= distance * circle.normal_at(mesh.vertices[v]);
-            }
-      bool has_changed = !straight.empty();
-      while (has_changed)
-        {
-          has_changed = false;
-          for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-            for (const unsigned int v : mesh.cells[c])
-              {
-                const auto entry = straight.find(v);
-                if (entry != straight.end() &&
-                    mesh.scaled_jacobian(c) < least_jacobian)
-                  {
-                    mesh.vertices[v] = entry->second;
-                    straight.erase(entry);
-                    has_changed = true;
-                  }
-              }
-        }
-    }
-
-    /** Joints that lie on the same faces, the area they share, and the rock
-     * that was between them. */
-    template <int dim>
-    void
-    list_merged_joints(const MarkedMesh<dim> &marked,
-                       const Scene<dim> &scene,
-                       MeshReport<dim> &report)
-    {
-      std::map<std::vector<unsigned int>, std::vector<unsigned int>> on_face;
-      for (const MixedMesh::Element &face : marked.mixed.marked_faces)
-        if (marked.surfaces[face.id].is_joint())
-          {
-            std::vector<unsigned int> key = face.vertices;
-            std::sort(key.begin(), key.end());
-            on_face[key].push_back(face.id);
-          }
-      std::map<std::pair<unsigned int, unsigned int>, double> shared;
-      std::vector<double> area_of(scene.joints.size(), 0.);
-      for (auto &[vertices, surfaces] : on_face)
-        {
-          const auto joint_of = [&marked](const unsigned int s) {
-            return marked.surfaces[s].joint;
-          };
-          std::sort(surfaces.begin(),
-                    surfaces.end(),
-                    [&](const unsigned int s, const unsigned int t) {
-                      return rules(scene, joint_of(s), joint_of(t));
-                    });
-          const Point<3> &a = marked.mixed.vertices[vertices[0]],
-                         &b = marked.mixed.vertices[vertices[1]],
-                         &c = marked.mixed.vertices[vertices.back()];
-          const double area = dim == 2
-                                ? a.distance(b)
-                                : 0.5 * cross_product_3d(b - a, c - a).norm();
-          for (const unsigned int s : surfaces)
-            area_of[joint_of(s)] += area;
-          if (surfaces.size() < 2)
-            continue;
-          Tensor<1, dim> sum;
-          for (const unsigned int v : vertices)
-            sum += in_model<dim>(marked.mixed.vertices[v]);
-          const Point<dim> center(sum / double(vertices.size()));
-          double low = 1e300, high = -1e300;
-          for (const unsigned int s : surfaces)
-            {
-              if (s != surfaces.front())
-                shared[{joint_of(surfaces.front()), joint_of(s)}] += area;
-              const double place =
-                marked.surfaces[s].distance(center) *
-                (marked.surfaces[s].normal *
-                       marked.surfaces[surfaces.front()].normal <
-                     0.
-                   ? -1.
-                   : 1.);
-              low  = std::min(low, place);
-              high = std::max(high, place);
-            }
-          report.lost_rock.push_back({center, high - low});
-        }
-      for (const auto &[pair, area] : shared)
-        report.merged.push_back({pair.first,
-                                 pair.second,
-                                 area,
-                                 area > (1. - 1e-9) * area_of[pair.second]});
     }
 
     /** Refuse a mesh that does not fit into memory before it is made. */

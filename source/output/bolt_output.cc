@@ -5,6 +5,8 @@
 #include <keyblock/output/bolt_output.h>
 #include <keyblock/output/patches.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -107,6 +109,29 @@ namespace Keyblock
     AssertThrow(is_written,
                 ComputationError("The file '" + folder + last +
                                  "' cannot be written; check free space."));
+  }
+
+
+  nlohmann::ordered_json
+  bolts_as_json(const std::vector<BoltFigures> &bolts)
+  {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const BoltFigures &bolt : bolts)
+      {
+        list.push_back({{"set", bolt.set},
+                        {"head", bolt.head},
+                        {"end", bolt.end},
+                        {"largest_axial_force", bolt.largest_axial_force},
+                        {"place_of_largest", bolt.place},
+                        {"plate_force", bolt.plate_force},
+                        {"largest_bond_slip", bolt.largest_slip},
+                        {"dowel_force", bolt.dowel_force},
+                        {"joints_crossed", bolt.n_crossings},
+                        {"is_broken", bolt.is_broken}});
+        if (!bolt.limit.empty())
+          list.back()["governed_by"] = bolt.limit;
+      }
+    return list;
   }
 
 #define INSTANTIATE(dim)                                                       \

@@ -3,14 +3,14 @@
 #include <deal.II/base/utilities.h>
 
 #include <keyblock/base/digest.h>
+#include <keyblock/output/bolt_output.h>
+#include <keyblock/output/factor_json.h>
 #include <keyblock/output/output.h>
 #include <keyblock/safety/block_theory.h>
 
 #include <keyblock_commit.h>
 
 #include <sys/resource.h>
-
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -21,8 +21,6 @@ namespace Keyblock
 {
   namespace
   {
-    using Json = nlohmann::ordered_json;
-
     /** Take numbers that are not finite out of @p json, and list their paths,
      * which begin with @p path. */
     void
@@ -50,16 +48,6 @@ namespace Keyblock
         }
     }
 
-    /** The factor of limit equilibrium, or that there is none that fails. */
-    void
-    put_limit_factor(const double factor, Json &json)
-    {
-      const bool is_stable = std::isinf(factor) && factor > 0.;
-      json["outcome"]      = is_stable ? "stable" : "factor";
-      if (!is_stable)
-        json["value"] = factor;
-    }
-
     template <int dim>
     Json
     list_of(const Point<dim> &point)
@@ -67,28 +55,6 @@ namespace Keyblock
       Json list = Json::array();
       for (unsigned int d = 0; d < dim; ++d)
         list.push_back(point[d]);
-      return list;
-    }
-
-    Json
-    bolts_as_json(const std::vector<BoltFigures> &bolts)
-    {
-      Json list = Json::array();
-      for (const BoltFigures &bolt : bolts)
-        {
-          list.push_back({{"set", bolt.set},
-                          {"head", bolt.head},
-                          {"end", bolt.end},
-                          {"largest_axial_force", bolt.largest_axial_force},
-                          {"place_of_largest", bolt.place},
-                          {"plate_force", bolt.plate_force},
-                          {"largest_bond_slip", bolt.largest_slip},
-                          {"dowel_force", bolt.dowel_force},
-                          {"joints_crossed", bolt.n_crossings},
-                          {"is_broken", bolt.is_broken}});
-          if (!bolt.limit.empty())
-            list.back()["governed_by"] = bolt.limit;
-        }
       return list;
     }
 
@@ -109,89 +75,6 @@ namespace Keyblock
       rusage usage;
       getrusage(RUSAGE_SELF, &usage);
       return 1024. * usage.ru_maxrss;
-    }
-
-    Json
-    trials_as_json(const std::vector<Trial> &trials)
-    {
-      Json list = Json::array();
-      for (const Trial &trial : trials)
-        list.push_back({{"factor", trial.factor},
-                        {"start", trial.start},
-                        {"of_group", trial.is_of_group},
-                        {"stable", trial.is_stable},
-                        {"undecided", trial.is_undecided},
-                        {"broken_bonds", trial.n_broken},
-                        {"phase", trial.phase},
-                        {"slip", trial.slip},
-                        {"velocity", trial.velocity},
-                        {"acceleration", trial.acceleration},
-                        {"unbalanced", trial.unbalanced},
-                        {"steps", trial.n_steps},
-                        {"seconds", trial.seconds},
-                        {"phase_1_seconds", trial.phase_1_seconds}});
-      return list;
-    }
-
-    /** The blocks that move together, and their factor. */
-    Json
-    group_as_json(const SafetyFactor &factor)
-    {
-      return {{"blocks", factor.group},
-              {"lower", factor.group_lower},
-              {"upper", factor.group_upper},
-              {"value", 0.5 * (factor.group_lower + factor.group_upper)}};
-    }
-
-    Json
-    strength_reduction_as_json(const SafetyFactor &factor)
-    {
-      Json json = {{"stage", factor.stage}, {"lower", factor.lower}};
-      if (factor.outcome != SafetyFactor::Outcome::clamped)
-        {
-          json["upper"] = factor.upper;
-          json["value"] = factor.value();
-        }
-      if (factor.undecided_upper > 0.)
-        {
-          json["undecided_lower"] = factor.undecided_lower;
-          json["undecided_upper"] = factor.undecided_upper;
-        }
-      json["outcome"]      = describe_outcome(factor);
-      json["failure_mode"] = factor.failure_mode;
-      if (!factor.group.empty())
-        json["group"] = group_as_json(factor);
-      json["trials"] = trials_as_json(factor.trials);
-      return json;
-    }
-
-    /** Factors of one block, in the order of the stages. */
-    void
-    put_factors(const std::vector<SafetyFactor> &factors,
-                const unsigned int block,
-                Json &json)
-    {
-      Json strength = Json::array(), limit = Json::array(),
-           ratio = Json::array();
-      for (const SafetyFactor &factor : factors)
-        {
-          if (factor.block != block)
-            continue;
-          strength.push_back(strength_reduction_as_json(factor));
-          Json cheap = {{"stage", factor.stage},
-                        {"mode", factor.limit_mode},
-                        {"remark", factor.limit_remark}};
-          put_limit_factor(factor.limit_factor, cheap);
-          limit.push_back(cheap);
-          ratio.push_back(
-            {{"stage", factor.stage}, {"value", factor.stress_ratio}});
-          json["failure_mode"] = factor.failure_mode;
-        }
-      if (strength.empty())
-        return;
-      json["safety_factor"]     = strength;
-      json["limit_equilibrium"] = limit;
-      json["stress_ratio"]      = ratio;
     }
 
     /** Areas by name of the joint. */

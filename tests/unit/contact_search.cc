@@ -5,12 +5,17 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <keyblock/contact/geometry.h>
 #include <keyblock/contact/search.h>
+#include <keyblock/contact/surface_places.h>
 #include <keyblock/safety/slip_record.h>
+#include <keyblock/scene/joint_extent.h>
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <random>
+#include <sstream>
 
 using namespace Keyblock;
 
@@ -83,6 +88,35 @@ namespace
         "\n  set Dip direction = " +
         std::to_string(60. + 120. * j + turn(random)) + "\n end\n";
     return text;
+  }
+
+  /** A plane, again 1 um above it, and two discs nearly along it: they have to
+   * be cut into the mesh, which bends them. */
+  std::string
+  bent_joints(std::mt19937 &random)
+  {
+    std::uniform_real_distribution<double> dip(20., 45.), turn(-20., 20.),
+      bend(-12., 12.), shift(-0.3, 0.3);
+    const double angle  = dip(random);
+    const double toward = 90. + turn(random);
+    std::ostringstream text;
+    text << " set Names = plane, again, one, two\n";
+    for (unsigned int j = 0; j < 4; ++j)
+      {
+        const double x = j < 2 ? 2. : 1. + (j - 2) * 2.;
+        text << " subsection "
+             << std::array<const char *, 4>{{"plane", "again", "one", "two"}}[j]
+             << "\n  set Dip = " << angle + (j < 2 ? 0. : bend(random))
+             << "\n  set Dip direction = " << toward << "\n  set Point = " << x
+             << ", 2, "
+             << 2. - (x - 2.) * std::tan(angle * dealii::numbers::PI / 180.) +
+                  (j == 1  ? 1e-6
+                   : j > 1 ? shift(random)
+                           : 0.)
+             << (j < 2 ? "\n end\n"
+                       : "\n  set Extent = disc\n  set Radius = 0.6\n end\n");
+      }
+    return text.str();
   }
 } // namespace
 
@@ -228,6 +262,66 @@ BOOST_AUTO_TEST_CASE(steady_slip_is_told_from_creep)
   BOOST_TEST(!is_steady([](const double n) { return std::sqrt(n); }));
   BOOST_TEST(
     !is_steady([](const double n) { return 1. - std::exp(-n / 800.); }));
+}
+
+BOOST_AUTO_TEST_CASE(bent_joints_are_placed_in_their_planes)
+{
+  std::mt19937 random(11);
+  unsigned int n_moved = 0, n_free_moved = 0;
+  for (unsigned int i = 0; i < 6; ++i)
+    {
+      const Set<3> set("bent", "4, 4, 4", bent_joints(random), 0.9);
+      const auto &surface = set.split.interface.surface;
+      std::vector<std::vector<unsigned int>> faces_of_node(
+        set.search->n_surface_nodes());
+      for (unsigned int f = 0; f < surface.size(); ++f)
+        for (const unsigned int node : set.search->nodes_of_face[f])
+          faces_of_node[node].push_back(f);
+      const SurfacePlaces<3> places = place_in_joint_planes<3>(
+        set.split.mesh,
+        set.scene,
+        surface,
+        {set.search->vertex_of_node, faces_of_node, set.search->nodes_of_face});
+
+      const JointExtent<3> plane(*set.scene.joints[0]);
+      std::map<std::array<double, 3>, Point<3>> place_of_vertex;
+      for (unsigned int node = 0; node < places.of_node.size(); ++node)
+        {
+          const Point<3> &vertex =
+            set.split.mesh.vertices[set.search->vertex_of_node[node]];
+          bool is_on_plane = false, is_on_joint = false;
+          for (const unsigned int f : faces_of_node[node])
+            {
+              is_on_plane = is_on_plane || surface[f].joint == 0;
+              is_on_joint = is_on_joint || surface[f].joint != none;
+            }
+          const double moved = places.of_node[node].distance(vertex);
+          n_moved += is_on_plane && moved > 1e-3;
+          n_free_moved += !is_on_joint && moved > 1e-3;
+          if (is_on_plane)
+            BOOST_TEST(std::abs(plane.distance(places.of_node[node])) < 1e-3);
+          // copies of a vertex stay together
+          const auto entry = place_of_vertex.emplace(
+            std::array<double, 3>{{vertex[0], vertex[1], vertex[2]}},
+            places.of_node[node]);
+          BOOST_TEST(entry.first->second.distance(places.of_node[node]) == 0.);
+        }
+      std::vector<double> at_vertices;
+      for (const unsigned int v : set.search->vertex_of_node)
+        for (unsigned int d = 0; d < 3; ++d)
+          at_vertices.push_back(set.split.mesh.vertices[v][d]);
+      unsigned int n_flat = 0;
+      for (unsigned int f = 0; f < surface.size(); ++f)
+        {
+          n_flat += places.is_flat[f];
+          if (surface[f].joint == none && !places.is_flat[f])
+            BOOST_TEST(dot<3>(set.search->face_normal(at_vertices, f),
+                              set.search->face_normal(set.position, f)) > 0.5);
+        }
+      BOOST_TEST(n_flat < 0.05 * surface.size());
+    }
+  BOOST_TEST(n_moved > 0u);
+  BOOST_TEST(n_free_moved > 0u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

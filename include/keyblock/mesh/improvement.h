@@ -48,6 +48,9 @@ namespace Keyblock
     void flatten(const double least_quality);
 
   private:
+    /** An operation counts as better if the quality rises by this factor. */
+    static constexpr double gain = 1.001;
+
     bool mend(const unsigned int cell);
 
     // by moving a vertex

@@ -2,6 +2,8 @@
 #ifndef keyblock_output_bolt_output_h
 #define keyblock_output_bolt_output_h
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <keyblock/step/bolts.h>
 
 namespace Keyblock
@@ -35,6 +37,9 @@ namespace Keyblock
   void write_bolts(const std::string &folder,
                    const std::vector<std::pair<double, std::string>> &records,
                    const std::vector<BoltReport<dim>> &reports);
+
+  /** They stand in summary.json so. */
+  nlohmann::ordered_json bolts_as_json(const std::vector<BoltFigures> &bolts);
 } // namespace Keyblock
 
 #endif

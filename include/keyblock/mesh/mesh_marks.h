@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_mesh_mesh_marks_h
+#define keyblock_mesh_mesh_marks_h
+
+#include <keyblock/mesh/mesh.h>
+
+// What make_mesh() marks in the generator's cells. All throw InputError where
+// the scene does not fit the mesh.
+namespace Keyblock
+{
+  /** Set the material of each cell: the last whose region holds it. */
+  template <int dim>
+  void mark_materials(Mesh<dim> &mesh, const Scene<dim> &scene);
+
+  /** Set the stage in which each cell is excavated, and by which excavation. */
+  template <int dim>
+  void mark_excavations(Mesh<dim> &mesh, const Scene<dim> &scene);
+
+  /** Refuse scenes in which nothing is left at some time that can deform. */
+  template <int dim>
+  void check_rock_is_left(const Mesh<dim> &mesh, const Scene<dim> &scene);
+
+  /** Set the joint on which each face of the cells lies, and on which side. */
+  template <int dim>
+  void mark_joints(Mesh<dim> &mesh, const Scene<dim> &scene);
+} // namespace Keyblock
+
+#endif

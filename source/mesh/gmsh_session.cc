@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Gmsh in this process, and the cells of its model.
+#include <gmsh.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/mesh/cut.h>
+
+#include <cctype>
+#include <cstddef>
+#include <cstdlib>
+#include <exception>
+#include <unordered_map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Elements of the current Gmsh model, their corners being node tags. */
+    struct TaggedElements
+    {
+      std::vector<std::vector<std::size_t>> corners;
+      std::vector<unsigned int> ids;
+    };
+
+    TaggedElements
+    get_elements(const int dimension)
+    {
+      TaggedElements result;
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, dimension);
+      for (const auto &[entity_dimension, entity] : entities)
+        {
+          std::vector<int> groups;
+          gmsh::model::getPhysicalGroupsForEntity(entity_dimension,
+                                                  entity,
+                                                  groups);
+          const unsigned int id = groups.empty() ? 0 : std::abs(groups.front());
+
+          std::vector<int> types;
+          std::vector<std::vector<std::size_t>> elements, nodes;
+          gmsh::model::mesh::getElements(
+            types, elements, nodes, entity_dimension, entity);
+          for (unsigned int t = 0; t < types.size(); ++t)
+            {
+              std::string name;
+              std::vector<double> reference_nodes;
+              int d, order, n_nodes, n_corners;
+              gmsh::model::mesh::getElementProperties(
+                types[t], name, d, order, n_nodes, reference_nodes, n_corners);
+              for (auto node = nodes[t].begin(); node != nodes[t].end();
+                   node += n_nodes)
+                {
+                  result.corners.emplace_back(node, node + n_corners);
+                  result.ids.push_back(id);
+                }
+            }
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  GmshSession::GmshSession()
+  {
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0.);
+    gmsh::option::setNumber("General.NumThreads", 1.);
+    gmsh::option::setNumber("Mesh.MaxNumThreads1D", 1.);
+    gmsh::option::setNumber("Mesh.MaxNumThreads2D", 1.);
+    gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1.);
+  }
+
+
+
+  GmshSession::~GmshSession()
+  {
+    gmsh::finalize();
+  }
+
+
+
+  std::string
+  reason_of_failure(const std::function<void()> &action)
+  {
+    std::string reason;
+    try
+      {
+        action();
+        return "";
+      }
+    catch (const InputError &error)
+      {
+        reason = error.message;
+      }
+    catch (const std::bad_alloc &)
+      {
+        reason = "there is not enough memory for it";
+      }
+    catch (const std::exception &exception)
+      {
+        reason = exception.what();
+      }
+    catch (const std::string &message)
+      {
+        reason = message;
+      }
+    catch (...)
+      {
+        // OpenCASCADE's exceptions are of no standard type
+        reason = "";
+      }
+    // one sentence, whatever a file makes others quote
+    for (char &letter : reason)
+      if (std::iscntrl(static_cast<unsigned char>(letter)))
+        letter = ' ';
+    return reason.empty() ? "unknown reason" : reason;
+  }
+
+
+
+  template <int dim>
+  MixedMesh
+  read_gmsh_model()
+  {
+    std::unordered_map<std::size_t, unsigned int> vertex_of_tag;
+    return read_gmsh_model<dim>(vertex_of_tag);
+  }
+
+
+
+  template <int dim>
+  MixedMesh
+  read_gmsh_model(std::unordered_map<std::size_t, unsigned int> &vertex_of_tag)
+  {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates, parameters;
+    gmsh::model::mesh::getNodes(
+      tags, coordinates, parameters, -1, -1, false, false);
+    std::unordered_map<std::size_t, std::size_t> node_of_tag;
+    for (std::size_t i = 0; i < tags.size(); ++i)
+      node_of_tag[tags[i]] = i;
+
+    MixedMesh mixed;
+    const TaggedElements cells = get_elements(dim);
+    for (std::size_t c = 0; c < cells.ids.size(); ++c)
+      {
+        mixed.cells.push_back({{}, cells.ids[c]});
+        for (const std::size_t tag : cells.corners[c])
+          {
+            const auto [entry, is_new] =
+              vertex_of_tag.try_emplace(tag, mixed.vertices.size());
+            if (is_new)
+              {
+                const auto node = node_of_tag.find(tag);
+                if (node == node_of_tag.end())
+                  throw std::runtime_error(
+                    "an element names a node that does not exist");
+                const double *x = &coordinates.at(3 * node->second);
+                mixed.vertices.emplace_back(x[0], x[1], x[2]);
+              }
+            mixed.cells.back().vertices.push_back(entry->second);
+          }
+      }
+
+    const TaggedElements faces = get_elements(dim - 1);
+    for (std::size_t f = 0; f < faces.ids.size(); ++f)
+      {
+        MixedMesh::Element face{{}, faces.ids[f]};
+        for (const std::size_t tag : faces.corners[f])
+          if (const auto found = vertex_of_tag.find(tag);
+              found != vertex_of_tag.end())
+            face.vertices.push_back(found->second);
+        if (face.id != 0 && face.vertices.size() == faces.corners[f].size())
+          mixed.faces.push_back(face);
+      }
+    return mixed;
+  }
+
+  template MixedMesh
+  read_gmsh_model<2>(std::unordered_map<std::size_t, unsigned int> &);
+  template MixedMesh
+  read_gmsh_model<3>(std::unordered_map<std::size_t, unsigned int> &);
+  template MixedMesh read_gmsh_model<2>();
+  template MixedMesh read_gmsh_model<3>();
+} // namespace Keyblock

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/output/factor_json.h>
+
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    Json
+    trials_as_json(const std::vector<Trial> &trials)
+    {
+      Json list = Json::array();
+      for (const Trial &trial : trials)
+        list.push_back({{"factor", trial.factor},
+                        {"start", trial.start},
+                        {"of_group", trial.is_of_group},
+                        {"stable", trial.is_stable},
+                        {"undecided", trial.is_undecided},
+                        {"broken_bonds", trial.n_broken},
+                        {"phase", trial.phase},
+                        {"slip", trial.slip},
+                        {"velocity", trial.velocity},
+                        {"acceleration", trial.acceleration},
+                        {"unbalanced", trial.unbalanced},
+                        {"steps", trial.n_steps},
+                        {"seconds", trial.seconds},
+                        {"phase_1_seconds", trial.phase_1_seconds}});
+      return list;
+    }
+
+    /** The blocks that move together, and their factor. */
+    Json
+    group_as_json(const SafetyFactor &factor)
+    {
+      return {{"blocks", factor.group},
+              {"lower", factor.group_lower},
+              {"upper", factor.group_upper},
+              {"value", 0.5 * (factor.group_lower + factor.group_upper)}};
+    }
+
+    Json
+    strength_reduction_as_json(const SafetyFactor &factor)
+    {
+      Json json = {{"stage", factor.stage}, {"lower", factor.lower}};
+      if (factor.outcome != SafetyFactor::Outcome::clamped)
+        {
+          json["upper"] = factor.upper;
+          json["value"] = factor.value();
+        }
+      if (factor.undecided_upper > 0.)
+        {
+          json["undecided_lower"] = factor.undecided_lower;
+          json["undecided_upper"] = factor.undecided_upper;
+        }
+      json["outcome"]      = describe_outcome(factor);
+      json["failure_mode"] = factor.failure_mode;
+      if (!factor.group.empty())
+        json["group"] = group_as_json(factor);
+      json["trials"] = trials_as_json(factor.trials);
+      return json;
+    }
+  } // namespace
+
+
+
+  void
+  put_limit_factor(const double factor, Json &json)
+  {
+    const bool is_stable = std::isinf(factor) && factor > 0.;
+    json["outcome"]      = is_stable ? "stable" : "factor";
+    if (!is_stable)
+      json["value"] = factor;
+  }
+
+
+
+  void
+  put_factors(const std::vector<SafetyFactor> &factors,
+              const unsigned int block,
+              Json &json)
+  {
+    Json strength = Json::array(), limit = Json::array(), ratio = Json::array();
+    for (const SafetyFactor &factor : factors)
+      {
+        if (factor.block != block)
+          continue;
+        strength.push_back(strength_reduction_as_json(factor));
+        Json cheap = {{"stage", factor.stage},
+                      {"mode", factor.limit_mode},
+                      {"remark", factor.limit_remark}};
+        put_limit_factor(factor.limit_factor, cheap);
+        limit.push_back(cheap);
+        ratio.push_back(
+          {{"stage", factor.stage}, {"value", factor.stress_ratio}});
+        json["failure_mode"] = factor.failure_mode;
+      }
+    if (strength.empty())
+      return;
+    json["safety_factor"]     = strength;
+    json["limit_equilibrium"] = limit;
+    json["stress_ratio"]      = ratio;
+  }
+} // namespace Keyblock

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a trial measures of a block, and the stage that its measures ask for.
+#include <keyblock/safety/strength_trial.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Way of another block, in the direction of the one that fails and over
+     * its way, from which on they move together [-]. */
+    constexpr double along_share = 0.5;
+  } // namespace
+
+
+
+  template <int dim>
+  typename StrengthTrials<dim>::Motion
+  StrengthTrials<dim>::measure(const unsigned int block) const
+  {
+    // resultant of everything but damping, loads, and size of contact forces
+    std::vector<double> sums(3 * dim + 2, 0.);
+    const Fields<dim> &fields = run.fields;
+    for (const unsigned int node : nodes_of_block[block])
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          sums[2 * dim + 2 + d] +=
+            fields.mass[node] * fields.velocity[dim * node + d];
+          sums[2 * dim + 1] += fields.mass[node] / dim;
+          const unsigned int i = dim * node + d;
+          sums[d] +=
+            fields.load[i] - fields.internal_force[i] + fields.contact_force[i];
+          sums[dim + d] += fields.load[i];
+          sums[2 * dim] += std::abs(fields.contact_force[i]);
+        }
+    communicator.sum_lists(sums);
+    double resultant = 0., weight = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        resultant += sums[d] * sums[d];
+        weight += sums[dim + d] * sums[dim + d];
+      }
+    Motion motion;
+    motion.slip = run.contact->report().mean_slip(block);
+    motion.load = std::max(std::sqrt(weight), 1e-3 * sums[2 * dim]);
+    motion.unbalanced =
+      motion.load > 0. ? std::sqrt(resultant) / motion.load : 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      motion.velocity[d] = sums[2 * dim + 2 + d] / sums[2 * dim + 1];
+    return motion;
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::n_across(const unsigned int block) const
+  {
+    const Block<dim> &b = blocks.blocks[block];
+    return std::max(4., b.size / std::pow(b.volume / b.n_cells, 1. / dim));
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  StrengthTrials<dim>::period_of(const unsigned int block) const
+  {
+    return std::ceil(4. * n_across(block) / scene.time_stepping.safety);
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::wave_speed(const unsigned int block) const
+  {
+    double speed = 0.;
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      if (split.block_of_cell[c] == block)
+        {
+          const Material<dim> &m = *scene.materials[split.mesh.material[c]];
+          speed =
+            std::max(speed,
+                     std::sqrt((m.lame_lambda() + 2. * m.shear_modulus()) /
+                               m.density));
+        }
+    return speed;
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::compression(const unsigned int block,
+                                   const double load) const
+  {
+    const Block<dim> &b = blocks.blocks[block];
+    double modulus      = 0.;
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      if (split.block_of_cell[c] == block)
+        {
+          const Material<dim> &m = *scene.materials[split.mesh.material[c]];
+          modulus = std::max(modulus, m.lame_lambda() + 2. * m.shear_modulus());
+        }
+    return load * b.size * b.size / (modulus * b.volume);
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::kinetic_energy(const unsigned int block) const
+  {
+    double energy = 0.;
+    for (const unsigned int node : nodes_of_block[block])
+      for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+        energy += 0.5 * run.fields.mass[node] * run.fields.velocity[i] *
+                  run.fields.velocity[i];
+    return communicator.sum(energy);
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::mass_in_use(const unsigned int block) const
+  {
+    double mass = 0.;
+    for (const unsigned int node : nodes_of_block[block])
+      mass += run.fields.mass[node];
+    return communicator.sum(mass);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  StrengthTrials<dim>::n_intact(const unsigned int block) const
+  {
+    unsigned int n = 0;
+    for (const JointSums<dim> &sums :
+         run.contact->report().sum_over_block(block))
+      n += sums.n_intact;
+    return n;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  StrengthTrials<dim>::list_blocks_along(const unsigned int block) const
+  {
+    // mean ways of the blocks in the second phase
+    const unsigned int n_blocks = blocks.blocks.size();
+    std::vector<double> sums((dim + 1) * n_blocks, 0.);
+    for (unsigned int b = 0; b < n_blocks; ++b)
+      for (const unsigned int node : nodes_of_block[b])
+        {
+          const double m = run.fields.mass[node];
+          for (unsigned int d = 0; d < dim; ++d)
+            sums[(dim + 1) * b + d] +=
+              m * (run.fields.displacement[dim * node + d] -
+                   displacement_before[dim * node + d]);
+          sums[(dim + 1) * b + dim] += m;
+        }
+    communicator.sum_lists(sums);
+    const auto way = [&](const unsigned int b) {
+      Vector<dim> mean{};
+      for (unsigned int d = 0; d < dim && sums[(dim + 1) * b + dim] > 0.; ++d)
+        mean[d] = sums[(dim + 1) * b + d] / sums[(dim + 1) * b + dim];
+      return mean;
+    };
+    const Vector<dim> own = way(block);
+    std::vector<unsigned int> along;
+    for (unsigned int b = 0; b < n_blocks; ++b)
+      if (b != block && !blocks.blocks[b].is_infinite &&
+          !blocks.blocks[b].is_rigid &&
+          dot<dim>(way(b), own) > along_share * dot<dim>(own, own))
+        along.push_back(b);
+    return along;
+  }
+
+
+
+  template <int dim>
+  std::string
+  StrengthTrials<dim>::name_failure(const unsigned int block) const
+  {
+    // a motion that varies over the block more than its mean is a rotation
+    std::vector<double> sums(dim + 2, 0.);
+    for (const unsigned int node : nodes_of_block[block])
+      {
+        const double m = run.fields.mass[node];
+        sums[0] += m;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double way = run.fields.displacement[dim * node + d] -
+                               displacement_before[dim * node + d];
+            sums[1] += m * way * way;
+            sums[2 + d] += m * way;
+          }
+      }
+    communicator.sum_lists(sums);
+    double mean = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      mean += sums[2 + d] * sums[2 + d];
+    mean /= sums[0];
+    const bool rotates = mean < 0.75 * sums[1];
+
+    const double total =
+      std::accumulate(joint_force.begin(), joint_force.end(), 0.);
+    std::string names;
+    for (unsigned int j = 0; j < joint_force.size(); ++j)
+      if (joint_force[j] > 0.01 * total && joint_force[j] > 0.)
+        names += (names.empty() ? "" : "/") + (j < scene.joints.size()
+                                                 ? scene.joints[j]->name
+                                                 : std::string("a free face"));
+    if (names.empty())
+      return "falling";
+    return (rotates ? "rotating on " : "sliding on ") + names;
+  }
+
+
+
+  template <int dim>
+  Stage
+  StrengthTrials<dim>::quiet_stage(const unsigned int block) const
+  {
+    Stage quiet;
+    quiet.kind          = StageKind::quasi_static;
+    quiet.local_damping = scene.safety.local_damping;
+    quiet.damping_ratio = scene.safety.damping_ratio;
+    // critical for the block's lowest mode: 2 omega
+    run.conditions.scale_density(true);
+    quiet.mass_damping = scene.safety.mass_damping * dealii::numbers::PI /
+                         (2. * n_across(block)) *
+                         run.conditions.stable_step.frequency;
+    return quiet;
+  }
+
+  template StrengthTrials<2>::Motion
+  StrengthTrials<2>::measure(const unsigned int) const;
+  template StrengthTrials<3>::Motion
+  StrengthTrials<3>::measure(const unsigned int) const;
+  template double StrengthTrials<2>::n_across(const unsigned int) const;
+  template double StrengthTrials<3>::n_across(const unsigned int) const;
+  template unsigned int StrengthTrials<2>::period_of(const unsigned int) const;
+  template unsigned int StrengthTrials<3>::period_of(const unsigned int) const;
+  template double StrengthTrials<2>::wave_speed(const unsigned int) const;
+  template double StrengthTrials<3>::wave_speed(const unsigned int) const;
+  template double StrengthTrials<2>::compression(const unsigned int,
+                                                 const double) const;
+  template double StrengthTrials<3>::compression(const unsigned int,
+                                                 const double) const;
+  template double StrengthTrials<2>::kinetic_energy(const unsigned int) const;
+  template double StrengthTrials<3>::kinetic_energy(const unsigned int) const;
+  template double StrengthTrials<2>::mass_in_use(const unsigned int) const;
+  template double StrengthTrials<3>::mass_in_use(const unsigned int) const;
+  template unsigned int StrengthTrials<2>::n_intact(const unsigned int) const;
+  template unsigned int StrengthTrials<3>::n_intact(const unsigned int) const;
+  template std::vector<unsigned int>
+  StrengthTrials<2>::list_blocks_along(const unsigned int) const;
+  template std::vector<unsigned int>
+  StrengthTrials<3>::list_blocks_along(const unsigned int) const;
+  template std::string
+  StrengthTrials<2>::name_failure(const unsigned int) const;
+  template std::string
+  StrengthTrials<3>::name_failure(const unsigned int) const;
+  template Stage StrengthTrials<2>::quiet_stage(const unsigned int) const;
+  template Stage StrengthTrials<3>::quiet_stage(const unsigned int) const;
+} // namespace Keyblock
