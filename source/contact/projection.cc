@@ -120,16 +120,14 @@ namespace Keyblock
 
 
   template <int dim>
-  void
-  ContactSearch<dim>::add_contacts(
-    const std::vector<double> &position,
-    const double reach,
-    const double travelled,
-    const Candidate &candidate,
-    std::vector<SurfaceContact<dim>> &contacts) const
+  std::vector<typename ContactSearch<dim>::Projection>
+  ContactSearch<dim>::feet_near(const std::vector<double> &position,
+                                const double reach,
+                                const double travelled,
+                                const Candidate &candidate) const
   {
     const Vector<dim> place = at<dim>(position, candidate.slave);
-    std::vector<Projection> near, paired, inside, outside;
+    std::vector<Projection> near, paired;
     for (const CandidateFace &face : candidate.faces)
       {
         // both have moved since the search
@@ -143,7 +141,7 @@ namespace Keyblock
           near.push_back(projection);
       }
     if (near.empty())
-      return;
+      return near;
     for (const CandidateFace &face : candidate.paired_faces)
       {
         const Projection projection = project(position, place, face.face);
@@ -158,39 +156,53 @@ namespace Keyblock
                                   is_convex(position, other, projection);
                          });
     };
-    for (const Projection &projection : near)
-      if (!is_covered_by_pair(projection))
-        (projection.is_inside ? inside : outside).push_back(projection);
-    const auto add_contact = [&](const Projection &projection,
-                                 const Vector<dim> &normal,
-                                 const double gap) {
-      SurfaceContact<dim> contact;
-      contact.slave           = candidate.slave;
-      contact.face            = projection.face;
-      contact.joint           = interface.surface[projection.face].joint;
-      contact.master_block    = interface.surface[projection.face].block;
-      contact.point.n_nodes   = 1 + Mesh<dim>::n_face_vertices;
-      contact.point.node[0]   = candidate.slave;
-      contact.point.weight[0] = 1.;
-      for (unsigned int v = 0; v < Mesh<dim>::n_face_vertices; ++v)
-        {
-          contact.point.node[v + 1]   = nodes_of_face[projection.face][v];
-          contact.point.weight[v + 1] = -projection.weight[v];
-        }
-      contact.point.normal = normal;
-      contact.point.gap    = gap;
-      contacts.push_back(contact);
-    };
+    near.erase(std::remove_if(near.begin(), near.end(), is_covered_by_pair),
+               near.end());
+    return near;
+  }
 
-    // over faces: the nearest of those with nearly one normal, and of those of
-    // a convex edge the one that the slave is least deep below, or that of the
-    // joint that it slides along; else one per face, but for those behind
-    // another, as the sides of a joint in a bed
+
+
+  template <int dim>
+  void
+  ContactSearch<dim>::add_contact(
+    const unsigned int slave,
+    const Projection &projection,
+    const Vector<dim> &normal,
+    const double gap,
+    std::vector<SurfaceContact<dim>> &contacts) const
+  {
+    SurfaceContact<dim> contact;
+    contact.slave           = slave;
+    contact.face            = projection.face;
+    contact.joint           = interface.surface[projection.face].joint;
+    contact.master_block    = interface.surface[projection.face].block;
+    contact.point.n_nodes   = 1 + Mesh<dim>::n_face_vertices;
+    contact.point.node[0]   = slave;
+    contact.point.weight[0] = 1.;
+    for (unsigned int v = 0; v < Mesh<dim>::n_face_vertices; ++v)
+      {
+        contact.point.node[v + 1]   = nodes_of_face[projection.face][v];
+        contact.point.weight[v + 1] = -projection.weight[v];
+      }
+    contact.point.normal = normal;
+    contact.point.gap    = gap;
+    contacts.push_back(contact);
+  }
+
+
+
+  template <int dim>
+  std::vector<typename ContactSearch<dim>::Projection>
+  ContactSearch<dim>::feet_that_count(const std::vector<double> &position,
+                                      const unsigned int slave,
+                                      std::vector<Projection> inside) const
+  {
     const auto leads = [&](const Projection &a, const Projection &b) {
       return interface.surface[a.face].joint != none &&
              interface.surface[b.face].joint == none &&
              std::abs(a.gap) < 0.01 * a.size &&
-             std::abs(start_distance(candidate.slave, a.face)) < 1e-3 * a.size;
+             std::abs(start_distance(slave, a.face)) < 1e-3 * a.size;
     };
     std::sort(inside.begin(), inside.end(), [](const auto &a, const auto &b) {
       return std::abs(a.gap) < std::abs(b.gap) ||
@@ -199,8 +211,7 @@ namespace Keyblock
     std::vector<bool> is_opposed;
     is_opposed.reserve(inside.size());
     for (const Projection &projection : inside)
-      is_opposed.push_back(
-        opposes(position, candidate.slave, projection.normal));
+      is_opposed.push_back(opposes(position, slave, projection.normal));
     std::vector<Projection> kept;
     for (unsigned int i = 0; i < inside.size(); ++i)
       {
@@ -221,15 +232,22 @@ namespace Keyblock
                (is_before || !hides(position, inside[i], inside[j])));
           }
         if (!is_covered)
-          {
-            kept.push_back(inside[i]);
-            add_contact(inside[i], inside[i].normal, inside[i].gap);
-          }
+          kept.push_back(inside[i]);
       }
-    if (!kept.empty() || outside.empty())
-      return;
+    return kept;
+  }
 
-    // beside faces: the nearest edge or corner
+
+
+  template <int dim>
+  void
+  ContactSearch<dim>::add_contact_beside(
+    const std::vector<double> &position,
+    const double reach,
+    const unsigned int slave,
+    const std::vector<Projection> &outside,
+    std::vector<SurfaceContact<dim>> &contacts) const
+  {
     const auto nearest =
       std::min_element(outside.begin(),
                        outside.end(),
@@ -247,8 +265,7 @@ namespace Keyblock
     };
     const auto is_on_own_joint = [&](const Projection &projection) {
       return is_there(projection) &&
-             is_on_joint(candidate.slave,
-                         interface.surface[projection.face].joint);
+             is_on_joint(slave, interface.surface[projection.face].joint);
     };
     const bool has_own =
       std::any_of(outside.begin(), outside.end(), is_on_own_joint);
@@ -268,15 +285,38 @@ namespace Keyblock
     const bool is_off        = distance > 1e-6 * nearest->size && gap > 0.;
     const Vector<dim> normal = is_off ? unit<dim>(nearest->offset) : mean;
     if ((!is_off && distance >= 0.1 * nearest->size) ||
-        !opposes(position, candidate.slave, normal) ||
-        !can_stand_on(position, candidate.slave, normal))
+        !opposes(position, slave, normal) ||
+        !can_stand_on(position, slave, normal))
       return;
     const Projection *across = &there[0];
     for (const Projection &projection : there)
       if (dot<dim>(projection.normal, normal) >
           dot<dim>(across->normal, normal) + 1e-9)
         across = &projection;
-    add_contact(*across, normal, is_off ? distance : gap);
+    add_contact(slave, *across, normal, is_off ? distance : gap, contacts);
+  }
+
+
+
+  template <int dim>
+  void
+  ContactSearch<dim>::add_contacts(
+    const std::vector<double> &position,
+    const double reach,
+    const double travelled,
+    const Candidate &candidate,
+    std::vector<SurfaceContact<dim>> &contacts) const
+  {
+    std::vector<Projection> inside, outside;
+    for (const Projection &foot :
+         feet_near(position, reach, travelled, candidate))
+      (foot.is_inside ? inside : outside).push_back(foot);
+    const std::vector<Projection> kept =
+      feet_that_count(position, candidate.slave, inside);
+    for (const Projection &foot : kept)
+      add_contact(candidate.slave, foot, foot.normal, foot.gap, contacts);
+    if (kept.empty() && !outside.empty())
+      add_contact_beside(position, reach, candidate.slave, outside, contacts);
   }
 
 

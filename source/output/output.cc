@@ -34,67 +34,48 @@ namespace Keyblock
 
 
   template <int dim>
+  template <typename Data>
   void
-  Output<dim>::write_vtu(const double time)
+  Output<dim>::write(Data &data, const std::string &base, const double time)
   {
     const std::string number =
       dealii::Utilities::int_to_string(records.size() / 2, 4);
-    const auto write = [&](auto &data, const std::string &base) {
-      data.set_flags(vtk_flags(time));
-      std::string name = base + "_" + number;
-      if (numbering.communicator.size() == 1)
-        {
-          name += ".vtu";
-          numbering.communicator.assert_written(write_file(data, folder + name),
-                                                folder + name);
-        }
-      else
-        {
-          bool is_written =
-            write_file(data,
-                       folder + name + "." +
-                         std::to_string(numbering.communicator.rank()) +
-                         ".vtu");
-          if (numbering.communicator.is_root())
-            {
-              std::vector<std::string> pieces;
-              for (unsigned int r = 0; r < numbering.communicator.size(); ++r)
-                pieces.push_back(name + "." + std::to_string(r) + ".vtu");
-              std::ofstream record(folder + name + ".pvtu");
-              data.write_pvtu_record(record, pieces);
-              is_written = record.flush() && is_written;
-            }
-          name += ".pvtu";
-          numbering.communicator.assert_written(is_written, folder + name);
-        }
-      records.emplace_back(time, name);
-    };
-
-    dealii::DataOut<dim> rock;
-    rock.attach_dof_handler(*numbering.dof_handler);
-    const dealii::IndexSet &owned = numbering.dof_handler->locally_owned_dofs();
-    using DofVector = dealii::LinearAlgebra::distributed::Vector<double>;
-    DofVector displacement(numbering.partitioner),
-      velocity(numbering.partitioner);
-    for (unsigned int i = 0; i < owned.n_elements(); ++i)
+    data.set_flags(vtk_flags(time));
+    std::string name = base + "_" + number;
+    if (numbering.communicator.size() == 1)
       {
-        displacement.local_element(i) = fields.displacement[i];
-        velocity.local_element(i)     = fields.velocity[i];
+        name += ".vtu";
+        numbering.communicator.assert_written(write_file(data, folder + name),
+                                              folder + name);
       }
-    displacement.update_ghost_values();
-    velocity.update_ghost_values();
-    using Interpretation =
-      dealii::DataComponentInterpretation::DataComponentInterpretation;
-    const std::vector<Interpretation> is_vector(
-      dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
-    rock.add_data_vector(displacement,
-                         std::vector<std::string>(dim, "displacement"),
-                         dealii::DataOut<dim>::type_dof_data,
-                         is_vector);
-    rock.add_data_vector(velocity,
-                         std::vector<std::string>(dim, "velocity"),
-                         dealii::DataOut<dim>::type_dof_data,
-                         is_vector);
+    else
+      {
+        bool is_written =
+          write_file(data,
+                     folder + name + "." +
+                       std::to_string(numbering.communicator.rank()) + ".vtu");
+        if (numbering.communicator.is_root())
+          {
+            std::vector<std::string> pieces;
+            for (unsigned int r = 0; r < numbering.communicator.size(); ++r)
+              pieces.push_back(name + "." + std::to_string(r) + ".vtu");
+            std::ofstream record(folder + name + ".pvtu");
+            data.write_pvtu_record(record, pieces);
+            is_written = record.flush() && is_written;
+          }
+        name += ".pvtu";
+        numbering.communicator.assert_written(is_written, folder + name);
+      }
+    records.emplace_back(time, name);
+  }
+
+
+
+  template <int dim>
+  std::vector<typename Output<dim>::NamedValues>
+  Output<dim>::cell_values(
+    const std::map<unsigned int, unsigned int> &local_cell) const
+  {
     const unsigned int n = numbering.triangulation->n_active_cells();
     dealii::Vector<double> block(n), material(n);
     const std::vector<std::string> components =
@@ -102,9 +83,6 @@ namespace Keyblock
                : std::vector<std::string>{"xx", "yy", "zz", "yz", "xz", "xy"};
     std::vector<dealii::Vector<double>> stress(components.size(),
                                                dealii::Vector<double>(n));
-    std::map<unsigned int, unsigned int> local_cell;
-    for (unsigned int c = 0; c < cells.mesh_cell.size(); ++c)
-      local_cell[cells.mesh_cell[c]] = c;
     const bool has_plastic =
       std::any_of(scene.materials.begin(),
                   scene.materials.end(),
@@ -135,12 +113,52 @@ namespace Keyblock
                                    q] /
               (1 << dim);
       }
-    rock.add_data_vector(block, "block");
-    rock.add_data_vector(material, "material");
+    std::vector<NamedValues> values = {{"block", block},
+                                       {"material", material}};
     for (unsigned int k = 0; k < components.size(); ++k)
-      rock.add_data_vector(stress[k], "stress_" + components[k]);
+      values.emplace_back("stress_" + components[k], stress[k]);
     if (has_plastic)
-      rock.add_data_vector(plastic_strain, "plastic_strain");
+      values.emplace_back("plastic_strain", plastic_strain);
+    return values;
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::write_rock(const double time)
+  {
+    dealii::DataOut<dim> rock;
+    rock.attach_dof_handler(*numbering.dof_handler);
+    const dealii::IndexSet &owned = numbering.dof_handler->locally_owned_dofs();
+    using DofVector = dealii::LinearAlgebra::distributed::Vector<double>;
+    DofVector displacement(numbering.partitioner),
+      velocity(numbering.partitioner);
+    for (unsigned int i = 0; i < owned.n_elements(); ++i)
+      {
+        displacement.local_element(i) = fields.displacement[i];
+        velocity.local_element(i)     = fields.velocity[i];
+      }
+    displacement.update_ghost_values();
+    velocity.update_ghost_values();
+    using Interpretation =
+      dealii::DataComponentInterpretation::DataComponentInterpretation;
+    const std::vector<Interpretation> is_vector(
+      dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
+    rock.add_data_vector(displacement,
+                         std::vector<std::string>(dim, "displacement"),
+                         dealii::DataOut<dim>::type_dof_data,
+                         is_vector);
+    rock.add_data_vector(velocity,
+                         std::vector<std::string>(dim, "velocity"),
+                         dealii::DataOut<dim>::type_dof_data,
+                         is_vector);
+    std::map<unsigned int, unsigned int> local_cell;
+    for (unsigned int c = 0; c < cells.mesh_cell.size(); ++c)
+      local_cell[cells.mesh_cell[c]] = c;
+    const std::vector<NamedValues> values = cell_values(local_cell);
+    for (const auto &[name, list] : values)
+      rock.add_data_vector(list, name);
     rock.set_cell_selection([&](const auto &cell) {
       // not those that are excavated
       if (!cell->is_locally_owned())
@@ -150,8 +168,15 @@ namespace Keyblock
              scene.materials[split.mesh.material[c]]->is_rigid();
     });
     rock.build_patches();
-    write(rock, "rock");
+    write(rock, "rock", time);
+  }
 
+
+
+  template <int dim>
+  void
+  Output<dim>::write_interface(const double time)
+  {
     // the owner of the minus cell holds the nodes of both sides
     std::vector<bool> is_local(split.mesh.n_cells(), false);
     for (const auto &cell : numbering.triangulation->active_cell_iterators())
@@ -219,7 +244,15 @@ namespace Keyblock
               }
           }
       }
-    write(faces, "interface");
+    write(faces, "interface", time);
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::write_collection() const
+  {
     bool is_written = true;
     if (numbering.communicator.is_root())
       {
@@ -234,6 +267,17 @@ namespace Keyblock
         is_written = bool(pvd.flush());
       }
     numbering.communicator.assert_written(is_written, folder + "solution.pvd");
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::write_vtu(const double time)
+  {
+    write_rock(time);
+    write_interface(time);
+    write_collection();
   }
 
   template class Output<2>;

@@ -272,31 +272,6 @@ namespace Keyblock
 
 
   template <int dim>
-  bool
-  StrengthReductionSearch<dim>::freeze_beyond_reach(const unsigned int block)
-  {
-    const SafetySettings &settings = scene.safety;
-    if (settings.reach == 0. || settings.reduced_joints == ReducedJoints::all ||
-        settings.reduces_rock)
-      return false;
-    std::vector<unsigned int> moving = trials.companions;
-    moving.push_back(block);
-    std::vector<bool> is_frozen(split.mesh.n_cells());
-    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
-      is_frozen[c] =
-        std::none_of(moving.begin(), moving.end(), [&](const unsigned int m) {
-          const Block<dim> &b = blocks.blocks[m];
-          return split.block_of_cell[c] == m ||
-                 split.mesh.cell_center(c).distance(b.centroid) <=
-                   (0.5 + settings.reach) * b.size;
-        });
-    run.conditions.freeze(is_frozen);
-    return true;
-  }
-
-
-
-  template <int dim>
   SafetyFactor::Outcome
   StrengthReductionSearch<dim>::find_bracket(Search &search,
                                              double spread) const

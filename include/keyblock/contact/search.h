@@ -265,6 +265,35 @@ namespace Keyblock
                const Projection &a,
                const Projection &b) const;
 
+    /** Feet of a slave on faces within @p reach that no pair stands for. */
+    std::vector<Projection> feet_near(const std::vector<double> &position,
+                                      const double reach,
+                                      const double travelled,
+                                      const Candidate &candidate) const;
+
+    /** Of feet over faces the nearest of those with nearly one normal, and of
+     * those of a convex edge the one that the slave is least deep below, or
+     * that of the joint that it slides along; else one per face, but for those
+     * behind another, as the sides of a joint in a bed. */
+    std::vector<Projection>
+    feet_that_count(const std::vector<double> &position,
+                    const unsigned int slave,
+                    std::vector<Projection> inside) const;
+
+    void add_contact(const unsigned int slave,
+                     const Projection &projection,
+                     const Vector<dim> &normal,
+                     const double gap,
+                     std::vector<SurfaceContact<dim>> &contacts) const;
+
+    /** The contact of a slave with the edge or corner nearest to it, of faces
+     * that it is beside. */
+    void add_contact_beside(const std::vector<double> &position,
+                            const double reach,
+                            const unsigned int slave,
+                            const std::vector<Projection> &outside,
+                            std::vector<SurfaceContact<dim>> &contacts) const;
+
     void add_contacts(const std::vector<double> &position,
                       const double reach,
                       const double travelled,

@@ -2,6 +2,8 @@
 #ifndef keyblock_output_output_h
 #define keyblock_output_output_h
 
+#include <deal.II/lac/vector.h>
+
 #include <keyblock/geostress/geostress.h>
 #include <keyblock/output/bolt_output.h>
 #include <keyblock/output/monitors.h>
@@ -100,6 +102,23 @@ namespace Keyblock
     std::vector<std::pair<double, std::string>> records;
 
   private:
+    using NamedValues = std::pair<std::string, dealii::Vector<double>>;
+
+    void write_rock(const double time);
+    void write_interface(const double time);
+    void write_collection() const;
+
+    /** Block, material and mean stress of the active cells of the
+     * triangulation.
+     * @param local_cell index of each deformable cell here, by mesh cell */
+    std::vector<NamedValues>
+    cell_values(const std::map<unsigned int, unsigned int> &local_cell) const;
+
+    /** Write a file of rock or interface, of several ranks in pieces, and note
+     * it. */
+    template <typename Data>
+    void write(Data &data, const std::string &base, const double time);
+
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
     const Blocks<dim> &blocks;

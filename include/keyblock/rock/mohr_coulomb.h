@@ -72,6 +72,14 @@ namespace Keyblock
 
 
 
+  inline double
+  dot(const std::array<double, 3> &a, const std::array<double, 3> &b)
+  {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+
+
+
   /**
    * Return principal stresses @p s, sorted s1 >= s2 >= s3, to the yield
    * surface: the point that satisfies every plane and from which the trial
@@ -110,9 +118,6 @@ namespace Keyblock
                               strength.uniaxial,
                               strength.tension,
                               strength.tension};
-    const auto dot         = [](const Triple &a, const Triple &b) {
-      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    };
     const double scale     = std::max({std::abs(s[0]), std::abs(s[2]), 1e-300});
     const double tolerance = 1e-11 * k * scale;
     const auto excess      = [&](const int i, const Triple &x) {

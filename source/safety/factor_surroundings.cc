@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What the record of a factor says besides its bracket.
+// What the search for a factor does once for a block: cheap answers, and the
+// rock that its trials need not move.
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/safety/safety_factor.h>
 
@@ -64,6 +65,35 @@ namespace Keyblock
                         run.contact->report().sum_over_block(block));
   }
 
+
+
+  template <int dim>
+  bool
+  StrengthReductionSearch<dim>::freeze_beyond_reach(const unsigned int block)
+  {
+    const SafetySettings &settings = scene.safety;
+    if (settings.reach == 0. || settings.reduced_joints == ReducedJoints::all ||
+        settings.reduces_rock)
+      return false;
+    std::vector<unsigned int> moving = trials.companions;
+    moving.push_back(block);
+    std::vector<bool> is_frozen(split.mesh.n_cells());
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      is_frozen[c] =
+        std::none_of(moving.begin(), moving.end(), [&](const unsigned int m) {
+          const Block<dim> &b = blocks.blocks[m];
+          return split.block_of_cell[c] == m ||
+                 split.mesh.cell_center(c).distance(b.centroid) <=
+                   (0.5 + settings.reach) * b.size;
+        });
+    run.conditions.freeze(is_frozen);
+    return true;
+  }
+
+  template bool
+  StrengthReductionSearch<2>::freeze_beyond_reach(const unsigned int);
+  template bool
+  StrengthReductionSearch<3>::freeze_beyond_reach(const unsigned int);
   template std::vector<unsigned int>
   StrengthReductionSearch<2>::ids_of_group(const unsigned int) const;
   template void
