@@ -91,6 +91,12 @@ namespace Keyblock
     return result;
   }
 
+  bool
+  depends_on_time(const std::string &formula)
+  {
+    return std::regex_search(formula, std::regex("\\bt\\b"));
+  }
+
   template class Expression<2>;
   template class Expression<3>;
 } // namespace Keyblock

@@ -75,6 +75,10 @@ namespace Keyblock
     for (const auto &set : scene.bolts)
       if (scene.stage_number(set->stage) == number)
         return true;
+    for (const auto &stage : scene.stages)
+      if (!stage->water_level.empty() &&
+          scene.stage_number(stage->name) == number)
+        return true;
     for (const auto &material : scene.materials)
       if (!material->stage.empty() &&
           scene.stage_number(material->stage) == number)

@@ -87,7 +87,8 @@ namespace Keyblock
       }
     prm.add_parameter("Water pressure",
                       water_pressure,
-                      "A formula in x, y (z): pressure of water in the joint, "
-                      "which pushes both sides apart [Pa]; empty: none.");
+                      "A formula in x, y (z) and t: pressure of water in the "
+                      "joint, which pushes both sides apart [Pa]; empty: that "
+                      "below Water/Level.");
   }
 } // namespace Keyblock

@@ -47,11 +47,14 @@ namespace Keyblock
     class Collector
     {
     public:
-      Collector(const Ground<dim> &ground, const Block<dim> &block)
+      Collector(const Ground<dim> &ground,
+                const Block<dim> &block,
+                const double time)
         : ground(ground)
         , mesh(ground.split.mesh)
         , block(block)
         , index(block.id - 1)
+        , time(time)
         , pressure(ground.scene.joints.size())
       {}
 
@@ -88,8 +91,8 @@ namespace Keyblock
             result.largest_bend = bend;
             result.bent         = joint.name;
           }
-        if (!joint.water_pressure.empty())
-          add_water(face.joint,
+        if (const auto *pressure = pressure_in(face.joint))
+          add_water(*pressure,
                     own,
                     block.exact.is_known ? area * into.inward : inward,
                     into);
@@ -176,22 +179,33 @@ namespace Keyblock
           result.others[entry].insert(other);
       }
 
+      /** The pressure of water in a joint, or none. */
+      const Expression<dim> *
+      pressure_in(const unsigned int joint)
+      {
+        const std::string formula =
+          ground.scene.water_pressure(joint, ground.stage_number);
+        if (formula.empty())
+          return nullptr;
+        if (!pressure[joint])
+          pressure[joint] =
+            std::make_unique<Expression<dim>>(formula,
+                                              1,
+                                              "Joints/*/Water pressure");
+        return pressure[joint].get();
+      }
+
       /** The water beside a face with the vector area @p inward. */
       void
-      add_water(const unsigned int joint,
+      add_water(const Expression<dim> &pressure,
                 const CellFace &own,
                 const Tensor<1, dim> &inward,
                 BlockFace<dim> &into)
       {
-        if (!pressure[joint])
-          pressure[joint] = std::make_unique<Expression<dim>>(
-            ground.scene.joints[joint]->water_pressure,
-            1,
-            "Joints/*/Water pressure");
         for (const unsigned int v : mesh.face_vertices(own.cell, own.face))
           {
             const Tensor<1, dim> force =
-              pressure[joint]->value(mesh.vertices[v], 0., 0) /
+              pressure.value(mesh.vertices[v], time, 0) /
               Mesh<dim>::n_face_vertices * inward;
             result.loads.water.push_back({mesh.vertices[v], force});
             into.water_force += force * into.inward;
@@ -235,6 +249,7 @@ namespace Keyblock
       const Mesh<dim> &mesh;
       const Block<dim> &block;
       const unsigned int index;
+      const double time;
       std::vector<std::unique_ptr<Expression<dim>>> pressure; ///< by joint
 
       /** Of faces, by joint and side; free faces come after them. */
@@ -320,7 +335,7 @@ namespace Keyblock
               const Block<dim> &block,
               const double time)
   {
-    Collector<dim> collector(ground, block);
+    Collector<dim> collector(ground, block, time);
     for (const unsigned int i : free.joint_faces_of_block(block.id - 1))
       collector.add_joint_face(ground.split.interface.joint_faces[i]);
     collector.sort_faces();

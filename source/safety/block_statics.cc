@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
 #include <sstream>
 
 namespace Keyblock
@@ -13,12 +12,6 @@ namespace Keyblock
   {
     /** Faces bent by less are not worth a remark [deg]. */
     constexpr double least_bend = 1.;
-
-    bool
-    depends_on_time(const std::string &formula)
-    {
-      return std::regex_search(formula, std::regex("\\bt\\b"));
-    }
 
     /** Adds what is to be said about one block. */
     template <int dim>
@@ -57,6 +50,11 @@ namespace Keyblock
         for (const auto &traction : scene.tractions)
           is_varying = is_varying || (!around.loads.tractions.empty() &&
                                       depends_on_time(traction->expression));
+        for (unsigned int j = 0; j < scene.joints.size(); ++j)
+          is_varying =
+            is_varying ||
+            (!around.loads.water.empty() &&
+             depends_on_time(scene.water_pressure(j, ground.stage_number)));
         if (is_varying)
           add() << "loads of t = " << time << " s";
       }

@@ -290,6 +290,13 @@ namespace Keyblock
             "The entry 'Safety factor/Seismic coefficient' has " +
               std::to_string(safety.seismic_coefficient.size()) +
               " values where " + std::to_string(dim) + " are needed.");
+    if (scene.water.level != no_water)
+      check_expression<dim>(scene.water.level, 1, "Water/Level");
+    for (const auto &stage : scene.stages)
+      if (stage->water_level != no_water)
+        check_expression<dim>(stage->water_level,
+                              1,
+                              "Stages/" + stage->name + "/Water level");
     for (const auto &joint : scene.joints)
       if (!joint->water_pressure.empty())
         check_expression<dim>(joint->water_pressure,

@@ -393,6 +393,23 @@ namespace Keyblock
   }
 
   void
+  WaterSettings::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Level",
+                      level,
+                      "Elevation of the water table, a formula in x, y (z) and "
+                      "t: below it there is pressure in all joints without a "
+                      "Water pressure of their own, which pushes both sides "
+                      "apart [m]; none or empty: joints are dry.");
+    prm.add_parameter("Unit weight",
+                      unit_weight,
+                      "Unit weight of water [N/m3].",
+                      not_negative);
+  }
+
+
+
+  void
   ContactSettings::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Method",
@@ -480,6 +497,11 @@ namespace Keyblock
   void
   Stage::declare(ParameterHandler &prm)
   {
+    prm.add_parameter("Water level",
+                      water_level,
+                      "Elevation of the water table from this stage on, as "
+                      "Water/Level; none: joints are dry; empty: as before. "
+                      "The change of pressure is ramped as excavation is.");
     prm.add_parameter(
       "Kind",
       kind,

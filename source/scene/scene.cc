@@ -5,6 +5,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
 #include <keyblock/scene/joints.h>
 #include <keyblock/scene/text.h>
@@ -144,6 +145,26 @@ namespace Keyblock
 
 
   template <int dim>
+  std::string
+  Scene<dim>::water_pressure(const unsigned int joint,
+                             const unsigned int number) const
+  {
+    const std::string &own = joints[joint]->water_pressure;
+    if (!own.empty())
+      return own;
+    std::string level = water.level;
+    for (const auto &stage : stages)
+      if (!stage->water_level.empty() && stage_number(stage->name) <= number)
+        level = stage->water_level;
+    if (level.empty() || level == no_water)
+      return "";
+    return exact_text(water.unit_weight) + " * max(0, (" + level + ") - " +
+           (dim == 2 ? "y" : "z") + ")";
+  }
+
+
+
+  template <int dim>
   std::vector<std::string>
   Scene<dim>::warnings() const
   {
@@ -179,6 +200,7 @@ namespace Keyblock
     declare_section(prm, "Domain", domain);
     declare_section(prm, "Mesh", meshing);
     declare_section(prm, "Initial state", initial_state);
+    declare_section(prm, "Water", water);
     declare_section(prm, "Contact", contact);
     declare_section(prm, "Time stepping", time_stepping);
     declare_section(prm, "Safety factor", safety);

@@ -3,21 +3,8 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/step/loads.h>
 
-#include <regex>
-
 namespace Keyblock
 {
-  namespace
-  {
-    bool
-    depends_on_time(const std::string &formula)
-    {
-      return std::regex_search(formula, std::regex("\\bt\\b"));
-    }
-  } // namespace
-
-
-
   template <int dim>
   Loads<dim>::Loads(const Scene<dim> &scene,
                     const SplitMesh<dim> &split,
@@ -114,17 +101,24 @@ namespace Keyblock
   Loads<dim>::set_up_water(const Ground<dim> &ground)
   {
     water_forces.clear();
+    water.clear();
+    water_pressures.clear();
     const Interface<dim> &interface = split.interface;
-    std::vector<std::unique_ptr<Expression<dim>>> pressure(scene.joints.size());
+    std::vector<bool> is_varying;
     for (unsigned int j = 0; j < scene.joints.size(); ++j)
-      if (!scene.joints[j]->water_pressure.empty())
-        pressure[j] =
-          std::make_unique<Expression<dim>>(scene.joints[j]->water_pressure,
-                                            1,
-                                            "Joints/*/Water pressure");
+      {
+        const std::string formula =
+          scene.water_pressure(j, ground.stage_number);
+        water_pressures.push_back(formula.empty()
+                                    ? nullptr
+                                    : std::make_unique<Expression<dim>>(
+                                        formula, 1, "Joints/*/Water pressure"));
+        is_varying.push_back(depends_on_time(formula));
+      }
     for (const JointFace &face : interface.joint_faces)
       {
-        if (!pressure[face.joint] || ground.is_excavated(face.minus_cell) ||
+        if (!water_pressures[face.joint] ||
+            ground.is_excavated(face.minus_cell) ||
             ground.is_excavated(face.plus_cell))
           continue;
         const Tensor<1, dim> area =
@@ -138,13 +132,19 @@ namespace Keyblock
               v, [&](const unsigned int carrier, const double weight) {
                 if (!numbering.is_owned(carrier))
                   return;
+                const Point<dim> &place    = split.mesh.vertices[v];
+                const Tensor<1, dim> share = (is_plus ? weight : -weight) /
+                                             Mesh<dim>::n_face_vertices * area;
+                const unsigned int node = numbering.local_node(carrier);
+                if (is_varying[face.joint])
+                  {
+                    water.push_back({node, face.joint, share, place});
+                    return;
+                  }
                 const double p =
-                  pressure[face.joint]->value(split.mesh.vertices[v], 0., 0);
+                  water_pressures[face.joint]->value(place, 0., 0);
                 for (unsigned int d = 0; d < dim; ++d)
-                  water_forces.emplace_back(
-                    dim * numbering.local_node(carrier) + d,
-                    (is_plus ? weight : -weight) * p * area[d] /
-                      Mesh<dim>::n_face_vertices);
+                  water_forces.emplace_back(dim * node + d, p * share[d]);
               });
       }
   }
@@ -156,7 +156,7 @@ namespace Keyblock
   Loads<dim>::set_load(const double time)
   {
     const double left = ramp.share_left();
-    if (is_set && is_constant && left == share_set)
+    if (is_set && is_constant && water.empty() && left == share_set)
       return false;
     is_set    = true;
     share_set = left;
@@ -168,6 +168,13 @@ namespace Keyblock
         fields.load[dim * node + d] = fields.weighing_mass[node] * g[d];
     for (const auto &[dof, force] : water_forces)
       fields.load[dof] += force;
+    for (const NodalWater<dim> &entry : water)
+      {
+        const double p =
+          water_pressures[entry.joint]->value(entry.place, time, 0);
+        for (int d = 0; d < dim; ++d)
+          fields.load[dim * entry.node + d] += p * entry.area[d];
+      }
     for (const NodalTraction<dim> &entry : nodal_tractions)
       {
         const Tensor<1, dim> t =

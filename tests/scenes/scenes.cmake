@@ -115,6 +115,14 @@ foreach(angle 0 30 60)
     "Bolts/anchor/Free length=${free_${angle}}"
     "Safety factor/Bolt convention=passive")
 endforeach()
+# a water table that rises in a stage and is drained in the next
+keyblock_scene(verification/factor_incline REFERENCES water_table RANKS 1 2
+  SET "Stages/Names=rest, wet, drained" "Stages/wet/Kind=quasi-static"
+  "Stages/wet/Friction angle override=84.2894"
+  "Stages/wet/Unbalanced ratio=1e-7" "Stages/wet/Water level=0.02"
+  "Stages/drained/Kind=quasi-static"
+  "Stages/drained/Friction angle override=84.2894"
+  "Stages/drained/Unbalanced ratio=1e-7" "Stages/drained/Water level=none")
 keyblock_scene(verification/friction_rod_400 RANKS 2)
 foreach(angle 10 20 30 35)
   keyblock_scene(verification/footing_${angle} RANKS 1)

@@ -84,6 +84,43 @@ BOOST_AUTO_TEST_CASE(formulas_in_time)
     }
 }
 
+BOOST_AUTO_TEST_CASE(water_in_time_and_below_a_table)
+{
+  // a level joint of 2 m, whose sides water pushes apart
+  const std::string joint   = "subsection Joints\n set Names = level\n "
+                              "subsection level\n  set Point = 0, 0.5\n  set "
+                              "Dip = 0\n";
+  const auto force_on_sides = [](const Plate &plate) {
+    std::vector<double> size = plate.fields.load;
+    for (double &force : size)
+      force = std::abs(force);
+    const Tensor<1, 2> sum = plate.sum_of(plate.fields.load);
+    BOOST_TEST(sum.norm() < 1e-9 * Plate::mass);
+    return plate.sum_of(size);
+  };
+  Plate rising(joint + "  set Water pressure = 500*t\n end\nend\n" + one_stage);
+  BOOST_TEST(rising.conditions->loads.is_load_changing());
+  for (const double time : {0., 1., 3.})
+    {
+      BOOST_TEST(rising.conditions->loads.set_load(time));
+      BOOST_TEST(std::abs(force_on_sides(rising)[1] - 2. * 2. * 500. * time) <
+                 1e-6);
+    }
+  Plate table(joint + " end\nend\nsubsection Water\n set Level = 0.7\n set "
+                      "Unit weight = 1e4\nend\nsubsection Stages\n set Names "
+                      "= wet, dry\n subsection wet\n  set Duration = 1\n end\n "
+                      "subsection dry\n  set Duration = 1\n  set Water level = "
+                      "none\n end\nend\n");
+  BOOST_TEST(!table.conditions->loads.is_load_changing());
+  table.conditions->loads.set_load(0.);
+  BOOST_TEST(std::abs(force_on_sides(table)[1] - 2. * 2. * 0.2e4) < 1e-6);
+  BOOST_TEST(!table.conditions->changes(2));
+  BOOST_TEST(table.conditions->changes(3));
+  table.conditions->excavate(3);
+  table.conditions->loads.set_load(0.);
+  BOOST_TEST(force_on_sides(table)[1] == 0.);
+}
+
 BOOST_AUTO_TEST_CASE(carried_force_is_ramped_out)
 {
   Plate plate("subsection Initial state\n set Gravity = 0; -10\nend\n" +

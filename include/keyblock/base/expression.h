@@ -40,6 +40,9 @@ namespace Keyblock
     std::unique_ptr<dealii::FunctionParser<dim>> function;
     unsigned int n_components;
   };
+
+  /** Whether a formula names the time t. */
+  bool depends_on_time(const std::string &formula);
 } // namespace Keyblock
 
 #endif

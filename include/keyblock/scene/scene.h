@@ -307,6 +307,18 @@ namespace Keyblock
     void declare(ParameterHandler &prm);
   };
 
+  /** A water level that stands for none. */
+  constexpr const char *no_water = "none";
+
+  /** Water table: pressure in joints without a Water pressure of their own. */
+  struct WaterSettings
+  {
+    std::string level;          ///< its elevation, a formula [m]; empty: none
+    double unit_weight = 9810.; ///< [N/m3]
+
+    void declare(ParameterHandler &prm);
+  };
+
   /** How contact is found and solved. */
   struct ContactSettings
   {
@@ -353,16 +365,17 @@ namespace Keyblock
   struct Stage
   {
     std::string name;
-    StageKind kind                 = StageKind::dynamic;
-    double duration                = 0.;
-    unsigned int maximum_steps     = 0;
-    double unbalanced_ratio        = 0.;
-    double damping_ratio           = 0.;
-    double mass_damping            = 0.;
-    double local_damping           = 0.;
-    bool damps_contact_force       = true;
-    bool scales_density            = true;
-    double ramp_duration           = 0.;
+    StageKind kind             = StageKind::dynamic;
+    double duration            = 0.;
+    unsigned int maximum_steps = 0;
+    double unbalanced_ratio    = 0.;
+    double damping_ratio       = 0.;
+    double mass_damping        = 0.;
+    double local_damping       = 0.;
+    bool damps_contact_force   = true;
+    bool scales_density        = true;
+    double ramp_duration       = 0.;
+    std::string water_level; ///< from it on; empty: as before
     double ramp_unbalance          = 2e-3;
     double friction_angle_override = -1.;
     bool reset_motion              = false;
@@ -510,6 +523,7 @@ namespace Keyblock
     Domain<dim> domain;
     Meshing<dim> meshing;
     InitialState<dim> initial_state;
+    WaterSettings water;
     ContactSettings contact;
     TimeStepping time_stepping;
     SafetySettings safety;
@@ -547,6 +561,11 @@ namespace Keyblock
     /** Indices into joints of the one called @p name, or of all those of the
      * set of that name; empty: there is neither. */
     std::vector<unsigned int> joints_called(const std::string &name) const;
+
+    /** Pressure of water in a joint from the stage with this number on, a
+     * formula in x, y (z) and t [Pa]; empty: none. */
+    std::string water_pressure(const unsigned int joint,
+                               const unsigned int number) const;
 
     /** What is allowed and probably not meant, one sentence each. */
     std::vector<std::string> warnings() const;

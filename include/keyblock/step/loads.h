@@ -22,6 +22,16 @@ namespace Keyblock
     Point<dim> place;      ///< of the face's centre [m]
   };
 
+  /** A node and the water beside it in a joint. */
+  template <int dim>
+  struct NodalWater
+  {
+    unsigned int node;
+    unsigned int joint;  ///< index into Scene::joints
+    Tensor<1, dim> area; ///< of its share, the way it is pushed [m^(dim-1)]
+    Point<dim> place;    ///< where the pressure is taken [m]
+  };
+
   /** What is ramped out, and how far it is. */
   struct LoadState
   {
@@ -89,7 +99,7 @@ namespace Keyblock
     bool
     is_load_changing() const
     {
-      return !is_constant || is_ramping();
+      return !is_constant || !water.empty() || is_ramping();
     }
 
     /** Set fields.load to gravity, water, tractions and ramped forces at
@@ -129,9 +139,12 @@ namespace Keyblock
     std::unique_ptr<Expression<dim>> gravity;
     std::vector<std::unique_ptr<Expression<dim>>> tractions;
     std::vector<NodalTraction<dim>> nodal_tractions;
-    /** Of water in joints, by degree of freedom [N]. */
+    /** Of water in joints, by degree of freedom, where it does not depend on
+     * time [N]; where it does. */
     std::vector<std::pair<unsigned int, double>> water_forces;
-    bool is_constant = true; ///< no formula depends on time
+    std::vector<NodalWater<dim>> water;
+    std::vector<std::unique_ptr<Expression<dim>>> water_pressures; ///< by joint
+    bool is_constant = true; ///< no other formula depends on time
     bool is_set      = false;
     double share_set = 0.; ///< of the carried force in the load [-]
   };
