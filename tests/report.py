@@ -4,7 +4,7 @@
 
 usage: report.py KEYBLOCK REPORT PRM FOLDER CASE
 
-plane, wedge: the tables carry the numbers of summary.json, the page has all its
+plane, wedge, bolts: the tables carry the numbers of summary.json, the page has all its
 parts, loads nothing from elsewhere and is of a sensible size; a Chromium, if
 there is one, opens it without an error on the console and shows the view.
 poor: without VTU files, used.prm or joints.csv there is a report with a sentence
@@ -28,6 +28,7 @@ SCENES = {
         "Stages/wait/Kind=quasi-static", "Output/Write VTU=true"]),
     "wedge": ("verification/wedge_3d", [
         "Safety factor/Bracket=0.05", "Output/Write VTU=true"]),
+    "bolts": ("verification/bolted_incline", ["Output/Write VTU=true"]),
     "poor": ("verification/factor_incline", [
         "Safety factor/Bracket=0.1", "Output/Write VTU=false"])}
 # what would make a browser load something from elsewhere
@@ -101,6 +102,22 @@ def assert_tables(summary, folder):
         assert float(row["largest displacement (m)"]) == stage[
             "max_displacement"]
         assert float(row["energy residual (J)"]) == stage["energy"]["residual"]
+
+
+def assert_bolts(summary, page):
+    """The bolts of the run are in their table, and in the page by set."""
+    rows, bolts = rows_of(FOLDER / "bolts.csv"), summary["bolts"]
+    assert len(rows) == len(bolts) > 0
+    for row, bolt in zip(rows, bolts):
+        assert row["set"] == bolt["set"]
+        assert row["governed by"] == bolt.get("governed_by", "")
+        assert float(row["largest axial force (N)"]) == bolt[
+            "largest_axial_force"]
+        assert float(row["head y (m)"]) == bolt["head"][1]
+    section = re.search(r"<h2 id=bolts>.*?</table>", page, re.DOTALL)[0]
+    most = 1e-3 * max(b["largest_axial_force"] for b in bolts)
+    shown = [float(x) for x in re.findall(r"<td class=n>([\d.]+)<", section)]
+    assert any(abs(x - most) <= 1e-3 * most for x in shown), (most, shown)
 
 
 def assert_page(summary, page):
@@ -177,6 +194,8 @@ def check(n_states):
         assert float(row["factor lower"]) < 0.877022 < float(
             row["factor upper"]), row
         assert row["place"] == "floor" and row["held by clamping"] == "no"
+    if CASE == "bolts":
+        assert_bolts(summary, page)
     open_in_browser(path)
 
 
@@ -212,4 +231,4 @@ FOLDER.mkdir(parents=True)
 if CASE == "poor":
     check_poor()
 else:
-    check({"plane": 3, "wedge": 2}[CASE])
+    check({"plane": 3, "wedge": 2, "bolts": 2}[CASE])

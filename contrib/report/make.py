@@ -46,6 +46,8 @@ def report(folder, path):
     csvs = {"blocks.csv": tables.blocks_csv(run, rows),
             "factors.csv": tables.factors_csv(run),
             "stages.csv": tables.stages_csv(run)}
+    if run.summary.get("bolts"):
+        csvs["bolts.csv"] = tables.bolts_csv(run)
     parts = make_parts(run, geometry, rows, why)
     text = page.write_page(run, rows, parts, csvs)
     lines = [parts["why"]] if parts["why"] else []

@@ -6,6 +6,7 @@ import time
 from .html import download, escape, facts, seconds, source
 from .page_blocks import blocks_section, factors_section
 from .page_stages import energy_section, joints_section, stages_section
+from .page_support import bolts_section
 from .page_view import view_section
 from .tables import number, warnings_of
 
@@ -127,6 +128,7 @@ def write_page(run, rows, parts, csvs):
         ("stages", "stages", stages_section(run, parts["pictures"],
                                             parts["legend"], parts["why"],
                                             links["stages.csv"])),
+        ("bolts", "bolts", bolts_section(run, links.get("bolts.csv"))),
         ("joints", "joints", joints_section(run, parts["net"])),
         ("energy", "energy", energy_section(run, parts["energy"])),
         ("settings", "settings", settings_section(run))]

@@ -190,6 +190,23 @@ def as_csv(names, rows):
     return text.getvalue()
 
 
+def bolts_csv(run):
+    """bolts.csv: bolts at the end of the run, as they are numbered in VTU."""
+    bolts = run.summary["bolts"]
+    axes = "xyz"[:len(bolts[0]["head"])]
+    names = (["bolt", "set"] + [f"head {a} (m)" for a in axes]
+             + [f"end {a} (m)" for a in axes]
+             + ["largest axial force (N)", "place of largest (m)",
+                "plate force (N)", "largest bond slip (m)", "dowel force (N)",
+                "joints crossed", "broken", "governed by"])
+    return as_csv(names, [
+        [n, b["set"], *b["head"], *b["end"], b["largest_axial_force"],
+         b["place_of_largest"], b["plate_force"], b["largest_bond_slip"],
+         b["dowel_force"], b["joints_crossed"],
+         "yes" if b["is_broken"] else "no", b.get("governed_by")]
+        for n, b in enumerate(bolts, 1)])
+
+
 def blocks_csv(run, rows):
     """blocks.csv: finite blocks, the most dangerous first."""
     names = ["block", "exposed since", "place", "removable",
