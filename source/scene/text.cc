@@ -213,11 +213,23 @@ namespace Keyblock
       return all;
     }
 
+    /** A file that @p by includes: beside it, else where the program runs. */
+    std::string
+    find_included(const std::string &file_name, const std::string &by)
+    {
+      std::error_code error;
+      const std::filesystem::path beside =
+        std::filesystem::path(by).parent_path() / file_name;
+      return std::filesystem::exists(beside, error) ? beside.string()
+                                                    : file_name;
+    }
+
     std::string
     include_file(const Communicator &communicator,
-                 const std::string &file_name,
+                 const std::string &name,
                  std::vector<std::string> chain)
     {
+      const std::string file_name = find_included(name, chain.back());
       std::error_code error;
       for (const std::string &before : chain)
         AssertThrow(before != file_name &&

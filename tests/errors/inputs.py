@@ -118,6 +118,21 @@ def includes_itself():
     refused(validate("b.prm"), "'c.prm' includes 'b.prm'")
 
 
+def includes_beside_it():
+    folder = pathlib.Path("scenes")
+    (folder / "parts").mkdir(parents=True)
+    (folder / "s.prm").write_text("include parts/one.prm\n", encoding="utf-8")
+    (folder / "parts" / "one.prm").write_text("include two.prm\n",
+                                              encoding="utf-8")
+    shutil.copy(INCLINE, folder / "parts" / "two.prm")
+    valid(validate(folder / "s.prm"))
+    # or from where the program runs
+    shutil.move(folder / "parts" / "two.prm", "two.prm")
+    valid(validate(folder / "s.prm"))
+    os.remove("two.prm")
+    refused(validate(folder / "s.prm"), "included file 'two.prm' cannot be read")
+
+
 def full_disk():
     for name, code in (("used.prm", 1), ("joints.csv", 1), ("joints.vtu", 1),
                        ("rock_0000.vtu", 2), ("interface_0000.vtu", 2),
