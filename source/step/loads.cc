@@ -113,7 +113,7 @@ namespace Keyblock
                                     ? nullptr
                                     : std::make_unique<Expression<dim>>(
                                         formula, 1, "Joints/*/Water pressure"));
-        is_varying.push_back(depends_on_time(formula));
+        is_varying.push_back(!formula.empty() && depends_on_time(formula));
       }
     for (const JointFace &face : interface.joint_faces)
       {
