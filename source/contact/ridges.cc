@@ -6,7 +6,6 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 namespace Keyblock

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
 namespace Keyblock

@@ -18,8 +18,6 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
-#include <map>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 

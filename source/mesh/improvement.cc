@@ -2,10 +2,7 @@
 #include <keyblock/mesh/improvement.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <set>
 
 namespace Keyblock
 {

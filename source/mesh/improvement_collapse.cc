@@ -3,7 +3,6 @@
 #include <keyblock/mesh/improvement.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>

@@ -13,7 +13,6 @@
 #include <keyblock/mesh/size_limit.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 #include <sstream>

@@ -3,7 +3,6 @@
 #include <keyblock/output/monitors.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace Keyblock
 {

@@ -12,9 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <limits>
-#include <set>
 
 namespace Keyblock
 {
