@@ -35,7 +35,7 @@ namespace Keyblock
                                   ContactMemory<dim> &memory)
     : topology(topology)
     , interface(topology.interface)
-    , search(topology.search)
+    , surface(topology.surface)
     , strength(strength)
     , nodes(nodes)
     , fields(fields)
@@ -51,7 +51,7 @@ namespace Keyblock
     const std::vector<bool> &joints = strength.needs_areas;
     if (is_moved &&
         std::find(joints.begin(), joints.end(), true) != joints.end())
-      overlaps = search.list_overlaps(memory.searched_position, joints);
+      overlaps = list_overlaps<dim>(surface, memory.searched_position, joints);
     shared_among = {};
     covered_area.clear();
   }
@@ -89,11 +89,11 @@ namespace Keyblock
           continue;
         const double *at_minus =
           is_surface_contact
-            ? &nodes.displacement[dim * search.node_of_vertex[pair.minus]]
+            ? &nodes.displacement[dim * surface.node_of_vertex[pair.minus]]
             : &fields.displacement[dim * minus];
         const double *at_plus =
           is_surface_contact
-            ? &nodes.displacement[dim * search.node_of_vertex[pair.plus]]
+            ? &nodes.displacement[dim * surface.node_of_vertex[pair.plus]]
             : &fields.displacement[dim * plus];
         double gap = 0.;
         for (int d = 0; d < dim; ++d)
@@ -116,7 +116,7 @@ namespace Keyblock
     const unsigned int g = topology.group_of_node[node];
     if (g == none)
       return false;
-    const unsigned int v = search.vertex_of_node[node];
+    const unsigned int v = surface.vertex_of_node[node];
     for (unsigned int p = interface.group_pairs_begin[g];
          p < interface.group_pairs_begin[g + 1];
          ++p)
@@ -137,7 +137,7 @@ namespace Keyblock
     const unsigned int g = topology.group_of_node[node];
     if (g == none)
       return false;
-    const unsigned int v = search.vertex_of_node[node];
+    const unsigned int v = surface.vertex_of_node[node];
     for (unsigned int p = interface.group_pairs_begin[g];
          p < interface.group_pairs_begin[g + 1];
          ++p)
@@ -149,7 +149,7 @@ namespace Keyblock
             (pair.minus != v && pair.plus != v))
           continue;
         const unsigned int partner = pair.minus == v ? pair.plus : pair.minus;
-        if (search.is_on_block(search.node_of_vertex[partner], block))
+        if (surface.is_on_block(surface.node_of_vertex[partner], block))
           return true;
       }
     return false;
@@ -174,7 +174,7 @@ namespace Keyblock
           const double r =
             std::max(0., dot<dim>(contact.point.impulse, contact.point.normal));
           auto &sums = impulses[between(contact.joint,
-                                        search.block_of_node[contact.slave],
+                                        surface.block_of_node[contact.slave],
                                         contact.master_block)];
           sums[0] += 1.;
           sums[1] += r;
@@ -183,7 +183,7 @@ namespace Keyblock
     for (const auto &[footing, r] : impulse_at)
       {
         const auto &sums = impulses[between(
-          footing[1], search.block_of_node[footing[0]], footing[2])];
+          footing[1], surface.block_of_node[footing[0]], footing[2])];
         if (r > least_share * sums[1] / sums[0])
           pressed.push_back(footing);
       }
@@ -277,7 +277,7 @@ namespace Keyblock
   ContactAreas<dim>::share_of_pairs(const FaceOverlap<dim> &overlap,
                                     const bool with_opened) const
   {
-    const auto &surface_nodes = search.nodes_of_face[overlap.slave_face];
+    const auto &surface_nodes = surface.nodes_of_face[overlap.slave_face];
     const unsigned int joint  = interface.surface[overlap.slave_face].joint;
     const unsigned int block  = interface.surface[overlap.master_face].block;
     double sum                = 0.;
@@ -301,7 +301,7 @@ namespace Keyblock
     for (const SurfaceContact<dim> &contact : memory.contacts)
       if (contact.joint != none && !contact.is_ridge)
         impulse[between(contact.joint,
-                        search.block_of_node[contact.slave],
+                        surface.block_of_node[contact.slave],
                         contact.master_block)] +=
           dot<dim>(contact.point.impulse, contact.point.normal);
     mean_pressure.clear();
@@ -319,7 +319,7 @@ namespace Keyblock
   {
     const auto found =
       mean_pressure.find(between(contact.joint,
-                                 search.block_of_node[contact.slave],
+                                 surface.block_of_node[contact.slave],
                                  contact.master_block));
     return found == mean_pressure.end() ? 0. : found->second;
   }
@@ -336,7 +336,7 @@ namespace Keyblock
     const std::vector<Footing> &bearing,
     std::vector<AreaShare> &shares) const
   {
-    const auto &surface_nodes = search.nodes_of_face[face];
+    const auto &surface_nodes = surface.nodes_of_face[face];
     const unsigned int joint  = interface.surface[face].joint;
     double sum                = 0.;
     std::array<bool, Mesh<dim>::n_face_vertices> takes;

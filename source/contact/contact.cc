@@ -15,7 +15,7 @@ namespace Keyblock
     ContactMemory<dim>
     make_memory(const SplitMesh<dim> &split,
                 const Blocks<dim> &blocks,
-                const ContactSearch<dim> &search)
+                const ContactSurface<dim> &surface)
     {
       const Interface<dim> &interface = split.interface;
       ContactMemory<dim> memory;
@@ -30,7 +30,7 @@ namespace Keyblock
         }
       memory.is_removed_block.assign(blocks.blocks.size(), false);
       memory.is_surface_contact_group.assign(interface.n_groups(), false);
-      memory.is_surface_contact_node.assign(search.n_surface_nodes(), false);
+      memory.is_surface_contact_node.assign(surface.n_nodes(), false);
       return memory;
     }
   } // namespace
@@ -45,9 +45,10 @@ namespace Keyblock
                         const CellArrays<dim> &cells,
                         Fields<dim> &fields)
     : fields(fields)
-    , search(split, blocks, scene)
-    , memory(make_memory(split, blocks, search))
-    , topology(scene, split, numbering, search)
+    , surface(split, blocks, scene)
+    , search(surface)
+    , memory(make_memory(split, blocks, surface))
+    , topology(scene, split, numbering, surface)
     , strength(topology, memory)
     , loans(topology, strength, memory)
     , nodes(topology, fields)
@@ -65,7 +66,8 @@ namespace Keyblock
                 multi_pairs,
                 fields,
                 memory)
-    , surfaces(topology,
+    , surfaces(search,
+               topology,
                strength,
                areas,
                history,
@@ -73,7 +75,7 @@ namespace Keyblock
                nodes,
                solver,
                memory)
-    , sums(topology, nodes, fields, memory)
+    , sums(search, topology, nodes, fields, memory)
   {
     for (unsigned int p = 0; p < memory.state.size(); ++p)
       memory.state[p].is_intact =
@@ -168,7 +170,7 @@ namespace Keyblock
       }
     for (const SurfaceContact<dim> &contact : memory.contacts)
       if (contact.master_block == block ||
-          search.block_of_node[contact.slave] == block)
+          surface.block_of_node[contact.slave] == block)
         for (int k = 0; k < contact.point.n_nodes; ++k)
           if (nodes.local_node[contact.point.node[k]] != none)
             for (int d = 0; d < dim; ++d)

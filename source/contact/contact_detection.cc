@@ -19,6 +19,7 @@ namespace Keyblock
                                           Fields<dim> &fields,
                                           ContactMemory<dim> &memory)
     : search(search)
+    , surface(search.surface)
     , topology(topology)
     , scene(topology.scene)
     , split(topology.split)
@@ -55,7 +56,7 @@ namespace Keyblock
         Vector<dim> sum{};
         for (const unsigned int f :
              faces_of[{{interface.pairs[p].minus, interface.pairs[p].joint}}])
-          sum = add<dim>(sum, 1., search.face_normal(position, f));
+          sum = add<dim>(sum, 1., surface.face_normal(position, f));
         memory.normal[p] = add<dim>(Vector<dim>{}, 1. / norm<dim>(sum), sum);
       }
   }
@@ -103,7 +104,7 @@ namespace Keyblock
         memory.n_steps >= memory.next_normal_check)
       {
         double square = 0., speed = 0.;
-        for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
+        for (unsigned int node = 0; node < surface.n_nodes(); ++node)
           if (nodes.local_node[node] < numbering.n_owned())
             {
               double moved = 0., fast = 0.;
@@ -119,11 +120,11 @@ namespace Keyblock
               square = std::max(square, moved);
               speed  = std::max(speed, fast);
             }
-        square = numbering.communicator.max(square);
-        speed  = std::sqrt(numbering.communicator.max(speed));
-        memory.is_search_due =
-          memory.is_search_due || square > 0.25 * search.skin() * search.skin();
-        const double eighth      = 0.125 * search.skin();
+        square               = numbering.communicator.max(square);
+        speed                = std::sqrt(numbering.communicator.max(speed));
+        memory.is_search_due = memory.is_search_due ||
+                               square > 0.25 * surface.skin() * surface.skin();
+        const double eighth      = 0.125 * surface.skin();
         memory.next_normal_check = memory.n_steps + 1;
         if (speed * step * 20. < eighth)
           memory.next_normal_check += 19;
@@ -216,7 +217,7 @@ namespace Keyblock
     if (g == none)
       return false;
     if (!has_converted[g])
-      for (const unsigned int other : search.nodes_of_face[face])
+      for (const unsigned int other : surface.nodes_of_face[face])
         if (topology.group_of_node[other] == g)
           return true;
     for (unsigned int p = interface.group_pairs_begin[g];
@@ -224,15 +225,15 @@ namespace Keyblock
          ++p)
       {
         const Pair<dim> &pair = interface.pairs[p];
-        const unsigned int v  = search.vertex_of_node[node];
+        const unsigned int v  = surface.vertex_of_node[node];
         if (memory.state[p].is_converted || (pair.minus != v && pair.plus != v))
           continue;
         const unsigned int partner =
-          search.node_of_vertex[pair.minus == v ? pair.plus : pair.minus];
-        const SurfaceFace<dim> &surface = interface.surface[face];
-        if (search.is_on_block(partner, surface.block) &&
-            (pair.joint == surface.joint ||
-             (surface.joint == none && !has_converted[g])))
+          surface.node_of_vertex[pair.minus == v ? pair.plus : pair.minus];
+        const SurfaceFace<dim> &other = interface.surface[face];
+        if (surface.is_on_block(partner, other.block) &&
+            (pair.joint == other.joint ||
+             (other.joint == none && !has_converted[g])))
           return true;
       }
     return false;
@@ -283,22 +284,23 @@ namespace Keyblock
           memory.is_surface_contact_group[topology.group_of_node[node]] = true;
       }
     for (const HangingVertex &hanging : split.hanging)
-      if (search.node_of_vertex[hanging.vertex] != none &&
-          memory.is_surface_contact_node[search.node_of_vertex[hanging.vertex]])
+      if (surface.node_of_vertex[hanging.vertex] != none &&
+          memory
+            .is_surface_contact_node[surface.node_of_vertex[hanging.vertex]])
         for (const auto &[master, weight] : hanging.masters)
           {
-            const unsigned int node = search.node_of_vertex[master];
+            const unsigned int node = surface.node_of_vertex[master];
             memory.is_surface_contact_node[node] = true;
             if (topology.group_of_node[node] != none)
               memory.is_surface_contact_group[topology.group_of_node[node]] =
                 true;
           }
-    for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       if (topology.group_of_node[node] != none &&
           memory.is_surface_contact_group[topology.group_of_node[node]])
         memory.is_surface_contact_node[node] = true;
     memory.surface_contact_nodes.clear();
-    for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       if (memory.is_surface_contact_node[node])
         {
           memory.surface_contact_nodes.push_back(node);

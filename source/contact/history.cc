@@ -36,7 +36,7 @@ namespace Keyblock
                                       ContactMemory<dim> &memory)
     : topology(topology)
     , interface(topology.interface)
-    , search(topology.search)
+    , surface(topology.surface)
     , strength(strength)
     , areas(areas)
     , nodes(nodes)
@@ -110,7 +110,7 @@ namespace Keyblock
     const Pair<dim> &p = interface.pairs[pair];
     for (const unsigned int vertex : {p.minus, p.plus})
       {
-        JointHistory &history = at(search.node_of_vertex[vertex], p.joint);
+        JointHistory &history = at(surface.node_of_vertex[vertex], p.joint);
         if (history.slip < memory.pair_histories[pair].slip)
           history = memory.pair_histories[pair];
       }
@@ -127,7 +127,7 @@ namespace Keyblock
     const bool is_surface_contact =
       memory.is_surface_contact_group[topology.group_of_pair[pair]];
     const auto index_of = [&](const unsigned int vertex) {
-      return is_surface_contact ? search.node_of_vertex[vertex]
+      return is_surface_contact ? surface.node_of_vertex[vertex]
                                 : topology.numbering.local_node(vertex);
     };
     const unsigned int plus = index_of(p.plus), minus = index_of(p.minus);

@@ -17,7 +17,7 @@ namespace Keyblock
                                           ContactMemory<dim> &memory)
     : topology(topology)
     , interface(topology.interface)
-    , search(topology.search)
+    , surface(topology.surface)
     , scene(topology.scene)
     , strength(strength)
     , nodes(nodes)
@@ -64,8 +64,8 @@ namespace Keyblock
              ++i)
           {
             const unsigned int node =
-              search.node_of_vertex[interface.group_vertices[i]];
-            if (!memory.is_removed_block[search.block_of_node[node]])
+              surface.node_of_vertex[interface.group_vertices[i]];
+            if (!memory.is_removed_block[surface.block_of_node[node]])
               group.surface_nodes.push_back(node);
           }
       }
@@ -144,8 +144,8 @@ namespace Keyblock
     const Pair<dim> &p = interface.pairs[pair];
     ContactPoint<dim> point;
     point.n_nodes   = 2;
-    point.node[0]   = search.node_of_vertex[p.plus];
-    point.node[1]   = search.node_of_vertex[p.minus];
+    point.node[0]   = surface.node_of_vertex[p.plus];
+    point.node[1]   = surface.node_of_vertex[p.minus];
     point.weight[0] = 1.;
     point.weight[1] = -1.;
     point.normal    = memory.normal[pair];
@@ -312,7 +312,7 @@ namespace Keyblock
         double w = 0.;
         for (const unsigned int v :
              {interface.pairs[p].minus, interface.pairs[p].plus})
-          w += nodes.inverse_mass[search.node_of_vertex[v]];
+          w += nodes.inverse_mass[surface.node_of_vertex[v]];
         if (memory.state[p].is_removed || memory.state[p].is_converted ||
             w == 0.)
           continue;
@@ -352,8 +352,8 @@ namespace Keyblock
       if (!memory.state[p].is_converted && !memory.state[p].is_removed)
         for (int d = 0; d < dim; ++d)
           {
-            const auto plus  = search.node_of_vertex[interface.pairs[p].plus];
-            const auto minus = search.node_of_vertex[interface.pairs[p].minus];
+            const auto plus  = surface.node_of_vertex[interface.pairs[p].plus];
+            const auto minus = surface.node_of_vertex[interface.pairs[p].minus];
             nodes.impulse[dim * plus + d] += memory.state[p].impulse[d];
             nodes.impulse[dim * minus + d] -= memory.state[p].impulse[d];
           }

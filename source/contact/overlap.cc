@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Where the two sides of joints lie on each other, for strengths per area.
 #include <keyblock/contact/geometry.h>
-#include <keyblock/contact/search.h>
+#include <keyblock/contact/overlap.h>
 
 #include <deal.II/numerics/rtree.h>
 
@@ -112,38 +112,42 @@ namespace Keyblock
 
   template <int dim>
   std::vector<FaceOverlap<dim>>
-  ContactSearch<dim>::list_overlaps(const std::vector<double> &position,
-                                    const std::vector<bool> &joints) const
+  list_overlaps(const ContactSurface<dim> &surface,
+                const std::vector<double> &position,
+                const std::vector<bool> &joints)
   {
     const auto joint_of = [&](const unsigned int f) {
-      return interface.surface[f].joint;
+      return surface.interface.surface[f].joint;
     };
     const auto size_of = [&](const unsigned int f) {
-      const auto x = corners_of(position, f);
+      const auto x = surface.corners_of(position, f);
       return norm<dim>(difference<dim>(x[x.size() - 1], x[0]));
     };
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
-    for (unsigned int f = 0; f < nodes_of_face.size(); ++f)
+    for (unsigned int f = 0; f < surface.nodes_of_face.size(); ++f)
       if (joint_of(f) != none && joints[joint_of(f)])
-        boxes.emplace_back(box_of(position, f, farthest_gap * size_of(f)), f);
+        boxes.emplace_back(
+          surface.box_of(position, f, farthest_gap * size_of(f)), f);
     const auto tree = dealii::pack_rtree(boxes);
 
     std::vector<FaceOverlap<dim>> overlaps;
     const auto add_overlap = [&](const unsigned int f, const unsigned int g) {
-      const Vector<dim> normal = face_normal(position, g);
-      const auto a = corners_of(position, f), b = corners_of(position, g);
-      if (dot<dim>(face_normal(position, f), normal) > least_opposition)
+      const Vector<dim> normal = surface.face_normal(position, g);
+      const auto a             = surface.corners_of(position, f),
+                 b             = surface.corners_of(position, g);
+      if (dot<dim>(surface.face_normal(position, f), normal) > least_opposition)
         return;
       const Common<dim> common = intersect(a, b, normal);
       if (common.area <= least_overlap * std::pow(size_of(f), dim - 1))
         return;
-      const Projection on_master = project(position, common.center, g);
+      const Projection<dim> on_master =
+        surface.project(position, common.center, g);
       if (std::abs(on_master.gap) > farthest_gap * on_master.size)
         return;
       overlaps.push_back({f,
                           g,
                           common.area,
-                          project(position, common.center, f).weight,
+                          surface.project(position, common.center, f).weight,
                           on_master.weight});
     };
     namespace bgi = boost::geometry::index;
@@ -154,11 +158,11 @@ namespace Keyblock
              tree | bgi::adaptors::queried(bgi::intersects(box)))
           {
             const unsigned int g = hit.second;
-            const unsigned int a = interface.surface[f].block,
-                               b = interface.surface[g].block;
+            const unsigned int a = surface.interface.surface[f].block,
+                               b = surface.interface.surface[g].block;
             if (joint_of(g) == joint_of(f) &&
-                !(is_rigid_block[a] && is_rigid_block[b]) &&
-                (a == b ? f < g : is_slave_block(a, b)))
+                !(surface.is_rigid_block[a] && surface.is_rigid_block[b]) &&
+                (a == b ? f < g : surface.is_slave_block(a, b)))
               masters.push_back(g);
           }
         std::sort(masters.begin(), masters.end());
@@ -168,87 +172,82 @@ namespace Keyblock
     return overlaps;
   }
 
-  template <int dim>
-  std::vector<typename ContactSearch<dim>::Projection>
-  ContactSearch<dim>::feet_on_pairs(const std::vector<double> &position,
-                                    const unsigned int node) const
+
+
+  namespace
   {
-    std::vector<Projection> feet;
-    const auto candidate =
-      std::lower_bound(candidates.begin(),
-                       candidates.end(),
-                       node,
-                       [](const Candidate &a, const unsigned int b) {
-                         return a.slave < b;
-                       });
-    if (candidate == candidates.end() || candidate->slave != node)
-      return feet;
-    for (const CandidateFace &face : candidate->paired_faces)
-      feet.push_back(project(position, at<dim>(position, node), face.face));
-    return feet;
-  }
-
-
-
-  template <int dim>
-  double
-  ContactSearch<dim>::overlap_with(const std::vector<double> &position,
-                                   const unsigned int node,
-                                   const std::vector<unsigned int> &faces) const
-  {
-    const Vector<dim> place              = at<dim>(position, node);
-    const std::vector<Projection> paired = feet_on_pairs(position, node);
-    double depth = 0., distance = std::numeric_limits<double>::max();
-    bool is_in_front = false; // of the nearest joint
-    bool is_on_joint = false;
-    for (const unsigned int f : faces)
-      {
-        const Projection now = project(position, place, f);
-        const bool is_joint  = interface.surface[f].joint != none;
-        if (is_joint && norm<dim>(now.offset) < distance)
-          {
-            distance    = norm<dim>(now.offset);
-            is_in_front = now.is_inside && now.gap > 0.;
-          }
-        if (!now.is_inside || now.gap >= 0. ||
-            now.gap < -make_candidate(position, node, f).largest_overlap ||
-            !opposes(position, node, now.normal) ||
-            std::any_of(paired.begin(),
-                        paired.end(),
-                        [&](const Projection &other) {
-                          return is_coplanar(other, now);
-                        }))
-          continue;
-        const double before =
-          project(start_position, at<dim>(start_position, node), f).gap;
-        const double deeper = -now.gap + std::min(0., before);
-        depth               = depth == 0. ? deeper : std::min(depth, deeper);
-        is_on_joint         = is_on_joint || is_joint;
-      }
-    // below a free face, along a joint at its edge, it is still outside
-    if (is_on_joint)
-      return depth;
-    return is_in_front ? 0. : std::min(depth, distance);
-  }
+    /** How deep a surface node is in a block with @p faces near it, beyond how
+     * deep it was at the start [m]; not above 0 if it is outside, or if a pair
+     * holds it on the plane of the face. */
+    template <int dim>
+    double
+    overlap_with(const ContactSearch<dim> &search,
+                 const std::vector<double> &position,
+                 const unsigned int node,
+                 const std::vector<unsigned int> &faces)
+    {
+      const ContactSurface<dim> &surface = search.surface;
+      const Vector<dim> place            = at<dim>(position, node);
+      const std::vector<Projection<dim>> paired =
+        search.feet_on_pairs(position, node);
+      double depth = 0., distance = std::numeric_limits<double>::max();
+      bool is_in_front = false; // of the nearest joint
+      bool is_on_joint = false;
+      for (const unsigned int f : faces)
+        {
+          const Projection<dim> now = surface.project(position, place, f);
+          const bool is_joint = surface.interface.surface[f].joint != none;
+          if (is_joint && norm<dim>(now.offset) < distance)
+            {
+              distance    = norm<dim>(now.offset);
+              is_in_front = now.is_inside && now.gap > 0.;
+            }
+          if (!now.is_inside || now.gap >= 0. ||
+              now.gap <
+                -search.make_candidate(position, node, f).largest_overlap ||
+              !surface.opposes(position, node, now.normal) ||
+              std::any_of(paired.begin(),
+                          paired.end(),
+                          [&](const Projection<dim> &other) {
+                            return is_coplanar(other, now);
+                          }))
+            continue;
+          const double before =
+            surface
+              .project(surface.start_position,
+                       at<dim>(surface.start_position, node),
+                       f)
+              .gap;
+          const double deeper = -now.gap + std::min(0., before);
+          depth               = depth == 0. ? deeper : std::min(depth, deeper);
+          is_on_joint         = is_on_joint || is_joint;
+        }
+      // below a free face, along a joint at its edge, it is still outside
+      if (is_on_joint)
+        return depth;
+      return is_in_front ? 0. : std::min(depth, distance);
+    }
+  } // namespace
 
 
 
   template <int dim>
   Overlap<dim>
-  ContactSearch<dim>::find_largest_overlap(
-    const std::vector<double> &position,
-    const std::vector<bool> &is_removed_block) const
+  find_largest_overlap(const ContactSearch<dim> &search,
+                       const std::vector<double> &position,
+                       const std::vector<bool> &is_removed_block)
   {
+    const ContactSurface<dim> &surface = search.surface;
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
-    for (const unsigned int f : faces_with_area)
-      if (!is_removed_block[interface.surface[f].block])
-        boxes.emplace_back(box_of(position, f, skin_width), f);
+    for (const unsigned int f : surface.faces_with_area)
+      if (!is_removed_block[surface.interface.surface[f].block])
+        boxes.emplace_back(surface.box_of(position, f, surface.skin()), f);
     const auto tree = dealii::pack_rtree(boxes);
     Overlap<dim> largest;
     namespace bgi = boost::geometry::index;
-    for (unsigned int node = 0; node < n_surface_nodes(); ++node)
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       {
-        const unsigned int block = block_of_node[node];
+        const unsigned int block = surface.block_of_node[node];
         if (is_removed_block[block])
           continue;
         const Vector<dim> place = at<dim>(position, node);
@@ -259,22 +258,17 @@ namespace Keyblock
         for (const auto &hit :
              tree | bgi::adaptors::queried(bgi::intersects(p)))
           {
-            const unsigned int f      = hit.second;
-            const unsigned int other  = interface.surface[f].block;
-            const auto &surface_nodes = nodes_of_face[f];
-            if (std::find(surface_nodes.begin(), surface_nodes.end(), node) !=
-                  surface_nodes.end() ||
-                (block == other && interface.surface[f].joint == none) ||
-                (is_rigid_block[block] && is_rigid_block[other]))
-              continue;
-            faces_near[other].push_back(f);
+            const unsigned int f = hit.second;
+            if (surface.may_meet(node, f))
+              faces_near[surface.interface.surface[f].block].push_back(f);
           }
         for (const auto &[other, faces] : faces_near)
           {
-            const double depth = overlap_with(position, node, faces);
+            const double depth =
+              overlap_with<dim>(search, position, node, faces);
             // of several that are equal but for rounding the first, on any
             // ranks
-            if (depth > rounding * block_face_size[block] &&
+            if (depth > rounding * surface.block_face_size[block] &&
                 depth > (1. + equal) * largest.depth)
               largest = {depth, place};
           }
@@ -282,16 +276,18 @@ namespace Keyblock
     return largest;
   }
 
-  template Overlap<2>
-  ContactSearch<2>::find_largest_overlap(const std::vector<double> &,
-                                         const std::vector<bool> &) const;
-  template Overlap<3>
-  ContactSearch<3>::find_largest_overlap(const std::vector<double> &,
-                                         const std::vector<bool> &) const;
   template std::vector<FaceOverlap<2>>
-  ContactSearch<2>::list_overlaps(const std::vector<double> &,
-                                  const std::vector<bool> &) const;
+  list_overlaps<2>(const ContactSurface<2> &,
+                   const std::vector<double> &,
+                   const std::vector<bool> &);
+  template Overlap<2> find_largest_overlap<2>(const ContactSearch<2> &,
+                                              const std::vector<double> &,
+                                              const std::vector<bool> &);
   template std::vector<FaceOverlap<3>>
-  ContactSearch<3>::list_overlaps(const std::vector<double> &,
-                                  const std::vector<bool> &) const;
+  list_overlaps<3>(const ContactSurface<3> &,
+                   const std::vector<double> &,
+                   const std::vector<bool> &);
+  template Overlap<3> find_largest_overlap<3>(const ContactSearch<3> &,
+                                              const std::vector<double> &,
+                                              const std::vector<bool> &);
 } // namespace Keyblock

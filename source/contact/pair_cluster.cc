@@ -56,7 +56,7 @@ namespace Keyblock
     const auto index_of  = [&](const unsigned int vertex) {
       return std::find(surface_nodes.begin(),
                        surface_nodes.end(),
-                       topology.search.node_of_vertex[vertex]) -
+                       topology.surface.node_of_vertex[vertex]) -
              surface_nodes.begin();
     };
     is_oblique = false;
@@ -151,7 +151,7 @@ namespace Keyblock
     const auto index         = [&](const unsigned int vertex) {
       return std::find(surface_nodes.begin(),
                        surface_nodes.end(),
-                       topology.search.node_of_vertex[vertex]) -
+                       topology.surface.node_of_vertex[vertex]) -
              surface_nodes.begin();
     };
     for (int d = 0; d < dim; ++d)

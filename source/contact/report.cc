@@ -98,14 +98,16 @@ namespace Keyblock
 
 
   template <int dim>
-  ContactReport<dim>::ContactReport(const PairTopology<dim> &topology,
+  ContactReport<dim>::ContactReport(const ContactSearch<dim> &search,
+                                    const PairTopology<dim> &topology,
                                     const SurfaceNodes<dim> &nodes,
                                     const Fields<dim> &fields,
                                     const ContactMemory<dim> &memory)
-    : topology(topology)
+    : search(search)
+    , topology(topology)
     , scene(topology.scene)
     , interface(topology.interface)
-    , search(topology.search)
+    , surface(topology.surface)
     , nodes(nodes)
     , fields(fields)
     , memory(memory)
@@ -223,8 +225,9 @@ namespace Keyblock
   Overlap<dim>
   ContactReport<dim>::largest_overlap() const
   {
-    return search.find_largest_overlap(nodes.gather_positions(),
-                                       memory.is_removed_block);
+    return find_largest_overlap<dim>(search,
+                                     nodes.gather_positions(),
+                                     memory.is_removed_block);
   }
 
 
@@ -270,7 +273,7 @@ namespace Keyblock
     if (topology.numbering.communicator.is_root())
       for (const SurfaceContact<dim> &contact : memory.contacts)
         {
-          const unsigned int slave       = search.block_of_node[contact.slave];
+          const unsigned int slave       = surface.block_of_node[contact.slave];
           const ContactPoint<dim> &point = contact.point;
           if (slave == contact.master_block)
             continue;

@@ -16,12 +16,12 @@ namespace Keyblock
                          memory.contacts.end(),
                          [&](const SurfaceContact<dim> &contact) {
                            const unsigned int block =
-                             search.block_of_node[contact.slave];
+                             surface.block_of_node[contact.slave];
                            return !contact.is_ridge &&
                                   block == contact.master_block &&
-                                  search.start_distance(contact.slave,
-                                                        contact.face) <
-                                    -shallow * search.skin();
+                                  surface.start_distance(contact.slave,
+                                                         contact.face) <
+                                    -shallow * surface.skin();
                          });
   }
 
@@ -65,7 +65,7 @@ namespace Keyblock
       if (contact.point.status == ContactStatus::sliding)
         {
           mark(contact.master_block);
-          mark(search.block_of_node[contact.slave]);
+          mark(surface.block_of_node[contact.slave]);
         }
     topology.numbering.communicator.max_lists(is_sliding);
     return is_sliding;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Ridges that cross in 3D: edge to edge contact.
 #include <keyblock/contact/geometry.h>
-#include <keyblock/contact/search.h>
+#include <keyblock/contact/ridges.h>
 
 #include <deal.II/numerics/rtree.h>
 
@@ -58,32 +58,31 @@ namespace Keyblock
 
 
 
-  template <>
-  void
-  ContactSearch<3>::find_ridges()
+  RidgeSearch::RidgeSearch(const ContactSurface<3> &surface)
+    : surface(surface)
   {
-    std::vector<double> position(3 * n_surface_nodes());
-    for (unsigned int node = 0; node < n_surface_nodes(); ++node)
-      for (unsigned int d = 0; d < 3; ++d)
-        position[3 * node + d] = place_of_node[node][d];
+    const std::vector<double> &position = surface.start_position;
     std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> faces_at;
-    for (const unsigned int f : faces_with_area)
+    for (const unsigned int f : surface.faces_with_area)
       for (const auto &[i, j] :
            {std::array<unsigned int, 2>{{0, 1}}, {{2, 3}}, {{0, 2}}, {{1, 3}}})
-        faces_at[{{std::min(nodes_of_face[f][i], nodes_of_face[f][j]),
-                   std::max(nodes_of_face[f][i], nodes_of_face[f][j])}}]
+        faces_at[{{std::min(surface.nodes_of_face[f][i],
+                            surface.nodes_of_face[f][j]),
+                   std::max(surface.nodes_of_face[f][i],
+                            surface.nodes_of_face[f][j])}}]
           .push_back(f);
     const auto center = [&](const unsigned int f) {
       Vector<3> sum{};
-      for (const unsigned int node : nodes_of_face[f])
+      for (const unsigned int node : surface.nodes_of_face[f])
         sum = add<3>(sum, 0.25, at<3>(position, node));
       return sum;
     };
     for (const auto &[surface_nodes, faces] : faces_at)
       if (faces.size() == 2)
         {
-          const Vector<3> n = face_normal(position, faces[0]);
-          if (dot<3>(n, face_normal(position, faces[1])) < cosine_of_sharp &&
+          const Vector<3> n = surface.face_normal(position, faces[0]);
+          if (dot<3>(n, surface.face_normal(position, faces[1])) <
+                cosine_of_sharp &&
               dot<3>(n, difference<3>(center(faces[1]), center(faces[0]))) < 0.)
             ridges.push_back({surface_nodes, {{faces[0], faces[1]}}});
         }
@@ -91,14 +90,13 @@ namespace Keyblock
 
 
 
-  template <>
   bool
-  ContactSearch<3>::is_in_normal_cone(const std::vector<double> &position,
-                                      const Ridge &ridge,
-                                      const Vector<3> &direction) const
+  RidgeSearch::is_in_normal_cone(const std::vector<double> &position,
+                                 const Ridge &ridge,
+                                 const Vector<3> &direction) const
   {
-    const Vector<3> n = face_normal(position, ridge.faces[0]);
-    const Vector<3> m = face_normal(position, ridge.faces[1]);
+    const Vector<3> n = surface.face_normal(position, ridge.faces[0]);
+    const Vector<3> m = surface.face_normal(position, ridge.faces[1]);
     const double nm = dot<3>(n, m), nd = dot<3>(n, direction),
                  md = dot<3>(m, direction);
     // direction = alpha n + beta m; the determinant is positive at a ridge
@@ -107,11 +105,9 @@ namespace Keyblock
 
 
 
-  template <>
   void
-  ContactSearch<3>::search_ridges(
-    const std::vector<double> &position,
-    const std::function<bool(unsigned int, unsigned int)> &is_paired)
+  RidgeSearch::search(const std::vector<double> &position,
+                      const IsPaired &is_paired)
   {
     using Box         = dealii::BoundingBox<3>;
     const auto box_of = [&](const Ridge &ridge, const double margin) {
@@ -127,12 +123,12 @@ namespace Keyblock
     };
     std::vector<std::pair<Box, unsigned int>> boxes;
     for (unsigned int r = 0; r < ridges.size(); ++r)
-      boxes.emplace_back(box_of(ridges[r], skin_width), r);
+      boxes.emplace_back(box_of(ridges[r], surface.skin()), r);
     const auto tree = dealii::pack_rtree(boxes);
 
-    ridge_pairs.clear();
+    pairs.clear();
     const auto block_of = [&](const unsigned int r) {
-      return block_of_node[ridges[r].surface_nodes[0]];
+      return surface.block_of_node[ridges[r].surface_nodes[0]];
     };
     const auto touches_pair = [&](const Ridge &a, const Ridge &b) {
       for (const unsigned int node : a.surface_nodes)
@@ -149,8 +145,9 @@ namespace Keyblock
           const unsigned int other = hit.second;
           const unsigned int a = block_of(other), b = block_of(r);
           // each pair once, the slave's ridge first
-          if (a == b || (is_rigid_block[a] && is_rigid_block[b]) ||
-              !is_slave_block(b, a))
+          if (a == b ||
+              (surface.is_rigid_block[a] && surface.is_rigid_block[b]) ||
+              !surface.is_slave_block(b, a))
             continue;
           const Crossing crossing =
             cross_segments(at<3>(position, ridges[other].surface_nodes[0]),
@@ -162,11 +159,11 @@ namespace Keyblock
               !is_near(crossing.t) || touches_pair(ridges[r], ridges[other]) ||
               touches_pair(ridges[other], ridges[r]))
             continue;
-          ridge_pairs.push_back(
-            {other, r, largest_overlap_of(ridges[other], ridges[r])});
+          pairs.push_back(
+            {other, r, largest_overlap(ridges[other], ridges[r])});
         }
-    std::sort(ridge_pairs.begin(),
-              ridge_pairs.end(),
+    std::sort(pairs.begin(),
+              pairs.end(),
               [](const RidgePair &x, const RidgePair &y) {
                 return std::array<unsigned int, 2>{{x.slave, x.master}} <
                        std::array<unsigned int, 2>{{y.slave, y.master}};
@@ -175,13 +172,23 @@ namespace Keyblock
 
 
 
-  template <>
+  void
+  RidgeSearch::mark_nodes(std::vector<bool> &is_used) const
+  {
+    for (const RidgePair &pair : pairs)
+      for (const unsigned int r : {pair.master, pair.slave})
+        for (const unsigned int f : ridges[r].faces)
+          for (const unsigned int node : surface.nodes_of_face[f])
+            is_used[node] = true;
+  }
+
+
+
   double
-  ContactSearch<3>::largest_overlap_of(const Ridge &master,
-                                       const Ridge &slave) const
+  RidgeSearch::largest_overlap(const Ridge &master, const Ridge &slave) const
   {
     const auto start = [&](const unsigned int node) {
-      return at<3>(start_position, node);
+      return at<3>(surface.start_position, node);
     };
     const Vector<3> a0      = start(master.surface_nodes[0]),
                     a1      = start(master.surface_nodes[1]);
@@ -190,26 +197,23 @@ namespace Keyblock
                                              a1,
                                              start(slave.surface_nodes[0]),
                                              start(slave.surface_nodes[1]));
-    const double outward =
-      dot<3>(crossing.normal,
-             add<3>(face_normal(start_position, master.faces[0]),
-                    1.,
-                    face_normal(start_position, master.faces[1])));
+    const double outward    = dot<3>(
+      crossing.normal,
+      add<3>(surface.face_normal(surface.start_position, master.faces[0]),
+             1.,
+             surface.face_normal(surface.start_position, master.faces[1])));
     const double behind =
       -std::copysign(1., outward) * dot<3>(crossing.normal, crossing.offset);
-    return behind > least_behind * size
-             ? std::min(way_out * behind, overlap_from_behind * size)
-             : deepest_overlap * size;
+    return largest_overlap_of(behind, size);
   }
 
 
 
-  template <>
   unsigned int
-  ContactSearch<3>::joint_between(const std::vector<double> &position,
-                                  const Ridge &master,
-                                  const Ridge &slave,
-                                  const Vector<3> &normal) const
+  RidgeSearch::joint_between(const std::vector<double> &position,
+                             const Ridge &master,
+                             const Ridge &slave,
+                             const Vector<3> &normal) const
   {
     unsigned int joint = none;
     double most        = -1.;
@@ -217,12 +221,12 @@ namespace Keyblock
       for (const unsigned int f : ridge->faces)
         {
           const double alignment =
-            std::abs(dot<3>(face_normal(position, f), normal));
-          if (interface.surface[f].joint != none &&
+            std::abs(dot<3>(surface.face_normal(position, f), normal));
+          if (surface.interface.surface[f].joint != none &&
               alignment > most + equal_alignment)
             {
               most  = alignment;
-              joint = interface.surface[f].joint;
+              joint = surface.interface.surface[f].joint;
             }
         }
     return joint;
@@ -230,14 +234,12 @@ namespace Keyblock
 
 
 
-  template <>
   void
-  ContactSearch<3>::add_ridge_contacts(
-    const std::vector<double> &position,
-    const double reach,
-    std::vector<SurfaceContact<3>> &contacts) const
+  RidgeSearch::add_contacts(const std::vector<double> &position,
+                            const double reach,
+                            std::vector<SurfaceContact<3>> &contacts) const
   {
-    for (const RidgePair &pair : ridge_pairs)
+    for (const RidgePair &pair : pairs)
       {
         const Ridge &master = ridges[pair.master], &slave = ridges[pair.slave];
         const Vector<3> a0 = at<3>(position, master.surface_nodes[0]),
@@ -252,9 +254,9 @@ namespace Keyblock
           continue;
         Vector<3> normal = crossing.normal;
         if (dot<3>(normal,
-                   add<3>(face_normal(position, master.faces[0]),
+                   add<3>(surface.face_normal(position, master.faces[0]),
                           1.,
-                          face_normal(position, master.faces[1]))) < 0.)
+                          surface.face_normal(position, master.faces[1]))) < 0.)
           normal = difference<3>(Vector<3>{}, normal);
         const double gap = dot<3>(normal, crossing.offset);
         if (gap > reach || gap < -pair.largest_overlap ||
@@ -264,11 +266,11 @@ namespace Keyblock
                                difference<3>(Vector<3>{}, normal)))
           continue;
         SurfaceContact<3> contact;
-        contact.slave         = slave.surface_nodes[0];
-        contact.face          = master.faces[0];
-        contact.is_ridge      = true;
-        contact.joint         = joint_between(position, master, slave, normal);
-        contact.master_block  = interface.surface[master.faces[0]].block;
+        contact.slave        = slave.surface_nodes[0];
+        contact.face         = master.faces[0];
+        contact.is_ridge     = true;
+        contact.joint        = joint_between(position, master, slave, normal);
+        contact.master_block = surface.interface.surface[master.faces[0]].block;
         contact.point.n_nodes = 4;
         contact.point.node    = {{slave.surface_nodes[0],
                                   slave.surface_nodes[1],

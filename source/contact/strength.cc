@@ -111,7 +111,7 @@ namespace Keyblock
                                    const double kick) const
   {
     const double share =
-      reduction.share_between(topology.search.block_of_node[contact.slave],
+      reduction.share_between(topology.surface.block_of_node[contact.slave],
                               contact.master_block,
                               contact.joint);
     const bool has_area = !std::isnan(area);

@@ -14,7 +14,7 @@ namespace Keyblock
   SurfaceContacts<dim>::put_masters_into(ContactPoint<dim> &point) const
   {
     const auto hangs = [&](const unsigned int node) {
-      return split.is_hanging(search.vertex_of_node[node]);
+      return split.is_hanging(surface.vertex_of_node[node]);
     };
     if (std::none_of(point.node.begin(),
                      point.node.begin() + point.n_nodes,
@@ -22,10 +22,10 @@ namespace Keyblock
       return;
     std::map<unsigned int, double> shares;
     for (int k = 0; k < point.n_nodes; ++k)
-      split.for_each_carrier(search.vertex_of_node[point.node[k]],
+      split.for_each_carrier(surface.vertex_of_node[point.node[k]],
                              [&](const unsigned int vertex,
                                  const double share) {
-                               shares[search.node_of_vertex[vertex]] +=
+                               shares[surface.node_of_vertex[vertex]] +=
                                  share * point.weight[k];
                              });
     AssertThrow(shares.size() <= point.node.size(),
@@ -50,7 +50,7 @@ namespace Keyblock
     for (const unsigned int node : memory.surface_contact_nodes)
       for (int d = 0; d < dim; ++d)
         speed = std::max(speed, std::abs(nodes.velocity[dim * node + d]));
-    return 2. * dim * speed * step + 1e-6 * search.skin();
+    return 2. * dim * speed * step + 1e-6 * surface.skin();
   }
 
 
@@ -68,7 +68,8 @@ namespace Keyblock
           memory.contacts.end(),
           [&](const SurfaceContact<dim> &contact) {
             return memory.is_removed_block[contact.master_block] ||
-                   memory.is_removed_block[search.block_of_node[contact.slave]];
+                   memory
+                     .is_removed_block[surface.block_of_node[contact.slave]];
           }),
         memory.contacts.end());
   }
@@ -155,7 +156,7 @@ namespace Keyblock
     const unsigned int g = topology.group_of_node[contact.slave];
     if (g == none)
       return {};
-    const unsigned int v = search.vertex_of_node[contact.slave];
+    const unsigned int v = surface.vertex_of_node[contact.slave];
     for (unsigned int p = interface.group_pairs_begin[g];
          p < interface.group_pairs_begin[g + 1];
          ++p)

@@ -9,7 +9,8 @@
 namespace Keyblock
 {
   template <int dim>
-  SurfaceContacts<dim>::SurfaceContacts(const PairTopology<dim> &topology,
+  SurfaceContacts<dim>::SurfaceContacts(const ContactSearch<dim> &search,
+                                        const PairTopology<dim> &topology,
                                         const ContactStrength<dim> &strength,
                                         ContactAreas<dim> &areas,
                                         const ContactHistory<dim> &history,
@@ -17,10 +18,11 @@ namespace Keyblock
                                         SurfaceNodes<dim> &nodes,
                                         PointSolver<dim> &solver,
                                         ContactMemory<dim> &memory)
-    : topology(topology)
+    : search(search)
+    , topology(topology)
     , split(topology.split)
     , interface(topology.interface)
-    , search(topology.search)
+    , surface(topology.surface)
     , strength(strength)
     , areas(areas)
     , history(history)
@@ -45,7 +47,7 @@ namespace Keyblock
   std::vector<unsigned int>
   SurfaceContacts<dim>::list_pairs(const ContactStep &step)
   {
-    std::vector<bool> is_touched(search.n_surface_nodes(), false);
+    std::vector<bool> is_touched(surface.n_nodes(), false);
     for (const SurfaceContact<dim> &contact : memory.contacts)
       for (int k = 0; k < contact.point.n_nodes; ++k)
         if (can_move(contact.point, k))
@@ -70,7 +72,7 @@ namespace Keyblock
   SurfaceContacts<dim>::group_points(
     const std::vector<ContactPoint<dim>> &points) const
   {
-    DisjointSets sets(search.n_surface_nodes());
+    DisjointSets sets(surface.n_nodes());
     std::vector<unsigned int> first(points.size(), none);
     for (unsigned int i = 0; i < points.size(); ++i)
       for (int k = 0; k < points[i].n_nodes; ++k)
@@ -82,7 +84,7 @@ namespace Keyblock
               sets.join(first[i], points[i].node[k]);
           }
     std::vector<std::vector<unsigned int>> groups;
-    std::vector<unsigned int> group_of_root(search.n_surface_nodes(), none);
+    std::vector<unsigned int> group_of_root(surface.n_nodes(), none);
     for (unsigned int i = 0; i < points.size(); ++i)
       if (first[i] != none)
         {
@@ -121,9 +123,9 @@ namespace Keyblock
           {
             const Pair<dim> &pair = interface.pairs[p];
             const bool is_plus =
-              contact.slave == search.node_of_vertex[pair.plus];
+              contact.slave == surface.node_of_vertex[pair.plus];
             const bool is_minus =
-              contact.slave == search.node_of_vertex[pair.minus];
+              contact.slave == surface.node_of_vertex[pair.minus];
             if (!memory.state[p].is_converted || (!is_plus && !is_minus) ||
                 contact.joint != pair.joint)
               continue;

@@ -6,13 +6,13 @@ namespace Keyblock
   template <int dim>
   SurfaceNodes<dim>::SurfaceNodes(const PairTopology<dim> &topology,
                                   Fields<dim> &fields)
-    : search(topology.search)
+    : surface(topology.surface)
     , numbering(topology.numbering)
     , fields(fields)
   {
     for (auto *values :
          {&velocity, &old_velocity, &displacement, &position, &impulse})
-      values->assign(dim * search.n_surface_nodes(), 0.);
+      values->assign(dim * surface.n_nodes(), 0.);
     measure();
   }
 
@@ -21,14 +21,14 @@ namespace Keyblock
   void
   SurfaceNodes<dim>::measure()
   {
-    local_node.resize(search.n_surface_nodes());
-    projection.assign(search.n_surface_nodes(), nullptr);
-    inverse_mass.assign(search.n_surface_nodes(), 0.);
-    std::vector<double> held(search.n_surface_nodes() * dim * dim, 0.);
-    for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
+    local_node.resize(surface.n_nodes());
+    projection.assign(surface.n_nodes(), nullptr);
+    inverse_mass.assign(surface.n_nodes(), 0.);
+    std::vector<double> held(surface.n_nodes() * dim * dim, 0.);
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       {
         const unsigned int local =
-          numbering.local_node(search.vertex_of_node[node]);
+          numbering.local_node(surface.vertex_of_node[node]);
         local_node[node] = local;
         if (local >= numbering.n_owned())
           continue;
@@ -46,8 +46,8 @@ namespace Keyblock
     numbering.communicator.sum_lists(inverse_mass);
     numbering.communicator.sum_lists(held);
 
-    projection_storage.resize(search.n_surface_nodes());
-    for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
+    projection_storage.resize(surface.n_nodes());
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       {
         bool is_held = false;
         for (int i = 0; i < dim * dim; ++i)
@@ -104,7 +104,7 @@ namespace Keyblock
     copy(fields.displacement, displacement);
     for (const unsigned int node : active)
       {
-        const Point<dim> &x = search.place_of_node[node];
+        const Point<dim> &x = surface.place_of_node[node];
         for (int d = 0; d < dim; ++d)
           position[dim * node + d] = x[d] + displacement[dim * node + d];
       }
@@ -135,12 +135,12 @@ namespace Keyblock
   std::vector<double>
   SurfaceNodes<dim>::gather_positions() const
   {
-    std::vector<double> position(dim * search.n_surface_nodes(), 0.);
-    for (unsigned int node = 0; node < search.n_surface_nodes(); ++node)
+    std::vector<double> position(dim * surface.n_nodes(), 0.);
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       if (local_node[node] < numbering.n_owned())
         for (int d = 0; d < dim; ++d)
           position[dim * node + d] =
-            search.place_of_node[node][d] +
+            surface.place_of_node[node][d] +
             fields.displacement[dim * local_node[node] + d];
     if (numbering.communicator.size() > 1)
       numbering.communicator.sum_lists(position);

@@ -7,21 +7,22 @@ namespace Keyblock
   PairTopology<dim>::PairTopology(const Scene<dim> &scene,
                                   const SplitMesh<dim> &split,
                                   const Numbering<dim> &numbering,
-                                  const ContactSearch<dim> &search)
+                                  const ContactSurface<dim> &surface)
     : scene(scene)
     , split(split)
     , interface(split.interface)
     , numbering(numbering)
-    , search(search)
+    , surface(surface)
     , group_of_pair(interface.pairs.size())
-    , group_of_node(search.n_surface_nodes(), none)
+    , group_of_node(surface.n_nodes(), none)
   {
     for (unsigned int g = 0; g < interface.n_groups(); ++g)
       {
         for (unsigned int i = interface.group_begin[g];
              i < interface.group_begin[g + 1];
              ++i)
-          group_of_node[search.node_of_vertex[interface.group_vertices[i]]] = g;
+          group_of_node[surface.node_of_vertex[interface.group_vertices[i]]] =
+            g;
         for (unsigned int p = interface.group_pairs_begin[g];
              p < interface.group_pairs_begin[g + 1];
              ++p)
@@ -42,7 +43,7 @@ namespace Keyblock
     for (unsigned int i = interface.group_begin[group];
          i < interface.group_begin[group + 1];
          ++i)
-      if (projection[search.node_of_vertex[interface.group_vertices[i]]])
+      if (projection[surface.node_of_vertex[interface.group_vertices[i]]])
         return false;
     return true;
   }
@@ -54,9 +55,10 @@ namespace Keyblock
   PairTopology<dim>::blocks_of_pair(const unsigned int pair) const
   {
     return {
-      {search.block_of_node[search.node_of_vertex[interface.pairs[pair].minus]],
-       search
-         .block_of_node[search.node_of_vertex[interface.pairs[pair].plus]]}};
+      {surface
+         .block_of_node[surface.node_of_vertex[interface.pairs[pair].minus]],
+       surface
+         .block_of_node[surface.node_of_vertex[interface.pairs[pair].plus]]}};
   }
 
 

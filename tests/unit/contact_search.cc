@@ -6,7 +6,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/contact/geometry.h>
-#include <keyblock/contact/search.h>
+#include <keyblock/contact/overlap.h>
 #include <keyblock/contact/surface_places.h>
 #include <keyblock/safety/slip_record.h>
 #include <keyblock/scene/joint_extent.h>
@@ -46,11 +46,12 @@ namespace
           << joints << "end\n";
       MPI_Barrier(world);
       scene.read(world, file, {});
-      mesh   = make_mesh(world, scene, silent);
-      blocks = find_blocks(mesh, scene);
-      split  = split_mesh(mesh, blocks, scene);
-      search = std::make_unique<ContactSearch<dim>>(split, blocks, scene);
-      for (const Point<dim> &place : search->place_of_node)
+      mesh    = make_mesh(world, scene, silent);
+      blocks  = find_blocks(mesh, scene);
+      split   = split_mesh(mesh, blocks, scene);
+      surface = std::make_unique<ContactSurface<dim>>(split, blocks, scene);
+      search  = std::make_unique<ContactSearch<dim>>(*surface);
+      for (const Point<dim> &place : surface->place_of_node)
         for (unsigned int d = 0; d < dim; ++d)
           position.push_back(place[d]);
     }
@@ -71,6 +72,7 @@ namespace
     Mesh<dim> mesh;
     Blocks<dim> blocks;
     SplitMesh<dim> split;
+    std::unique_ptr<ContactSurface<dim>> surface;
     std::unique_ptr<ContactSearch<dim>> search;
     std::vector<double> position;
   };
@@ -130,14 +132,13 @@ BOOST_AUTO_TEST_CASE(no_contact_through_rock)
       const Set<3> set("acute", "4, 4, 4", acute_planes(random), 0.8);
       // there are nodes right behind joint faces of their own block
       unsigned int n_behind = 0, n_through = 0;
-      for (unsigned int f = 0; f < set.search->nodes_of_face.size(); ++f)
+      for (unsigned int f = 0; f < set.surface->nodes_of_face.size(); ++f)
         {
           const SurfaceFace<3> &face = set.split.interface.surface[f];
-          for (unsigned int node = 0; node < set.search->n_surface_nodes();
-               ++node)
+          for (unsigned int node = 0; node < set.surface->n_nodes(); ++node)
             n_behind += face.joint != none &&
-                        set.search->block_of_node[node] == face.block &&
-                        set.search->start_distance(node, f) < -1e-2;
+                        set.surface->block_of_node[node] == face.block &&
+                        set.surface->start_distance(node, f) < -1e-2;
         }
       const auto contacts = set.contacts();
       for (const SurfaceContact<3> &contact : contacts)
@@ -165,7 +166,7 @@ BOOST_AUTO_TEST_CASE(kinked_joint_keeps_its_partners)
                          end + "\n end\n",
                        0.2);
       BOOST_TEST(set.blocks.blocks.size() == 1);
-      std::vector<unsigned int> n_contacts(set.search->n_surface_nodes(), 0);
+      std::vector<unsigned int> n_contacts(set.surface->n_nodes(), 0);
       for (const SurfaceContact<2> &contact : set.contacts())
         {
           BOOST_TEST(std::abs(contact.point.gap) < 1e-6);
@@ -176,7 +177,7 @@ BOOST_AUTO_TEST_CASE(kinked_joint_keeps_its_partners)
         for (const unsigned int v : {pair.minus, pair.plus})
           {
             ++n_on_joints;
-            n_alone += n_contacts[set.search->node_of_vertex[v]] == 0;
+            n_alone += n_contacts[set.surface->node_of_vertex[v]] == 0;
           }
       BOOST_TEST(n_on_joints > 10);
       // the node on the convex side of the kink may leave it to its partner
@@ -199,14 +200,15 @@ BOOST_AUTO_TEST_CASE(overlaps_add_up)
       const double x               = i == 0 ? 0. : shift(random);
       const double y               = i == 0 ? 0. : shift(random);
       std::vector<double> position = set.position;
-      for (unsigned int node = 0; node < set.search->n_surface_nodes(); ++node)
-        if (set.search->block_of_node[node] == 1)
+      for (unsigned int node = 0; node < set.surface->n_nodes(); ++node)
+        if (set.surface->block_of_node[node] == 1)
           {
             position[3 * node] += x;
             position[3 * node + 1] += y;
           }
       double area = 0., shares = 0.;
-      for (const auto &overlap : set.search->list_overlaps(position, {true}))
+      for (const auto &overlap :
+           list_overlaps<3>(*set.surface, position, {true}))
         {
           area += overlap.area;
           for (unsigned int k = 0; k < 4; ++k)
@@ -228,18 +230,19 @@ BOOST_AUTO_TEST_CASE(overlap_is_found_and_measured)
                    0.3);
   const std::vector<bool> none_removed(2, false);
   BOOST_TEST(
-    set.search->find_largest_overlap(set.position, none_removed).depth < 1e-12);
+    find_largest_overlap<2>(*set.search, set.position, none_removed).depth <
+    1e-12);
   std::vector<double> position = set.position;
-  for (unsigned int node = 0; node < set.search->n_surface_nodes(); ++node)
+  for (unsigned int node = 0; node < set.surface->n_nodes(); ++node)
     {
-      const Point<2> &place = set.search->place_of_node[node];
+      const Point<2> &place = set.surface->place_of_node[node];
       const bool is_upper =
-        set.blocks.blocks[set.search->block_of_node[node]].centroid[1] > 1.1;
+        set.blocks.blocks[set.surface->block_of_node[node]].centroid[1] > 1.1;
       if (is_upper)
         position[2 * node + 1] -= 1e-3 * place[0];
     }
   const Overlap<2> overlap =
-    set.search->find_largest_overlap(position, none_removed);
+    find_largest_overlap<2>(*set.search, position, none_removed);
   BOOST_TEST(overlap.depth == 3e-3, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(overlap.place[0] == 3., boost::test_tools::tolerance(1e-3));
 }
@@ -273,22 +276,24 @@ BOOST_AUTO_TEST_CASE(bent_joints_are_placed_in_their_planes)
       const Set<3> set("bent", "4, 4, 4", bent_joints(random), 0.9);
       const auto &surface = set.split.interface.surface;
       std::vector<std::vector<unsigned int>> faces_of_node(
-        set.search->n_surface_nodes());
+        set.surface->n_nodes());
       for (unsigned int f = 0; f < surface.size(); ++f)
-        for (const unsigned int node : set.search->nodes_of_face[f])
+        for (const unsigned int node : set.surface->nodes_of_face[f])
           faces_of_node[node].push_back(f);
-      const SurfacePlaces<3> places = place_in_joint_planes<3>(
-        set.split.mesh,
-        set.scene,
-        surface,
-        {set.search->vertex_of_node, faces_of_node, set.search->nodes_of_face});
+      const SurfacePlaces<3> places =
+        place_in_joint_planes<3>(set.split.mesh,
+                                 set.scene,
+                                 surface,
+                                 {set.surface->vertex_of_node,
+                                  faces_of_node,
+                                  set.surface->nodes_of_face});
 
       const JointExtent<3> plane(*set.scene.joints[0]);
       std::map<std::array<double, 3>, Point<3>> place_of_vertex;
       for (unsigned int node = 0; node < places.of_node.size(); ++node)
         {
           const Point<3> &vertex =
-            set.split.mesh.vertices[set.search->vertex_of_node[node]];
+            set.split.mesh.vertices[set.surface->vertex_of_node[node]];
           bool is_on_plane = false, is_on_joint = false;
           for (const unsigned int f : faces_of_node[node])
             {
@@ -307,7 +312,7 @@ BOOST_AUTO_TEST_CASE(bent_joints_are_placed_in_their_planes)
           BOOST_TEST(entry.first->second.distance(places.of_node[node]) == 0.);
         }
       std::vector<double> at_vertices;
-      for (const unsigned int v : set.search->vertex_of_node)
+      for (const unsigned int v : set.surface->vertex_of_node)
         for (unsigned int d = 0; d < 3; ++d)
           at_vertices.push_back(set.split.mesh.vertices[v][d]);
       unsigned int n_flat = 0;
@@ -315,8 +320,8 @@ BOOST_AUTO_TEST_CASE(bent_joints_are_placed_in_their_planes)
         {
           n_flat += places.is_flat[f];
           if (surface[f].joint == none && !places.is_flat[f])
-            BOOST_TEST(dot<3>(set.search->face_normal(at_vertices, f),
-                              set.search->face_normal(set.position, f)) > 0.5);
+            BOOST_TEST(dot<3>(set.surface->face_normal(at_vertices, f),
+                              set.surface->face_normal(set.position, f)) > 0.5);
         }
       BOOST_TEST(n_flat < 0.05 * surface.size());
     }

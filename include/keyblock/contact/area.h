@@ -2,6 +2,7 @@
 #ifndef keyblock_contact_area_h
 #define keyblock_contact_area_h
 
+#include <keyblock/contact/overlap.h>
 #include <keyblock/contact/strength.h>
 #include <keyblock/contact/surface_nodes.h>
 
@@ -98,7 +99,7 @@ namespace Keyblock
 
     const PairTopology<dim> &topology;
     const Interface<dim> &interface;
-    const ContactSearch<dim> &search;
+    const ContactSurface<dim> &surface;
     const ContactStrength<dim> &strength;
     const SurfaceNodes<dim> &nodes;
     const Fields<dim> &fields;

@@ -136,6 +136,7 @@ namespace Keyblock
     void keep_histories();
 
     Fields<dim> &fields;
+    ContactSurface<dim> surface;
     ContactSearch<dim> search;
     ContactMemory<dim> memory;
     PairTopology<dim> topology;

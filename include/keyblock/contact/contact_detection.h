@@ -65,6 +65,7 @@ namespace Keyblock
     std::vector<bool> list_converted_groups() const;
 
     ContactSearch<dim> &search;
+    const ContactSurface<dim> &surface;
     const PairTopology<dim> &topology;
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;

@@ -49,7 +49,7 @@ namespace Keyblock
 
     const PairTopology<dim> &topology;
     const Interface<dim> &interface;
-    const ContactSearch<dim> &search;
+    const ContactSurface<dim> &surface;
     const ContactStrength<dim> &strength;
     const ContactAreas<dim> &areas;
     const SurfaceNodes<dim> &nodes;

@@ -82,7 +82,7 @@ namespace Keyblock
 
     const PairTopology<dim> &topology;
     const Interface<dim> &interface;
-    const ContactSearch<dim> &search;
+    const ContactSurface<dim> &surface;
     const Scene<dim> &scene;
     const ContactStrength<dim> &strength;
     SurfaceNodes<dim> &nodes;

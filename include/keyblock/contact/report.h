@@ -2,6 +2,7 @@
 #ifndef keyblock_contact_report_h
 #define keyblock_contact_report_h
 
+#include <keyblock/contact/overlap.h>
 #include <keyblock/contact/strength.h>
 #include <keyblock/contact/surface_nodes.h>
 
@@ -14,7 +15,8 @@ namespace Keyblock
   class ContactReport
   {
   public:
-    ContactReport(const PairTopology<dim> &topology,
+    ContactReport(const ContactSearch<dim> &search,
+                  const PairTopology<dim> &topology,
                   const SurfaceNodes<dim> &nodes,
                   const Fields<dim> &fields,
                   const ContactMemory<dim> &memory);
@@ -58,10 +60,11 @@ namespace Keyblock
                               std::vector<JointSums<dim>> &sums,
                               std::vector<Vector<dim>> &moment) const;
 
+    const ContactSearch<dim> &search;
     const PairTopology<dim> &topology;
     const Scene<dim> &scene;
     const Interface<dim> &interface;
-    const ContactSearch<dim> &search;
+    const ContactSurface<dim> &surface;
     const SurfaceNodes<dim> &nodes;
     const Fields<dim> &fields;
     const ContactMemory<dim> &memory;

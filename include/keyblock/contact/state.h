@@ -3,7 +3,7 @@
 #ifndef keyblock_contact_state_h
 #define keyblock_contact_state_h
 
-#include <keyblock/contact/search.h>
+#include <keyblock/contact/surface_contact.h>
 #include <keyblock/law/joint_history.h>
 
 namespace Keyblock

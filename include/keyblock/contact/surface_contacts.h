@@ -17,7 +17,8 @@ namespace Keyblock
   class SurfaceContacts
   {
   public:
-    SurfaceContacts(const PairTopology<dim> &topology,
+    SurfaceContacts(const ContactSearch<dim> &search,
+                    const PairTopology<dim> &topology,
                     const ContactStrength<dim> &strength,
                     ContactAreas<dim> &areas,
                     const ContactHistory<dim> &history,
@@ -74,10 +75,11 @@ namespace Keyblock
     /** Put the masters of hanging nodes in their place. */
     void put_masters_into(ContactPoint<dim> &point) const;
 
+    const ContactSearch<dim> &search;
     const PairTopology<dim> &topology;
     const SplitMesh<dim> &split;
     const Interface<dim> &interface;
-    const ContactSearch<dim> &search;
+    const ContactSurface<dim> &surface;
     const ContactStrength<dim> &strength;
     ContactAreas<dim> &areas;
     const ContactHistory<dim> &history;

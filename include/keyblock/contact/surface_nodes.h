@@ -2,6 +2,7 @@
 #ifndef keyblock_contact_surface_nodes_h
 #define keyblock_contact_surface_nodes_h
 
+#include <keyblock/contact/solver.h>
 #include <keyblock/contact/topology.h>
 #include <keyblock/rock/fields.h>
 
@@ -11,7 +12,7 @@ namespace Keyblock
   /**
    * The nodes of faces that may touch, with the same numbers on all ranks:
    * their masses and supports, and their values to and from the fields. Vectors
-   * have dim values for each, by the number that ContactSearch gives it.
+   * have dim values for each, by the number that ContactSurface gives it.
    */
   template <int dim>
   class SurfaceNodes
@@ -45,7 +46,7 @@ namespace Keyblock
     ContactNodes<dim> view;                     ///< of the above
 
   private:
-    const ContactSearch<dim> &search;
+    const ContactSurface<dim> &surface;
     const Numbering<dim> &numbering;
     Fields<dim> &fields;
     std::vector<unsigned int> active;

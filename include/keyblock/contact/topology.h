@@ -2,7 +2,7 @@
 #ifndef keyblock_contact_topology_h
 #define keyblock_contact_topology_h
 
-#include <keyblock/contact/search.h>
+#include <keyblock/contact/contact_surface.h>
 #include <keyblock/rock/dofs.h>
 
 namespace Keyblock
@@ -17,7 +17,7 @@ namespace Keyblock
     PairTopology(const Scene<dim> &scene,
                  const SplitMesh<dim> &split,
                  const Numbering<dim> &numbering,
-                 const ContactSearch<dim> &search);
+                 const ContactSurface<dim> &surface);
 
     /** Blocks of a pair's minus and plus vertices. */
     std::array<unsigned int, 2> blocks_of_pair(const unsigned int pair) const;
@@ -42,7 +42,7 @@ namespace Keyblock
     const SplitMesh<dim> &split;
     const Interface<dim> &interface;
     const Numbering<dim> &numbering;
-    const ContactSearch<dim> &search; ///< for the numbers of surface nodes
+    const ContactSurface<dim> &surface; ///< for the numbers of surface nodes
 
     std::vector<unsigned int> group_of_pair;
     std::vector<unsigned int> group_of_node; ///< by surface node, or `none`
