@@ -3,6 +3,7 @@
 
 #include <keyblock/base/communicator.h>
 #include <keyblock/base/last_resort.h>
+#include <keyblock/run/probability_study.h>
 #include <keyblock/run/simulation.h>
 #include <keyblock/scene/command_line.h>
 
@@ -15,6 +16,15 @@ namespace
   run(const Keyblock::Communicator &world,
       const Keyblock::CommandLine &arguments)
   {
+    if (arguments.is_study)
+      {
+        Keyblock::ProbabilityStudy<dim>(world,
+                                        arguments.scene,
+                                        arguments.overrides,
+                                        arguments.output)
+          .run();
+        return;
+      }
     Keyblock::Simulation<dim> simulation(world,
                                          arguments.scene,
                                          arguments.overrides,

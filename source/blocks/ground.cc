@@ -76,8 +76,13 @@ namespace Keyblock
       if (scene.stage_number(set->stage) == number)
         return true;
     for (const auto &stage : scene.stages)
-      if (!stage->water_level.empty() &&
+      if ((!stage->water_level.empty() ||
+           !stage->seismic_coefficient.empty()) &&
           scene.stage_number(stage->name) == number)
+        return true;
+    for (const auto &support : scene.supports)
+      if (number > 1 && support->is_quiet() &&
+          scene.stage_number(support->stage) == number)
         return true;
     for (const auto &material : scene.materials)
       if (!material->stage.empty() &&

@@ -105,8 +105,8 @@ namespace Keyblock
           is_edge = is_edge || dot<dim>(face_normal(start_position, f),
                                         face_normal(start_position,
                                                     faces_of_node[node][0])) <
-                                 cosine_of_sharp;
-        is_sharp.push_back(is_edge);
+                                 cosine_of_kink;
+        is_on_edge.push_back(is_edge);
       }
   }
 

@@ -59,7 +59,7 @@ namespace Keyblock
       return total;
     }
 
-    /** Size of the part of @p force across @p normal [N]. */
+    /** Size of the part of a vector across @p normal. */
     template <int dim>
     double
     shear_of(const Vector<dim> &force, const Tensor<1, dim> &normal)
@@ -217,6 +217,53 @@ namespace Keyblock
             shear_of<dim>(sums[i].force, scene.joints[joints[i]]->normal());
       }
     return sums.size() == 1 ? sums[0] : add_up<dim>(sums);
+  }
+
+
+
+  template <int dim>
+  JointMotion
+  ContactReport<dim>::mean_motion(const std::vector<unsigned int> &joints) const
+  {
+    // of each joint the area and area times u(plus) - u(minus)
+    std::vector<double> sums((1 + dim) * joints.size(), 0.);
+    std::vector<unsigned int> place(scene.joints.size(), none);
+    for (unsigned int i = 0; i < joints.size(); ++i)
+      place[joints[i]] = (1 + dim) * i;
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      {
+        const Pair<dim> &pair = interface.pairs[p];
+        if (place[pair.joint] == none || memory.state[p].is_removed ||
+            !topology.is_primary(topology.group_of_pair[p]))
+          continue;
+        double *const sum        = &sums[place[pair.joint]];
+        const unsigned int plus  = topology.numbering.local_node(pair.plus),
+                           minus = topology.numbering.local_node(pair.minus);
+        sum[0] += pair.area;
+        for (int d = 0; d < dim; ++d)
+          sum[1 + d] += pair.area * (fields.displacement[dim * plus + d] -
+                                     fields.displacement[dim * minus + d]);
+      }
+    topology.numbering.communicator.sum_lists(sums);
+    JointMotion mean;
+    double area = 0.;
+    for (unsigned int i = 0; i < joints.size(); ++i)
+      {
+        const double *const sum = &sums[(1 + dim) * i];
+        Vector<dim> jump;
+        std::copy(sum + 1, sum + 1 + dim, jump.begin());
+        const Tensor<1, dim> normal = scene.joints[joints[i]]->normal();
+        for (int d = 0; d < dim; ++d)
+          mean.opening += jump[d] * normal[d];
+        mean.slip += shear_of<dim>(jump, normal);
+        area += sum[0];
+      }
+    if (area > 0.)
+      {
+        mean.opening /= area;
+        mean.slip /= area;
+      }
+    return mean;
   }
 
 

@@ -43,6 +43,9 @@ namespace Keyblock
       return result;
     }
 
+    /** Cosine of 20 degrees: faces that differ by more make a ridge. */
+    constexpr double cosine_of_sharp = 0.9396926207859084;
+
     /** Ridges nearer to parallel than this (sine) meet by their nodes. */
     constexpr double least_sine = 0.02;
 

@@ -128,7 +128,7 @@ namespace Keyblock
         const auto is_a_slave_on = [&](const unsigned int f) {
           return surface.is_slave_block(block,
                                         surface.interface.surface[f].block) ||
-                 (surface.is_sharp[node] &&
+                 (surface.is_on_edge[node] &&
                   surface.can_stand_on(position,
                                        node,
                                        surface.face_normal(position, f)));

@@ -99,6 +99,11 @@ namespace Keyblock
     for (const unsigned int n :
          {sums.n_open, sums.n_sliding, sums.n_sticking, sums.n_intact})
       row.push_back(n);
+    JointMotion motion;
+    if (contact && !is_all)
+      motion = contact->report().mean_motion(joints);
+    row.push_back(motion.slip);
+    row.push_back(motion.opening);
   }
 
 

@@ -104,9 +104,9 @@ namespace Keyblock
                 nearest = v;
               }
           }
+        look_for_location(monitor, least);
         if (numbering.is_owned(nearest))
           node = numbering.local_node(nearest);
-        look_for_location(monitor, least);
       }
     if (monitor.kind == MonitorKind::block)
       {
@@ -124,17 +124,14 @@ namespace Keyblock
                 nearest = c;
               }
           }
+        look_for_location(monitor, least);
         if (nearest != none)
           block = split.block_of_cell[nearest];
-      }
-    if (monitor.kind == MonitorKind::block)
-      {
         AssertThrow(block != none,
                     InputError("The monitor '" + monitor.name +
                                "' is of kind block, but there is no block: all "
                                "rock is excavated later; correct 'Monitors/" +
                                monitor.name + "/Kind'."));
-        look_for_location(monitor, least);
       }
     if (monitor.kind == MonitorKind::region)
       {
@@ -249,6 +246,7 @@ namespace Keyblock
             add_vector("center", "m");
             add_scalars(
               {"open [-]", "sliding [-]", "sticking [-]", "intact [-]"});
+            add_scalars({"slip [m]", "opening [m]"});
             continue;
           }
         if (monitor->kind == MonitorKind::support)

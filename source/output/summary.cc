@@ -323,6 +323,7 @@ namespace Keyblock
     root["scene"] = {{"name", scene.file},
                      {"title", scene.title},
                      {"digest", digest_of(scene)},
+                     {"overrides", run.overrides},
                      {"seeds", seeds_as_json(scene)},
                      {"dimension", dim},
                      {"cells", split.mesh.n_cells()},
@@ -336,6 +337,7 @@ namespace Keyblock
       root["mesh"] = mesh_report_as_json(mesh_report, scene);
     root["run"]                      = run_as_json(run);
     root["run"]["peak_memory_bytes"] = memory;
+    root["warnings"]                 = run.warnings;
     root["energy"] =
       energies_as_json(stages.empty() ? Energies() : stages.back().energies);
     root["blocks"] = blocks_as_json<dim>(

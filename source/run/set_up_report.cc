@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/run/set_up_report.h>
+#include <keyblock/run/wave_resolution.h>
 #include <keyblock/safety/block_theory.h>
 #include <keyblock/step/initial_tension.h>
 #include <keyblock/step/step_spread.h>
@@ -121,6 +122,9 @@ namespace Keyblock
           warning_of_welded_joints(model.scene, model.split)})
       if (!warning.empty())
         warnings.push_back(warning);
+    for (const std::string &warning :
+         warnings_of_short_waves(model.scene, model.split.mesh))
+      warnings.push_back(warning);
     return warnings;
   }
 

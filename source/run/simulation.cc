@@ -53,6 +53,11 @@ namespace Keyblock
       std::make_unique<StageRunner<dim>>(model, parts->finite_check, *recorder);
     warnings = warnings_of_set_up(model, parts->monitors);
     report_stable_step(model, parts->record.report);
+    parts->record.report.overrides = overrides;
+    parts->record.report.warnings  = model.scene.warnings();
+    parts->record.report.warnings.insert(parts->record.report.warnings.end(),
+                                         warnings.begin(),
+                                         warnings.end());
   }
 
 

@@ -61,7 +61,7 @@ namespace Keyblock
       changes_later = changes_later || model.conditions->changes(s + 2);
     const bool is_static =
       model.scene.initial_state.equilibrium == InitialEquilibrium::static_solve;
-    if (!is_static && !changes_later && !model.conditions->has_far_field())
+    if (!is_static && !changes_later && !model.conditions->releases_supports())
       return;
     model.step->begin_stage(Stage(), 1);
     model.step->update_forces();
@@ -74,7 +74,7 @@ namespace Keyblock
                   << MPI_Wtime() - start << " s, unbalanced ratio "
                   << model.step->unbalanced_ratio << std::endl;
       }
-    const std::string remark = model.conditions->release_far_field();
+    const std::string remark = model.conditions->release_supports();
     if (!remark.empty())
       model.out << "Rock    " << remark << std::endl;
     model.step->choose_step(1);

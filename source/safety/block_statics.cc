@@ -39,7 +39,7 @@ namespace Keyblock
       add_loads(const double time)
       {
         const auto &coefficient = scene.safety.seismic_coefficient;
-        if (around.loads.seismic.norm() > 0.)
+        if (!coefficient.empty() && around.loads.seismic.norm() > 0.)
           {
             add() << "with the seismic coefficient ";
             for (unsigned int d = 0; d < coefficient.size(); ++d)

@@ -46,8 +46,9 @@ namespace Keyblock
         return false;
       };
       const ClosedForm form = scene.checks.closed_form;
-      const bool is_on_body =
-        form != ClosedForm::none && !scene.checks.needs_rock();
+      const bool is_on_body = form != ClosedForm::none &&
+                              form != ClosedForm::joint_wave &&
+                              !scene.checks.needs_rock();
       require(!is_on_body || has_monitor(MonitorKind::block),
               "The entry 'Check/Closed form' is " + name_of(form) +
                 ", which needs a monitor of kind block; add one to "
@@ -157,6 +158,9 @@ namespace Keyblock
     check_time_stepping(time_stepping);
     check_initial_state(*this);
     check_expressions(*this);
+    check_supports(*this);
+    for (const auto &variable : study_variables)
+      check_study_variable(*variable);
     check_monitors(*this);
     check_closed_form(*this);
   }

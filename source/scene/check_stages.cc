@@ -195,32 +195,6 @@ namespace Keyblock
                               dim,
                               section + "/Rigid velocity");
       }
-    for (const auto &support : scene.supports)
-      {
-        const std::string section = "Supports/" + support->name;
-        check_expression<dim>(support->region, 1, section + "/Region");
-        check_expression<dim>(support->velocity, dim, section + "/Velocity");
-        check_expression<dim>(support->displacement,
-                              dim,
-                              section + "/Displacement");
-        require(support->velocity.empty() || support->displacement.empty(),
-                "The support '" + support->name +
-                  "' has both 'Velocity' and 'Displacement'; keep one.");
-        require(!support->is_far_field() || !support->boundaries.empty(),
-                "The support '" + support->name +
-                  "' is a far field, which needs 'Boundaries'; name them.");
-        require(support->boundaries.empty() != support->region.empty(),
-                "The support '" + support->name +
-                  "' needs exactly one of 'Boundaries' and 'Region'.");
-        require(support->directions != SupportDirections::normal ||
-                  support->region.empty(),
-                "The support '" + support->name +
-                  "' has 'Directions' normal, which needs 'Boundaries'; "
-                  "name boundaries or axes.");
-        require(dim == 3 || !support->names_axis(2),
-                "The entry '" + section + "/Directions' is " +
-                  name_of(support->directions) + ", but there is no z in 2D.");
-      }
     for (const auto &monitor : scene.monitors)
       check_expression<dim>(monitor->region,
                             1,
@@ -289,6 +263,13 @@ namespace Keyblock
               " values where " + std::to_string(dim) + " are needed.");
     if (scene.water.level != no_water)
       check_expression<dim>(scene.water.level, 1, "Water/Level");
+    for (const auto &stage : scene.stages)
+      require(stage->seismic_coefficient.empty() ||
+                stage->seismic_coefficient.size() == dim,
+              "The entry 'Stages/" + stage->name +
+                "/Seismic coefficient' has " +
+                std::to_string(stage->seismic_coefficient.size()) +
+                " values where " + std::to_string(dim) + " are needed.");
     for (const auto &stage : scene.stages)
       if (stage->water_level != no_water)
         check_expression<dim>(stage->water_level,

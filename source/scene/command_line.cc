@@ -15,6 +15,8 @@ namespace Keyblock
     namespace options = boost::program_options;
     options::options_description visible("Options"), all;
     visible.add_options()("validate", "read, mesh and check; compute nothing")(
+      "study",
+      "judge the samples of the section Study by limit equilibrium; no steps")(
       "set",
       options::value<std::vector<std::string>>(),
       "\"Section/Entry=value\": overrides an entry; may be repeated")(
@@ -61,7 +63,12 @@ namespace Keyblock
       output = values["output"].as<std::string>();
     if (values.count("restart"))
       restart = values["restart"].as<std::string>();
-    is_validation     = values.count("validate") > 0;
+    is_validation = values.count("validate") > 0;
+    is_study      = values.count("study") > 0;
+    AssertThrow(!is_study || (!is_validation && restart.empty()),
+                InputError("The command line has --study together with "
+                           "--validate or --restart; name one of them (a study "
+                           "that was stopped goes on by itself)."));
     const auto scenes = values.count("scene")
                           ? values["scene"].as<std::vector<std::string>>()
                           : std::vector<std::string>();

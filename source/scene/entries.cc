@@ -150,12 +150,16 @@ namespace Keyblock
   void
   Excavation<dim>::declare(ParameterHandler &prm)
   {
-    prm.add_parameter("Shape",
-                      shape,
-                      "polygon (2D): Vertices; circle (2D): Center and Radius, "
-                      "arcs kept; box: Corner and Size; extruded polygon "
-                      "(3D): Vertices in the x-z plane, From and To along y; "
-                      "formula (structured and file meshes): Formula.");
+    prm.add_parameter(
+      "Shape",
+      shape,
+      "polygon (2D): Vertices; circle (2D): Center and Radius, "
+      "arcs kept; box: Corner and Size; extruded polygon "
+      "(3D): Vertices in the x-z plane, From and To along y; "
+      "rectangle, horseshoe (half a circle on walls), cavern "
+      "(an arch of Rise on walls): Center, Width and Height, in "
+      "3D along y as an extruded polygon; "
+      "formula (structured and file meshes): Formula.");
     prm.add_parameter(
       "Formula",
       formula,
@@ -166,7 +170,36 @@ namespace Keyblock
                       corner,
                       "The corner with least coordinates [m].");
     prm.add_parameter("Size", size, "Lengths along the axes [m].");
-    prm.add_parameter("Center", center, "Centre of the circle [m].");
+    prm.add_parameter("Center",
+                      center,
+                      "Centre of the circle; middle of the floor of a "
+                      "rectangle, horseshoe or cavern, in 3D its x and z [m].");
+    prm.add_parameter("Width",
+                      width,
+                      "Width of a rectangle, horseshoe or cavern [m].",
+                      not_negative);
+    prm.add_parameter("Height",
+                      height,
+                      "Height of it, from the floor to the crown [m].",
+                      not_negative);
+    prm.add_parameter("Rise",
+                      rise,
+                      "Rise of a cavern's arch above its springs [m].",
+                      not_negative);
+    prm.add_parameter("Segments",
+                      segments,
+                      "Number of chords of the crown.",
+                      Integer(2, 1000));
+    prm.add_parameter("Bench levels",
+                      bench_levels,
+                      "Elevations at which it is parted into benches, from the "
+                      "top down [m]. What is above the first is excavated in "
+                      "Stage.");
+    prm.add_parameter("Bench stages",
+                      bench_stages,
+                      "Name of the stage that excavates what is below each of "
+                      "Bench levels. The parts are called NAME bench 1, NAME "
+                      "bench 2, ...");
     prm.add_parameter("Radius",
                       radius,
                       "Radius of the circle [m].",
@@ -184,6 +217,34 @@ namespace Keyblock
     prm.add_parameter("Backfill material",
                       backfill_material,
                       "Name of the material it is filled with.");
+  }
+
+  template <int dim>
+  void
+  DepthGround<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Depth",
+      depth,
+      "Depth of elevation 0 below the surface of the ground [m]. What the "
+      "scene leaves open then follows: gravity, initial stress, rollers on the "
+      "sides and the bottom of the domain, and the overburden on its top. 0: "
+      "nothing does.",
+      not_negative);
+    prm.add_parameter(
+      "Density",
+      density,
+      "Density of the ground up to the surface [kg/m3]; 0: that "
+      "of the first material that deforms.",
+      not_negative);
+    prm.add_parameter("K0",
+                      k0,
+                      "Horizontal over vertical stress [-], as Initial "
+                      "state/Lateral ratios.");
+    prm.add_parameter("Azimuth",
+                      azimuth,
+                      "Azimuth of the first horizontal stress in 3D, clockwise "
+                      "from north (+y) [deg].");
   }
 
   template <int dim>
@@ -286,10 +347,32 @@ namespace Keyblock
       "named boundary, as a roller; or axes, for example x or xz.");
     prm.add_parameter("Kind",
                       kind,
-                      "held: fixed or moved by Velocity; far field: the "
-                      "stiffness of infinite rock around the model, exact for "
-                      "double forces at Center if the far field encloses it "
-                      "(Boundaries only), after the initial state.");
+                      "Kind of the support. held: fixed or moved by Velocity; "
+                      "far field: the stiffness of infinite rock around the "
+                      "model, exact for double forces at Center if the far "
+                      "field encloses it (Boundaries only), after the initial "
+                      "state; quiet: dashpots that let waves out, and in what "
+                      "Velocity or History file give (Boundaries only), from "
+                      "Stage on; held before.");
+    prm.add_parameter("Stage",
+                      stage,
+                      "Name of the stage from which on a quiet support is "
+                      "quiet; what it carried then stays as a dead load. "
+                      "start: after the initial state.");
+    prm.add_parameter(
+      "History file",
+      history_file,
+      "CSV file of a motion, in place of Velocity, found from the folder of "
+      "the "
+      "scene: a header, then rows of the "
+      "time [s], at even intervals, and one value per axis. Linear between "
+      "rows, zero before the first and after the last.");
+    prm.add_parameter(
+      "History quantity",
+      history_quantity,
+      "Quantity in History file. velocity [m/s]; acceleration [m/s2], which is "
+      "integrated; stress: traction of the incoming wave on the model [Pa], of "
+      "quiet supports only.");
     prm.add_parameter(
       "Displacement",
       displacement,
@@ -303,7 +386,9 @@ namespace Keyblock
     prm.add_parameter("Velocity",
                       velocity,
                       "Prescribed velocity, a formula in x, y (z), t per axis "
-                      "separated by ';' [m/s]; empty: held.");
+                      "separated by ';' [m/s]; of a quiet support the particle "
+                      "velocity of the wave that it lets in. Empty: held, or "
+                      "no wave.");
   }
 
   template <int dim>
@@ -502,6 +587,12 @@ namespace Keyblock
                       "Elevation of the water table from this stage on, as "
                       "Water/Level; none: joints are dry; empty: as before. "
                       "The change of pressure is ramped as excavation is.");
+    prm.add_parameter(
+      "Seismic coefficient",
+      seismic_coefficient,
+      "Seismic (pseudo-static) acceleration per axis over 9.81 m/s2 from this "
+      "stage on [-]: a body force on all rock, in steps, trials and limit "
+      "equilibrium, ramped as excavation is. Empty: as before; zeros end it.");
     prm.add_parameter(
       "Kind",
       kind,
@@ -727,7 +818,8 @@ namespace Keyblock
       "Seismic coefficient",
       seismic_coefficient,
       "Seismic acceleration per axis over 9.81 m/s2 [-]. Limit equilibrium "
-      "alone adds it to gravity; steps and trials do not. Empty: none.");
+      "alone adds it to gravity; steps and trials do so with "
+      "Stages/*/Seismic coefficient. Empty: none.");
     prm.add_parameter(
       "Removal slip",
       removal_slip,
@@ -831,6 +923,8 @@ namespace Keyblock
   template struct Meshing<3>;
   template struct Excavation<2>;
   template struct Excavation<3>;
+  template struct DepthGround<2>;
+  template struct DepthGround<3>;
   template struct Material<2>;
   template struct Material<3>;
   template struct Support<2>;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -28,7 +29,8 @@ namespace Keyblock
                                                     "Bolts",
                                                     "Tractions",
                                                     "Stages",
-                                                    "Monitors"};
+                                                    "Monitors",
+                                                    "Study"};
 
     void
     declare_names(ParameterHandler &prm)
@@ -144,47 +146,6 @@ namespace Keyblock
 
 
   template <int dim>
-  std::string
-  Scene<dim>::water_pressure(const unsigned int joint,
-                             const unsigned int number) const
-  {
-    const std::string &own = joints[joint]->water_pressure;
-    if (!own.empty())
-      return own;
-    std::string level = water.level;
-    for (const auto &stage : stages)
-      if (!stage->water_level.empty() && stage_number(stage->name) <= number)
-        level = stage->water_level;
-    if (level.empty() || level == no_water)
-      return "";
-    return exact_text(water.unit_weight) + " * max(0, (" + level + ") - " +
-           (dim == 2 ? "y" : "z") + ")";
-  }
-
-
-
-  template <int dim>
-  std::vector<std::string>
-  Scene<dim>::warnings() const
-  {
-    std::vector<std::string> found = old_names;
-    for (const auto &material : materials)
-      if (material->is_plastic() &&
-          material->tensile_strength > material->apex())
-        {
-          std::ostringstream text;
-          text << "The entry 'Materials/" << material->name
-               << "/Tensile strength' is " << material->tensile_strength
-               << " Pa, beyond the apex of cohesion and friction at "
-               << material->apex() << " Pa, so that it never acts.";
-          found.push_back(text.str());
-        }
-    return found;
-  }
-
-
-
-  template <int dim>
   void
   Scene<dim>::declare(ParameterHandler &prm)
   {
@@ -199,6 +160,7 @@ namespace Keyblock
     declare_section(prm, "Domain", domain);
     declare_section(prm, "Mesh", meshing);
     declare_section(prm, "Initial state", initial_state);
+    declare_section(prm, "Ground", ground);
     declare_section(prm, "Water", water);
     declare_section(prm, "Contact", contact);
     declare_section(prm, "Time stepping", time_stepping);
@@ -206,6 +168,7 @@ namespace Keyblock
     declare_section(prm, "Block theory", block_theory);
     declare_section(prm, "Check", checks);
     declare_section(prm, "Output", output);
+    declare_section(prm, "Study", study);
     declare_names(prm);
     declare_items(prm, "Excavations", excavations);
     declare_section(prm, "Joints", network);
@@ -217,6 +180,7 @@ namespace Keyblock
     declare_items(prm, "Tractions", tractions);
     declare_items(prm, "Stages", stages);
     declare_items(prm, "Monitors", monitors);
+    declare_items(prm, "Study", study_variables);
   }
 
 
@@ -241,15 +205,19 @@ namespace Keyblock
     make_items(tractions, read_names(names, "Tractions"));
     make_items(stages, read_names(names, "Stages"));
     make_items(monitors, read_names(names, "Monitors"));
+    make_items(study_variables, read_names(names, "Study"));
     joints.clear();
     prm = std::make_shared<ParameterHandler>();
     declare(*prm);
     text.parse(*prm, false);
+    make_profiles();
+    complete_ground();
     check_domain(*this);
     joints = make_joints(*this, read_names(names, "Joints"), text);
     note_joints(*prm, joints);
     for (const auto &stage : stages)
       stage->complete();
+    read_histories();
     cross_check();
   }
 
@@ -324,6 +292,7 @@ namespace Keyblock
     make_items(scene.tractions, {"NAME"});
     make_items(scene.stages, {"NAME"});
     make_items(scene.monitors, {"NAME"});
+    make_items(scene.study_variables, {"NAME"});
     ParameterHandler prm;
     scene.declare(prm);
 

@@ -44,6 +44,13 @@ namespace Keyblock
         far_field = springs.get();
         elements.push_back(std::move(springs));
       }
+    if (QuietBoundary<dim>::is_wanted(scene))
+      {
+        auto dashpots =
+          std::make_unique<QuietBoundary<dim>>(scene, split, numbering);
+        quiet = dashpots.get();
+        elements.push_back(std::move(dashpots));
+      }
     if (!split.bolts.empty())
       {
         auto of_scene = std::make_unique<Bolts<dim>>(scene, split, numbering);
@@ -58,6 +65,9 @@ namespace Keyblock
   void
   Conditions<dim>::excavate(const unsigned int number)
   {
+    // supports that are quiet from the start wait for the initial state
+    if (quiet && number > 1)
+      quiet->release(number, reaction());
     active_cells.excavate(number);
     for (const auto &element : elements)
       element->take_ground(active_cells.ground());
@@ -71,7 +81,10 @@ namespace Keyblock
   void
   Conditions<dim>::set_up_supports()
   {
-    supports.set_up(active_cells.ground(), far_field && far_field->is_acting());
+    supports.set_up(active_cells.ground(), [&](const unsigned int s) {
+      return scene.supports[s]->is_far_field() ? far_field->is_acting()
+                                               : quiet && quiet->is_acting(s);
+    });
     scale_density(false);
   }
 
@@ -167,6 +180,10 @@ namespace Keyblock
       is_outer[node] = true;
     for (const NodeSupport<dim> &support : fields.supports)
       is_outer[support.node] = true;
+    for (const auto &element : elements)
+      if (element->is_viscous())
+        for (const unsigned int node : element->nodes())
+          is_outer[node] = true;
 
     fields.runs.clear();
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
@@ -193,17 +210,61 @@ namespace Keyblock
 
 
   template <int dim>
-  std::string
-  Conditions<dim>::release_far_field()
+  std::vector<double>
+  Conditions<dim>::reaction() const
   {
-    if (far_field == nullptr || far_field->is_acting())
-      return "";
-    far_field->release(fields.internal_force, fields.load);
+    std::vector<double> given(dim * numbering.n_owned());
+    for (unsigned int i = 0; i < given.size(); ++i)
+      given[i] =
+        fields.internal_force[i] - fields.load[i] - fields.contact_force[i];
+    return given;
+  }
+
+
+
+  template <int dim>
+  std::string
+  Conditions<dim>::release_supports()
+  {
+    std::string remark;
+    const std::vector<double> given = reaction();
+    if (far_field && !far_field->is_acting())
+      {
+        far_field->release(given);
+        if (!far_field->is_coupled())
+          remark = "the far field does not enclose its centre: springs only";
+      }
+    if (quiet)
+      quiet->release(1, given);
     loads.forget_load();
     set_up_supports();
-    return far_field->is_coupled()
-             ? ""
-             : "the far field does not enclose its centre: springs only";
+    set_damping(0.);
+    return remark;
+  }
+
+
+
+  template <int dim>
+  bool
+  Conditions<dim>::is_load_changing() const
+  {
+    return loads.is_load_changing() ||
+           std::any_of(elements.begin(), elements.end(), [](const auto &e) {
+             return e->is_load_changing();
+           });
+  }
+
+
+
+  template <int dim>
+  double
+  Conditions<dim>::radiated_work(const double kick) const
+  {
+    double work = 0.;
+    for (const auto &element : elements)
+      if (element->is_viscous())
+        work += element->damping_work(fields, kick);
+    return work;
   }
 
 
@@ -222,9 +283,11 @@ namespace Keyblock
   void
   Conditions<dim>::set_load(const double time)
   {
+    if (is_load_changing())
+      loads.forget_load();
     if (loads.set_load(time))
       for (const auto &element : elements)
-        element->add_load(fields.load);
+        element->add_load(time, fields.load);
   }
 
 

@@ -12,7 +12,7 @@ namespace Keyblock
   {
     return start + external + supports - kinetic - elastic - friction -
            contact_closure - penetration - dilation - stiffness_damping -
-           mass_damping - local_damping - plastic;
+           mass_damping - local_damping - plastic - radiation;
   }
 
 
@@ -33,6 +33,7 @@ namespace Keyblock
        {"mass_damping", &Energies::mass_damping},
        {"local_damping", &Energies::local_damping},
        {"plastic", &Energies::plastic},
+       {"radiation", &Energies::radiation},
        {"excavated", &Energies::excavated},
        {"start", &Energies::start}}};
     return list;
@@ -136,6 +137,18 @@ namespace Keyblock
             sums.supports += 0.5 * (change - kick * given) *
                              (fields.old_velocity[i] + fields.velocity[i]);
           }
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::book_radiation()
+  {
+    const double work = conditions.radiated_work(kick);
+    sums.radiation += work;
+    // the damping force of the ledger has it, too
+    sums.stiffness_damping -= work;
   }
 
 
@@ -277,6 +290,8 @@ namespace Keyblock
   template void ExplicitStep<3>::book_work(const NodeRun &);
   template void ExplicitStep<2>::book_supports();
   template void ExplicitStep<3>::book_supports();
+  template void ExplicitStep<2>::book_radiation();
+  template void ExplicitStep<3>::book_radiation();
   template void ExplicitStep<2>::sample_energies();
   template void ExplicitStep<3>::sample_energies();
   template void ExplicitStep<2>::sample_start();

@@ -60,14 +60,13 @@ namespace Keyblock
 
   template <int dim>
   void
-  FarFieldSprings<dim>::release(const std::vector<double> &internal_force,
-                                const std::vector<double> &load)
+  FarFieldSprings<dim>::release(const std::vector<double> &reaction)
   {
     set_up();
     dead_load.assign(dim * numbering.n_owned(), 0.);
     for (const auto &spring : far_field.springs)
       for (unsigned int i = dim * spring.node; i < dim * (spring.node + 1); ++i)
-        dead_load[i] = internal_force[i] - load[i];
+        dead_load[i] = reaction[i];
     acts = true;
   }
 
@@ -97,7 +96,7 @@ namespace Keyblock
 
   template <int dim>
   void
-  FarFieldSprings<dim>::add_load(std::vector<double> &load) const
+  FarFieldSprings<dim>::add_load(const double, std::vector<double> &load) const
   {
     for (unsigned int i = 0; i < dead_load.size(); ++i)
       load[i] += dead_load[i];

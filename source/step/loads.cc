@@ -26,6 +26,8 @@ namespace Keyblock
   {
     set_up_water(ground);
     set_up_tractions(ground);
+    seismic_acceleration =
+      standard_gravity * scene.seismic_coefficient(ground.stage_number);
     forget_load();
   }
 
@@ -158,11 +160,11 @@ namespace Keyblock
     const double left = ramp.share_left();
     if (is_set && is_constant && water.empty() && left == share_set)
       return false;
-    is_set    = true;
-    share_set = left;
-    Tensor<1, dim> g;
+    is_set           = true;
+    share_set        = left;
+    Tensor<1, dim> g = seismic_acceleration;
     if (gravity)
-      g = gravity->vector(Point<dim>(), time);
+      g += gravity->vector(Point<dim>(), time);
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       for (int d = 0; d < dim; ++d)
         fields.load[dim * node + d] = fields.weighing_mass[node] * g[d];

@@ -261,7 +261,10 @@ namespace Keyblock
     resolve_contact();
     numbering.interpolate_hanging(fields.velocity);
     if (keeps_ledger)
-      book_supports();
+      {
+        book_supports();
+        book_radiation();
+      }
     if (sample)
       {
         for (const NodeRun &run : resting.moving_nodes())

@@ -30,7 +30,7 @@ namespace Keyblock
   bool
   ExplicitStep<dim>::may_rest() const
   {
-    return skips_resting && !conditions.loads.is_load_changing() &&
+    return skips_resting && !conditions.is_load_changing() &&
            (contact == nullptr || contact->tally.n_searches == n_searches_seen);
   }
 
@@ -106,9 +106,14 @@ namespace Keyblock
             conditions.stable_step.mass_damping_left(stage, dt),
             positions());
       }
-    for (const auto &element : conditions.elements)
-      if (element->is_viscous())
-        element->add_damping_force(fields.velocity, fields.damping_force);
+    if (conditions.has_viscous_elements())
+      {
+        conditions.set_load(time);
+        for (const auto &element : conditions.elements)
+          if (element->is_viscous())
+            element->add_damping_force({fields, kick, stage.mass_damping},
+                                       fields.damping_force);
+      }
     is_stress_current = true;
     force_seconds += MPI_Wtime() - start;
   }

@@ -84,19 +84,21 @@ namespace Keyblock
 
   template <int dim>
   void
-  Supports<dim>::set_up(const Ground<dim> &ground, const bool is_far_field_free)
+  Supports<dim>::set_up(const Ground<dim> &ground,
+                        const std::function<bool(unsigned int)> &is_released)
   {
     Found found;
     fields.supports.clear();
     fields.nodes_of_support.assign(scene.supports.size(), {});
     motions.clear();
     is_displacement.clear();
+    histories.clear();
     // nodes of rigid bodies first: nothing else may move them
     hold_rigid_bodies(found);
     for (unsigned int s = 0; s < scene.supports.size(); ++s)
       {
         const Support<dim> &support = *scene.supports[s];
-        if (support.is_far_field() && is_far_field_free)
+        if (is_released(s))
           continue;
         const unsigned int n_hits = hold(s, ground, found);
         AssertThrow(n_hits > 0 || ground.stage_number > 1,
@@ -124,7 +126,45 @@ namespace Keyblock
   {
     motions.push_back(std::make_unique<Expression<dim>>(formula, dim, entry));
     is_displacement.push_back(is_reached);
+    histories.push_back(nullptr);
     return motions.size() - 1;
+  }
+
+
+
+  template <int dim>
+  int
+  Supports<dim>::motion_of(const Support<dim> &support)
+  {
+    // a quiet support is held until it lets go
+    if (support.is_quiet())
+      return -1;
+    if (!support.displacement.empty())
+      return add_motion(support.displacement, "Supports/*/Displacement", true);
+    if (!support.velocity.empty())
+      return add_motion(support.velocity, "Supports/*/Velocity", false);
+    if (!support.history)
+      return -1;
+    motions.push_back(nullptr);
+    is_displacement.push_back(false);
+    histories.push_back(support.history);
+    return motions.size() - 1;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Supports<dim>::velocity_of(const int motion,
+                             const Point<dim> &place,
+                             const double time) const
+  {
+    if (motions[motion])
+      return motions[motion]->vector(place, time);
+    Tensor<1, dim> velocity;
+    for (unsigned int d = 0; d < dim; ++d)
+      velocity[d] = histories[motion]->value(time, d);
+    return velocity;
   }
 
 
@@ -169,12 +209,7 @@ namespace Keyblock
   {
     const Support<dim> &support      = *scene.supports[s];
     std::vector<unsigned int> &nodes = fields.nodes_of_support[s];
-    int motion                       = -1;
-    if (!support.displacement.empty())
-      motion =
-        add_motion(support.displacement, "Supports/*/Displacement", true);
-    else if (!support.velocity.empty())
-      motion = add_motion(support.velocity, "Supports/*/Velocity", false);
+    const int motion                 = motion_of(support);
     const bool holds_all =
       support.directions == SupportDirections::all || support.is_far_field();
     unsigned int n_hits = 0;
@@ -236,8 +271,9 @@ namespace Keyblock
         if (support.motion >= 0)
           prescribed = is_displacement[support.motion]
                          ? ramp_rate * prescribed_displacement(support)
-                         : motions[support.motion]->vector(place_of(support),
-                                                           time + 0.5 * step);
+                         : velocity_of(support.motion,
+                                       place_of(support),
+                                       time + 0.5 * step);
         for (unsigned int k = 0; k < support.n_directions; ++k)
           {
             double excess = 0.;

@@ -95,7 +95,8 @@ namespace Keyblock
       {ClosedForm::value, check_value<dim>},
       {ClosedForm::newmark, check_newmark<dim>},
       {ClosedForm::toppling, check_toppling<dim>},
-      {ClosedForm::rotation, check_rotation<dim>}};
+      {ClosedForm::rotation, check_rotation<dim>},
+      {ClosedForm::joint_wave, check_joint_wave<dim>}};
     const auto found = closed_forms.find(input.scene.checks.closed_form);
     return found == closed_forms.end() || !input.history.has_last_stage()
              ? CheckValues()

@@ -159,6 +159,82 @@ namespace Keyblock
   template CheckValues check_bar_impact(const CheckInput<3> &);
   template CheckValues check_oblique_impact(const CheckInput<2> &);
   template CheckValues check_oblique_impact(const CheckInput<3> &);
+  /** Harmonic shear wave that a quiet boundary lets in and a joint across its
+   * way lets pass up to the joint's strength: what is above is sent back, so
+   * that of the incident stress s(t) clip(s, strength) goes on. Transmission,
+   * reflection and absorption are square roots of shares of the energy. */
+  template <int dim>
+  CheckValues
+  check_joint_wave(const CheckInput<dim> &input)
+  {
+    const Support<dim> *base = nullptr;
+    for (const auto &support : input.scene.supports)
+      if (support->is_quiet() && !support->velocity.empty())
+        base = support.get();
+    const auto joints = input.scene.joints_called(input.scene.checks.joint);
+    std::vector<const Monitor<dim> *> points;
+    for (const auto &monitor : input.scene.monitors)
+      if (monitor->kind == MonitorKind::point)
+        points.push_back(monitor.get());
+    AssertThrow(base && !joints.empty() && points.size() == 2,
+                InputError("The closed form joint_wave needs a quiet support "
+                           "with a 'Velocity', 'Check/Joint', and two monitors "
+                           "of kind point: before and behind the joint."));
+    const Material<dim> &rock = *input.scene.materials.front();
+    const double speed        = std::sqrt(rock.shear_modulus() / rock.density);
+    const double impedance    = rock.density * speed;
+    const Joint<dim> &joint   = *input.scene.joints[joints.front()];
+    const Expression<dim> wave(base->velocity, dim, "Supports/*/Velocity");
+    const double bottom    = input.scene.domain.corner[dim - 1];
+    const double joint_way = joint.point[dim - 1] - bottom;
+    // velocities are those half a step before the time of their row
+    const unsigned int begin = input.history.stage_begin.back();
+    const double half        = 0.5 * input.stages.back().time_step;
+    const auto time          = input.history.column("time", begin);
+    const auto below = input.history.column(points[0]->name + ".v_x", begin);
+    const auto above = input.history.column(points[1]->name + ".v_x", begin);
+    const unsigned int first = input.scene.checks.window_start * time.size();
+    const auto incident      = [&](const double t, const double way) {
+      return wave.vector(Point<dim>(), t - way / speed)[0];
+    };
+    double in = 0., back = 0., on = 0., clipped = 0., cut = 0.;
+    for (unsigned int i = first; i < time.size(); ++i)
+      {
+        const double t = time[i] - half;
+        const double v = incident(t, joint_way);
+        const double passed =
+          std::copysign(std::min(std::abs(v), joint.cohesion / impedance), v);
+        in += v * v;
+        clipped += passed * passed;
+        cut += (v - passed) * (v - passed);
+        const double sent =
+          below[i] - incident(t, points[0]->location[dim - 1] - bottom);
+        back += sent * sent;
+        on += above[i] * above[i];
+      }
+    const auto friction = input.history.column("energy.friction", begin);
+    double area         = 0.;
+    for (const auto &[j, part] : input.blocks.blocks.front().joint_area)
+      area += part;
+    const double taken = friction.back() - friction[first - 1];
+    const double given = impedance * area * in * input.stages.back().time_step;
+    CheckValues checks;
+    compare(checks,
+            "transmission",
+            std::sqrt(on / in),
+            std::sqrt(clipped / in));
+    compare(checks, "reflection", std::sqrt(back / in), std::sqrt(cut / in));
+    compare(checks,
+            "absorption",
+            std::sqrt(std::max(0., taken / given)),
+            std::sqrt(std::max(0., 1. - (clipped + cut) / in)));
+    checks.emplace_back("energy_residual",
+                        input.stages.back().energies.relative_residual());
+    return checks;
+  }
+
+  template CheckValues check_joint_wave(const CheckInput<2> &);
+  template CheckValues check_joint_wave(const CheckInput<3> &);
   template CheckValues check_bond_break(const CheckInput<2> &);
   template CheckValues check_bond_break(const CheckInput<3> &);
 } // namespace Keyblock

@@ -41,6 +41,25 @@ keyblock_scene(verification/pulse REFERENCES pulse_tolerance
   RANKS 1 2 SET "Time stepping/Rest speed=1e-3")
 keyblock_scene(verification/pulse REFERENCES pulse_large RANKS 1
   SET "Time stepping/Kinematics=large")
+keyblock_scene(verification/quiet_column RANKS 1 2)
+keyblock_scene(verification/quiet_column REFERENCES quiet_column_shear RANKS 1
+  SET "Supports/sides/Directions=y"
+  "Initial state/Velocity=if(abs(y - 200) < 20, (1 + cos(pi*(y - 200)/20))/2, 0)@ 0")
+# the dead load of what was held, and nothing moves
+keyblock_scene(verification/quiet_column REFERENCES quiet_column_at_rest
+  RANKS 1 2 SET "Initial state/Velocity=" "Initial state/Gravity=0@ -9.81"
+  "Initial state/Equilibrium=static")
+keyblock_scene(verification/joint_wave RANKS 1 2)
+keyblock_scene(verification/joint_wave REFERENCES joint_wave_tenth RANKS 1
+  SET "Joints/joint/Cohesion=1e4")
+keyblock_scene(verification/joint_wave REFERENCES joint_wave_fiftieth RANKS 1
+  SET "Joints/joint/Cohesion=2e3")
+keyblock_scene(verification/joint_wave REFERENCES joint_wave_sticks RANKS 1
+  SET "Joints/joint/Cohesion=1.01e5")
+keyblock_scene(verification/slip_weakening RANKS 1 2)
+keyblock_scene(verification/slip_weakening REFERENCES slip_weakening_early
+  RANKS 1 SET "Stages/slip/Duration=0.2" "Check/Reference=0.0488366147")
+keyblock_scene(verification/cavern_at_depth RANKS 1 2)
 keyblock_scene(verification/bond_break)
 keyblock_scene(verification/bond_break_fast)
 keyblock_scene(verification/gravity_column)
@@ -53,6 +72,18 @@ keyblock_scene(verification/footing RANKS 2)
 keyblock_scene(verification/cavity_elastic RANKS 1 2)
 keyblock_scene(verification/cavity_mohr_coulomb RANKS 1)
 keyblock_scene(verification/friction_rod)
+# factors of the same slope by strength reduction
+keyblock_scene(verification/slope_crack REFERENCES slope_weak_dry RANKS 1)
+keyblock_scene(verification/slope_crack REFERENCES slope_weak_full_shaken RANKS 1
+  SET "Joints/crack/Water pressure=9810*max(0, 60 - y)"
+  "Joints/plane/Water pressure=9810*14.01*max(0, min(1, x/65.680527))"
+  "Stages/rest/Seismic coefficient=-0.08, 0")
+keyblock_scene(verification/slope_crack REFERENCES slope_strong_half_shaken RANKS 1
+  SET "Joints/crack/Water pressure=9810*max(0, 52.995 - y)"
+  "Joints/plane/Water pressure=9810*7.005*max(0, min(1, x/65.680527))"
+  "Joints/plane/Friction angle=45" "Joints/plane/Cohesion=196200"
+  "Joints/plane/Residual cohesion=196200"
+  "Stages/rest/Seismic coefficient=-0.08, 0")
 keyblock_scene(verification/material_change)
 keyblock_scene(verification/geostress)
 keyblock_scene(verification/order_at_once RANKS 1 2)

@@ -52,10 +52,10 @@ namespace
       return viscosity > 0.;
     }
     void
-    add_damping_force(const std::vector<double> &velocity,
-                      std::vector<double> &force) const override
+    add_damping_force(const MotionOfStep<2> &motion,
+                      std::vector<double> &force) override
     {
-      add(viscosity, velocity, force);
+      add(viscosity, motion.fields.velocity, force);
     }
     StepBound
     step_bound(const std::vector<double> &inverse_mass) const override

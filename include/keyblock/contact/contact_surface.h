@@ -17,17 +17,16 @@ namespace Keyblock
     unsigned int face; ///< index into Interface::surface
   };
 
-  /** Whether the faces of two feet are in one plane, within 5 degrees. */
+  /** Cosine of 5 degrees: faces that differ by less are one plane. */
+  constexpr double cosine_of_kink = 0.996;
+
+  /** Whether the faces of two feet are in one plane. */
   template <int dim>
   bool
   is_coplanar(const Projection<dim> &a, const Projection<dim> &b)
   {
-    const double cosine_of_kink = 0.996;
     return dot<dim>(a.normal, b.normal) > cosine_of_kink;
   }
-
-  /** Cosine of 20 degrees: faces that differ by more make a sharp edge. */
-  constexpr double cosine_of_sharp = 0.9396926207859084;
 
   /**
    * Overlap beyond which a point is not in contact with a face, or a ridge with
@@ -119,7 +118,7 @@ namespace Keyblock
     std::vector<unsigned int> vertex_of_node;
     std::vector<unsigned int> node_of_vertex;
     std::vector<unsigned int> block_of_node; ///< one of them, see is_on_block()
-    std::vector<bool> is_sharp;              ///< node on an edge or corner
+    std::vector<bool> is_on_edge;            ///< node where planes meet
 
     /** Where each node is at the start [m], see place_in_joint_planes(). */
     std::vector<Point<dim>> place_of_node;

@@ -34,6 +34,11 @@ namespace Keyblock
     JointSums<dim>
     sum_over_joints(const std::vector<unsigned int> &joints) const;
 
+    /** How far the two sides of @p joints have moved, as measured between the
+     * nodes that were paired at the start: means over their areas, of what is
+     * there (collective). */
+    JointMotion mean_motion(const std::vector<unsigned int> &joints) const;
+
     /** The deepest node in another block (collective). */
     Overlap<dim> largest_overlap() const;
 

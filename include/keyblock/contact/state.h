@@ -111,6 +111,13 @@ namespace Keyblock
     unsigned int n_open = 0, n_sliding = 0, n_sticking = 0, n_intact = 0;
   };
 
+  /** Relative motion of the sides of a joint. */
+  struct JointMotion
+  {
+    double slip    = 0.; ///< in its plane [m]
+    double opening = 0.; ///< along its normal [m]
+  };
+
   /** Energy that contact took in one step, by kind [J]. */
   struct ContactWork
   {

@@ -41,6 +41,11 @@ namespace Keyblock
   template <int dim>
   void check_initial_state(const Scene<dim> &scene);
 
+  void check_study_variable(const StudyVariable &variable);
+
+  template <int dim>
+  void check_supports(const Scene<dim> &scene);
+
   template <int dim>
   void check_expressions(const Scene<dim> &scene);
 

@@ -85,6 +85,18 @@ namespace dealii::Patterns::Tools
     : Keyblock::ChoiceConversion<Keyblock::SupportKind>
   {};
   template <>
+  struct Convert<Keyblock::Distribution>
+    : Keyblock::ChoiceConversion<Keyblock::Distribution>
+  {};
+  template <>
+  struct Convert<Keyblock::Sampling>
+    : Keyblock::ChoiceConversion<Keyblock::Sampling>
+  {};
+  template <>
+  struct Convert<Keyblock::HistoryQuantity>
+    : Keyblock::ChoiceConversion<Keyblock::HistoryQuantity>
+  {};
+  template <>
   struct Convert<Keyblock::SupportDirections>
     : Keyblock::ChoiceConversion<Keyblock::SupportDirections>
   {};

@@ -69,13 +69,22 @@ namespace Keyblock
     circle,
     box,
     extruded_polygon,
-    formula
+    formula,
+    rectangle,
+    horseshoe,
+    cavern
   };
   template <>
   struct ChoiceNames<ExcavationShape>
   {
-    static constexpr std::array<const char *, 5> names = {
-      {"polygon", "circle", "box", "extruded polygon", "formula"}};
+    static constexpr std::array<const char *, 8> names = {{"polygon",
+                                                           "circle",
+                                                           "box",
+                                                           "extruded polygon",
+                                                           "formula",
+                                                           "rectangle",
+                                                           "horseshoe",
+                                                           "cavern"}};
   };
 
   /** Extent of a joint within its plane. */
@@ -90,6 +99,40 @@ namespace Keyblock
   {
     static constexpr std::array<const char *, 3> names = {
       {"infinite", "disc", "polygon"}};
+  };
+
+  /** Distribution of a variable of a study. */
+  enum class Distribution
+  {
+    normal,
+    lognormal,
+    exponential,
+    uniform,
+    triangular,
+    sequence
+  };
+  template <>
+  struct ChoiceNames<Distribution>
+  {
+    static constexpr std::array<const char *, 6> names = {{"normal",
+                                                           "lognormal",
+                                                           "exponential",
+                                                           "uniform",
+                                                           "triangular",
+                                                           "sequence"}};
+  };
+
+  /** How samples of a study are drawn. */
+  enum class Sampling
+  {
+    latin_hypercube,
+    random
+  };
+  template <>
+  struct ChoiceNames<Sampling>
+  {
+    static constexpr std::array<const char *, 2> names = {
+      {"latin hypercube", "random"}};
   };
 
   /** Law of the spacings of a set of joints. */
@@ -154,17 +197,33 @@ namespace Keyblock
       {"automatic", "full", "mean dilatation"}};
   };
 
-  /** Whether a support holds its nodes or stands for infinite rock. */
+  /** Whether a support holds its nodes, stands for infinite rock or lets waves
+   * out. */
   enum class SupportKind
   {
     held,
-    far_field
+    far_field,
+    quiet
   };
   template <>
   struct ChoiceNames<SupportKind>
   {
-    static constexpr std::array<const char *, 2> names = {
-      {"held", "far field"}};
+    static constexpr std::array<const char *, 3> names = {
+      {"held", "far field", "quiet"}};
+  };
+
+  /** What the history of a support is one of. */
+  enum class HistoryQuantity
+  {
+    velocity,
+    acceleration,
+    stress
+  };
+  template <>
+  struct ChoiceNames<HistoryQuantity>
+  {
+    static constexpr std::array<const char *, 3> names = {
+      {"velocity", "acceleration", "stress"}};
   };
 
   /** Directions that a support holds. */
@@ -310,12 +369,13 @@ namespace Keyblock
     footing,
     value,
     toppling,
-    rotation
+    rotation,
+    joint_wave
   };
   template <>
   struct ChoiceNames<ClosedForm>
   {
-    static constexpr std::array<const char *, 15> names = {{"none",
+    static constexpr std::array<const char *, 16> names = {{"none",
                                                             "resting",
                                                             "incline",
                                                             "bar_impact",
@@ -329,7 +389,8 @@ namespace Keyblock
                                                             "footing",
                                                             "value",
                                                             "toppling",
-                                                            "rotation"}};
+                                                            "rotation",
+                                                            "joint_wave"}};
   };
 } // namespace Keyblock
 

@@ -18,6 +18,7 @@ namespace Keyblock
     std::string output;
     std::string restart; ///< checkpoint to continue from
     bool is_validation = false;
+    bool is_study      = false; ///< of probabilities, in place of a run
 
     /** Text to print instead of running (--help, --version,
      * --print-parameters); empty: run. */

@@ -6,9 +6,11 @@
 #include <deal.II/base/tensor.h>
 
 #include <keyblock/base/communicator.h>
+#include <keyblock/base/time_series.h>
 #include <keyblock/law/joint_strength.h>
 #include <keyblock/scene/bolts.h>
 #include <keyblock/scene/choices.h>
+#include <keyblock/scene/study.h>
 
 #include <memory>
 #include <string>
@@ -24,6 +26,9 @@ namespace Keyblock
   using dealii::ParameterHandler;
   using dealii::Point;
   using dealii::Tensor;
+
+  /** What seismic coefficients are multiples of [m/s2]. */
+  constexpr double standard_gravity = 9.81;
 
   /** The body of ground that is modelled, before anything is excavated. */
   template <int dim>
@@ -82,13 +87,42 @@ namespace Keyblock
     Point<dim> corner;
     std::vector<double> size;
     Point<2> center;
-    double radius = 0.;
-    double from   = 0.;
-    double to     = 0.;
+    double radius         = 0.;
+    double width          = 0.;
+    double height         = 0.;
+    double rise           = 0.;
+    unsigned int segments = 24;
+    std::vector<double> bench_levels;
+    std::vector<std::string> bench_stages;
+    double from = 0.;
+    double to   = 0.;
     std::string formula;
     std::string stage = "start";
     std::string backfill_stage;
     std::string backfill_material;
+
+    /** Whether Center, Width and Height say what it is: polygons for all but
+     * the reader of entries (Scene::make_profiles). */
+    bool
+    is_profile() const
+    {
+      return shape == ExcavationShape::rectangle ||
+             shape == ExcavationShape::horseshoe ||
+             shape == ExcavationShape::cavern;
+    }
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** Ground whose state follows from its depth: what entries leave open of
+   * gravity, initial stress, supports and overburden. */
+  template <int dim>
+  struct DepthGround
+  {
+    double depth   = 0.; ///< of elevation 0 below the surface [m]; 0: none
+    double density = 0.; ///< 0: of the first material that deforms
+    std::vector<double> k0 = {1.};
+    double azimuth         = 90.;
 
     void declare(ParameterHandler &prm);
   };
@@ -251,11 +285,23 @@ namespace Keyblock
     std::string displacement;
     SupportKind kind = SupportKind::held;
     Point<dim> center;
+    std::string stage = "start"; ///< from which on it is quiet
+    std::string history_file;
+    HistoryQuantity history_quantity = HistoryQuantity::velocity;
+
+    /** Of History file: velocities, of stress as they are; null: none. */
+    std::shared_ptr<const TimeSeries> history;
 
     bool
     is_far_field() const
     {
       return kind == SupportKind::far_field;
+    }
+
+    bool
+    is_quiet() const
+    {
+      return kind == SupportKind::quiet;
     }
 
     /** Whether `Directions` names the axis @p d (0: x). */
@@ -375,7 +421,8 @@ namespace Keyblock
     bool damps_contact_force   = true;
     bool scales_density        = true;
     double ramp_duration       = 0.;
-    std::string water_level; ///< from it on; empty: as before
+    std::string water_level;                 ///< from it on; empty: as before
+    std::vector<double> seismic_coefficient; ///< the same
     double ramp_unbalance          = 2e-3;
     double friction_angle_override = -1.;
     bool reset_motion              = false;
@@ -523,6 +570,7 @@ namespace Keyblock
     Domain<dim> domain;
     Meshing<dim> meshing;
     InitialState<dim> initial_state;
+    DepthGround<dim> ground;
     WaterSettings water;
     ContactSettings contact;
     TimeStepping time_stepping;
@@ -530,6 +578,7 @@ namespace Keyblock
     BlockTheorySettings block_theory;
     CheckSettings checks;
     OutputSettings output;
+    StudySettings study;
 
     std::vector<std::unique_ptr<Excavation<dim>>> excavations;
     JointNetwork network;
@@ -541,6 +590,7 @@ namespace Keyblock
     std::vector<std::unique_ptr<Traction<dim>>> tractions;
     std::vector<std::unique_ptr<Stage>> stages;
     std::vector<std::unique_ptr<Monitor<dim>>> monitors;
+    std::vector<std::unique_ptr<StudyVariable>> study_variables;
 
     /**
      * Read @p file_name, apply @p overrides ("Section/Entry=value"), check.
@@ -567,6 +617,10 @@ namespace Keyblock
     std::string water_pressure(const unsigned int joint,
                                const unsigned int number) const;
 
+    /** Seismic acceleration over 9.81 m/s2 that acts on all rock from the stage
+     * with this number on [-]. */
+    Tensor<1, dim> seismic_coefficient(const unsigned int number) const;
+
     /** What is allowed and probably not meant, one sentence each. */
     std::vector<std::string> warnings() const;
 
@@ -584,6 +638,15 @@ namespace Keyblock
     std::string used_entries() const;
 
   private:
+    void read_histories();
+
+    /** Put polygons in place of the excavations of a profile, one for each
+     * bench. Throws InputError. */
+    void make_profiles();
+
+    /** Put in what `Ground` gives. Throws InputError. */
+    void complete_ground();
+
     /** All entries as text, every joint written out. */
     std::string print_entries(const bool has_descriptions) const;
 

@@ -6,6 +6,7 @@
 #include <keyblock/step/bolts.h>
 #include <keyblock/step/far_field_springs.h>
 #include <keyblock/step/loads.h>
+#include <keyblock/step/quiet_boundary.h>
 #include <keyblock/step/supports.h>
 
 #include <algorithm>
@@ -81,17 +82,25 @@ namespace Keyblock
       });
     }
 
-    /** Whether the scene has supports of kind far field. */
+    /** Whether supports of the scene let go after the initial state. */
     bool
-    has_far_field() const
+    releases_supports() const
     {
-      return far_field != nullptr;
+      return far_field != nullptr || quiet != nullptr;
     }
 
-    /** Replace the far-field supports by springs, and what they carry now by a
-     * dead load; needs the present internal force and load.
+    /** Replace the far-field supports by springs, and those that are quiet from
+     * the start by dashpots, and what they carry now by a dead load; needs the
+     * present internal force and load.
      * @return a sentence if there is something to say of them, or empty */
-    std::string release_far_field();
+    std::string release_supports();
+
+    /** Whether set_load sets other values from step to step. */
+    bool is_load_changing() const;
+
+    /** What force elements took out of the rock as waves in the step whose
+     * velocities the fields have, on this rank [J]. */
+    double radiated_work(const double kick) const;
 
     /** The strength of joints is divided for a trial: what holds blocks besides
      * may follow. */
@@ -120,6 +129,9 @@ namespace Keyblock
 
   private:
     void make_elements();
+
+    /** What supports give to the rock now, on owned degrees of freedom [N]. */
+    std::vector<double> reaction() const;
     void set_up_supports();
 
     /** Take up a state; excavate is to follow if its cells are others. */
@@ -135,6 +147,7 @@ namespace Keyblock
 
     FarFieldSprings<dim> *far_field = nullptr; ///< one of elements, if any
     Bolts<dim> *bolts               = nullptr; ///< the same
+    QuietBoundary<dim> *quiet       = nullptr; ///< the same
   };
 } // namespace Keyblock
 

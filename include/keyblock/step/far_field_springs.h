@@ -37,10 +37,9 @@ namespace Keyblock
       return far_field.is_coupled();
     }
 
-    /** Take over from the supports, which carry @p internal_force less @p load
-     * now (local degrees of freedom) [N]. */
-    void release(const std::vector<double> &internal_force,
-                 const std::vector<double> &load);
+    /** Take over from the supports, which carry @p reaction now (owned degrees
+     * of freedom, on the rock) [N]. */
+    void release(const std::vector<double> &reaction);
 
     std::string
     name() const override
@@ -50,7 +49,7 @@ namespace Keyblock
     std::vector<unsigned int> nodes() const override;
     void add_force(const std::vector<double> &displacement,
                    std::vector<double> &force) override;
-    void add_load(std::vector<double> &load) const override;
+    void add_load(const double time, std::vector<double> &load) const override;
     StepBound
     step_bound(const std::vector<double> &inverse_mass) const override;
     double

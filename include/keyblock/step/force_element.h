@@ -5,6 +5,7 @@
 #include <keyblock/blocks/ground.h>
 #include <keyblock/contact/state.h>
 #include <keyblock/rock/dofs.h>
+#include <keyblock/rock/fields.h>
 #include <keyblock/step/stable_step.h>
 
 #include <functional>
@@ -27,6 +28,15 @@ namespace Keyblock
     std::string name;            ///< of the element
     std::vector<double> numbers; ///< the same on every rank
     std::vector<double> nodal;   ///< dim per owned node, or empty
+  };
+
+  /** What forces by velocities are taken from. */
+  template <int dim>
+  struct MotionOfStep
+  {
+    const Fields<dim> &fields; ///< velocities before the kick, other forces
+    double kick;               ///< [s]
+    double mass_damping;       ///< of the stage [1/s]
   };
 
   /** Stiffness W C W^T that couples many nodes, of low rank. */
@@ -82,14 +92,31 @@ namespace Keyblock
       return false;
     }
 
-    /** Add that, to the damping force of the step (collective) [m/s, N]. */
+    /** Add that, to the damping force of the step (collective) [N]. */
     virtual void
-    add_damping_force(const std::vector<double> &, std::vector<double> &) const
+    add_damping_force(const MotionOfStep<dim> &, std::vector<double> &)
     {}
 
-    /** Add what it puts on nodes as a dead load, to the load [N]. */
+    /** This rank's share of what that force takes out of the model in the step
+     * whose velocities @p fields has, if it leaves as waves and not as heat;
+     * its nodes are outer ones (Fields::runs) [J]. */
+    virtual double
+    damping_work(const Fields<dim> &, const double) const
+    {
+      return 0.;
+    }
+
+    /** Whether add_load adds other values from step to step. */
+    virtual bool
+    is_load_changing() const
+    {
+      return false;
+    }
+
+    /** Add what it puts on nodes whatever they do, to the load at a time [s,
+     * N]. */
     virtual void
-    add_load(std::vector<double> &) const
+    add_load(const double, std::vector<double> &) const
     {}
 
     /** How it shortens the step, given an inverse mass per node (collective)

@@ -136,6 +136,7 @@ namespace Keyblock
     const Numbering<dim> &numbering;
     Fields<dim> &fields;
 
+    Tensor<1, dim> seismic_acceleration; ///< of the stage [m/s2]
     std::unique_ptr<Expression<dim>> gravity;
     std::vector<std::unique_ptr<Expression<dim>>> tractions;
     std::vector<NodalTraction<dim>> nodal_tractions;

@@ -184,6 +184,7 @@ namespace Keyblock
     /** Add the work done on a run of nodes in this step. */
     void book_work(const NodeRun &run);
     void book_supports();
+    void book_radiation();
     void sample_energies();
 
     /** Move the outer nodes and the ghosts, and book the work done on them;

@@ -7,6 +7,7 @@
 #include <keyblock/rock/dofs.h>
 #include <keyblock/rock/fields.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -23,9 +24,10 @@ namespace Keyblock
              const Numbering<dim> &numbering,
              Fields<dim> &fields);
 
-    /** List the nodes that are held in @p ground; supports of kind far field
-     * do not count if @p is_far_field_free. Masses are to be set anew. */
-    void set_up(const Ground<dim> &ground, const bool is_far_field_free);
+    /** List the nodes that are held in @p ground, but by supports (by index)
+     * that have let go (@p is_released). Masses are to be set anew. */
+    void set_up(const Ground<dim> &ground,
+                const std::function<bool(unsigned int)> &is_released);
 
     /** Remove held components of fields.velocity and put in those prescribed
      * for the step from @p time to time + @p step, on owned nodes.
@@ -47,6 +49,14 @@ namespace Keyblock
     int add_motion(const std::string &formula,
                    const std::string &entry,
                    const bool is_reached);
+
+    /** The motion that a support prescribes, or -1. */
+    int motion_of(const Support<dim> &support);
+
+    /** Velocity that motion number @p motion prescribes [m/s]. */
+    Tensor<1, dim> velocity_of(const int motion,
+                               const Point<dim> &place,
+                               const double time) const;
     void hold_rigid_bodies(Found &found);
 
     /** Hold the nodes of a support, number @p s; returns how many vertices of
@@ -63,6 +73,7 @@ namespace Keyblock
     /** Velocities, or displacements that are reached at the end of the ramp. */
     std::vector<std::unique_ptr<Expression<dim>>> motions;
     std::vector<bool> is_displacement; ///< one per motion
+    std::vector<std::shared_ptr<const TimeSeries>> histories; ///< the same
   };
 } // namespace Keyblock
 

@@ -185,6 +185,8 @@ namespace Keyblock
   template <int dim>
   CheckValues check_bond_break(const CheckInput<dim> &input);
   template <int dim>
+  CheckValues check_joint_wave(const CheckInput<dim> &input);
+  template <int dim>
   CheckValues check_gravity_column(const CheckInput<dim> &input);
   template <int dim>
   CheckValues check_kirsch(const CheckInput<dim> &input);

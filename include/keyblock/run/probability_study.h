@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_run_probability_study_h
+#define keyblock_run_probability_study_h
+
+#include <keyblock/blocks/interface.h>
+#include <keyblock/run/study_report.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Keyblock
+{
+  /**
+   * Samples of a scene with the variables of `Study`, each judged by limit
+   * equilibrium of rigid blocks after every stage that changes something; no
+   * step is taken. Ranks share the samples. Meshes are made anew only where a
+   * variable changes more than strengths and loads. samples.csv grows as the
+   * study goes, and a study of the same scene in the same folder goes on from
+   * there; study.json has the results.
+   */
+  template <int dim>
+  class ProbabilityStudy
+  {
+  public:
+    /** Read and check the scene. Throws InputError (collective).
+     * @param folder of the output; empty: as for a run */
+    ProbabilityStudy(const Communicator &communicator,
+                     const std::string &scene_file,
+                     const std::vector<std::string> &overrides,
+                     const std::string &folder);
+
+    /** (collective) Throws StopRequest after a signal; what was done is kept.
+     */
+    void run();
+
+  private:
+    /** Blocks and the mesh that has them. */
+    struct Geometry
+    {
+      SplitMesh<dim> split;
+      Blocks<dim> blocks;
+    };
+
+    /** Values of the variables in all samples: by variable. */
+    void draw();
+
+    /** Whether a variable changes more than strengths and loads. */
+    bool changes_geometry() const;
+
+    /** The joint whose strength a variable (by index) is, or null. */
+    Joint<dim> *joint_of(const unsigned int variable) const;
+
+    /** Put the values of a sample into the joints of `scene`: where all
+     * variables are strengths of joints nothing else has to be read anew.
+     * Throws InputError. */
+    void set_strengths(const unsigned int index) const;
+
+    Geometry make_geometry(const Scene<dim> &sample) const;
+
+    /** Overrides that make a sample of the scene. */
+    std::vector<std::string> overrides_of(const unsigned int index) const;
+
+    SampleResult judge(const unsigned int index) const;
+
+    /** The same; errors name the sample. */
+    SampleResult judge_named(const unsigned int index) const;
+
+    /** Judge samples [begin, end) on all ranks (collective). */
+    void judge_batch(const unsigned int begin, const unsigned int end);
+
+    /** Rows of samples.csv that are there already, of this very study. */
+    void read_samples();
+    void write_samples(const unsigned int begin) const;
+
+    /** What samples.csv begins with: a digest of the scene, and names. */
+    std::string make_header() const;
+
+    /** Length of tunnel that a sample stands for [m]: in 2D 1, in 3D that of
+     * the extruded excavations, or 0. */
+    double length_of_tunnel() const;
+
+    const Communicator communicator;
+    const std::string scene_file;
+    const std::vector<std::string> overrides;
+    Scene<dim> scene;
+    std::string folder;
+    bool sets_strengths = false; ///< all variables are strengths of joints
+    std::string header;
+    std::unique_ptr<Geometry> geometry; ///< null: one for each sample
+    std::vector<std::vector<double>> values;
+    std::vector<SampleResult> results;
+    unsigned int n_resumed = 0; ///< samples that were there
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/delimited_text.h>
+#include <keyblock/base/errors.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/base/time_series.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Times may differ from even ones by this share of the interval. */
+    constexpr double largest_unevenness = 1e-3;
+
+    /** Fourier transform of 2^n values, in place. */
+    void
+    transform(std::vector<std::complex<double>> &x)
+    {
+      const std::size_t n = x.size();
+      if (n < 2)
+        return;
+      std::vector<std::complex<double>> even(n / 2), odd(n / 2);
+      for (std::size_t i = 0; i < n / 2; ++i)
+        {
+          even[i] = x[2 * i];
+          odd[i]  = x[2 * i + 1];
+        }
+      transform(even);
+      transform(odd);
+      for (std::size_t k = 0; k < n / 2; ++k)
+        {
+          const std::complex<double> turned =
+            std::polar(1., -2. * std::acos(-1.) * k / n) * odd[k];
+          x[k]         = even[k] + turned;
+          x[k + n / 2] = even[k] - turned;
+        }
+    }
+
+    double
+    number_at(const DelimitedText &table,
+              const DelimitedText::Row &row,
+              const unsigned int column)
+    {
+      double value = 0.;
+      AssertThrow(
+        read_number(row.fields[column], table.has_decimal_comma(), value) &&
+          std::isfinite(value),
+        InputError("Line " + std::to_string(row.line) + " of the history '" +
+                   table.file_name + "' has '" + row.fields[column] +
+                   "' in column " + std::to_string(column + 1) +
+                   ", which is not a number; write digits with a decimal "
+                   "point."));
+      return value;
+    }
+  } // namespace
+
+
+
+  TimeSeries::TimeSeries(const double start,
+                         const double interval,
+                         std::vector<std::vector<double>> values)
+    : start(start)
+    , interval(interval)
+    , values(std::move(values))
+  {}
+
+
+
+  TimeSeries
+  TimeSeries::read(const std::string &file_name,
+                   const std::string &entry,
+                   const unsigned int n_components)
+  {
+    const DelimitedText table = read_delimited_text(file_name, entry);
+    AssertThrow(table.header.fields.size() == n_components + 1,
+                InputError(
+                  "The history '" + file_name + "' of the entry '" + entry +
+                  "' has " + std::to_string(table.header.fields.size()) +
+                  " columns; it needs " + std::to_string(n_components + 1) +
+                  ": the time and one for each axis."));
+    AssertThrow(table.rows.size() >= 2,
+                InputError("The history '" + file_name + "' of the entry '" +
+                           entry + "' has " +
+                           std::to_string(table.rows.size()) +
+                           " rows; give at least two."));
+    std::vector<double> time;
+    std::vector<std::vector<double>> values(n_components);
+    for (const DelimitedText::Row &row : table.rows)
+      {
+        time.push_back(number_at(table, row, 0));
+        for (unsigned int c = 0; c < n_components; ++c)
+          values[c].push_back(number_at(table, row, c + 1));
+      }
+    const double interval = (time.back() - time.front()) / (time.size() - 1);
+    for (unsigned int i = 1; i < time.size(); ++i)
+      AssertThrow(time[i] > time[i - 1] &&
+                    std::abs(time[i] - time[0] - i * interval) <=
+                      largest_unevenness * interval,
+                  InputError("Line " + std::to_string(table.rows[i].line) +
+                             " of the history '" + file_name +
+                             "' has the time " + text_of(time[i]) +
+                             " s after " + text_of(time[i - 1]) +
+                             " s, where the others are " + text_of(interval) +
+                             " s apart; give even times."));
+    return TimeSeries(time.front(), interval, std::move(values));
+  }
+
+
+
+  double
+  TimeSeries::value(const double time, const unsigned int component) const
+  {
+    const std::vector<double> &v = values[component];
+    const double place           = (time - start) / interval;
+    if (!(place >= 0.) || place > v.size() - 1.)
+      return 0.;
+    const std::size_t i = std::min<std::size_t>(place, v.size() - 2);
+    return v[i] + (place - i) * (v[i + 1] - v[i]);
+  }
+
+
+
+  TimeSeries
+  TimeSeries::integral() const
+  {
+    std::vector<std::vector<double>> sums;
+    for (const std::vector<double> &v : values)
+      {
+        std::vector<double> sum(v.size(), 0.);
+        for (std::size_t i = 1; i < v.size(); ++i)
+          sum[i] = sum[i - 1] + 0.5 * interval * (v[i - 1] + v[i]);
+        sums.push_back(sum);
+      }
+    return TimeSeries(start, interval, sums);
+  }
+
+
+
+  TimeSeries
+  TimeSeries::operator*(const double factor) const
+  {
+    TimeSeries result(*this);
+    for (std::vector<double> &v : result.values)
+      for (double &x : v)
+        x *= factor;
+    return result;
+  }
+
+
+
+  double
+  TimeSeries::largest_magnitude() const
+  {
+    double largest = 0.;
+    for (const std::vector<double> &v : values)
+      for (const double x : v)
+        largest = std::max(largest, std::abs(x));
+    return largest;
+  }
+
+
+
+  double
+  TimeSeries::frequency_below(const double share) const
+  {
+    std::size_t n = 1;
+    while (n < 2 * values.front().size())
+      n *= 2;
+    std::vector<double> energy(n / 2 + 1, 0.);
+    for (const std::vector<double> &v : values)
+      {
+        std::vector<std::complex<double>> x(v.begin(), v.end());
+        x.resize(n);
+        transform(x);
+        for (std::size_t k = 0; k < energy.size(); ++k)
+          energy[k] += std::norm(x[k]);
+      }
+    double total = 0.;
+    for (const double e : energy)
+      total += e;
+    double sum    = 0.;
+    std::size_t k = 0;
+    while (k + 1 < energy.size() && sum + energy[k] < share * total)
+      sum += energy[k++];
+    return k / (n * interval);
+  }
+} // namespace Keyblock

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Samples of a scene, shared among the ranks and judged one by one.
+#include <keyblock/base/number_text.h>
+#include <keyblock/base/stop_request.h>
+#include <keyblock/blocks/block_resolution.h>
+#include <keyblock/blocks/bolt_layout.h>
+#include <keyblock/run/probability_study.h>
+#include <keyblock/safety/block_statics.h>
+#include <keyblock/scene/check_parts.h>
+#include <keyblock/scene/text.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Samples per rank from one writing of samples.csv to the next. */
+    constexpr unsigned int samples_per_batch = 16;
+
+    /** What follows the last slash of an entry. */
+    std::string
+    last_of(const std::string &entry)
+    {
+      return entry.substr(entry.rfind('/') + 1);
+    }
+
+    /** Whether an entry of a joint or a set says how strong it is. */
+    bool
+    is_strength(const std::string &name)
+    {
+      static const std::set<std::string> strengths = {"Law",
+                                                      "Friction angle",
+                                                      "Kinetic friction angle",
+                                                      "Cohesion",
+                                                      "Residual cohesion",
+                                                      "Tensile strength",
+                                                      "Water pressure",
+                                                      "JRC",
+                                                      "JCS",
+                                                      "Residual friction angle",
+                                                      "Slip distance",
+                                                      "Dilation angle",
+                                                      "Dilation slip"};
+      return strengths.count(name) > 0;
+    }
+
+    /** Whether an entry changes neither mesh nor blocks. */
+    bool
+    leaves_geometry(const std::string &entry)
+    {
+      static const std::set<std::string> sections = {
+        "Water", "Tractions", "Safety factor", "Initial state", "Stages"};
+      const std::string section = entry.substr(0, entry.find('/'));
+      return sections.count(section) > 0 ||
+             ((section == "Joints" || section == "Joint sets") &&
+              is_strength(last_of(entry))) ||
+             entry == "Contact/Default friction angle";
+    }
+
+  } // namespace
+
+
+
+  template <int dim>
+  ProbabilityStudy<dim>::ProbabilityStudy(
+    const Communicator &communicator,
+    const std::string &scene_file,
+    const std::vector<std::string> &overrides,
+    const std::string &output_folder)
+    : communicator(communicator)
+    , scene_file(scene_file)
+    , overrides(overrides)
+  {
+    scene.read(communicator, scene_file, overrides);
+    AssertThrow(!scene.study_variables.empty(),
+                InputError("The scene '" + scene_file +
+                           "' has nothing to vary; name variables in the "
+                           "entry 'Study/Names'."));
+    folder =
+      (!output_folder.empty() ? output_folder
+       : !scene.output.folder.empty()
+         ? scene.output.folder
+         : "output-" + std::filesystem::path(scene_file).stem().string()) +
+      "/";
+    draw();
+    sets_strengths = true;
+    for (unsigned int v = 0; v < scene.study_variables.size(); ++v)
+      sets_strengths = sets_strengths && joint_of(v) != nullptr;
+  }
+
+
+
+  template <int dim>
+  bool
+  ProbabilityStudy<dim>::changes_geometry() const
+  {
+    return std::any_of(scene.study_variables.begin(),
+                       scene.study_variables.end(),
+                       [](const auto &v) {
+                         return !leaves_geometry(v->entry);
+                       });
+  }
+
+
+
+  template <int dim>
+  Joint<dim> *
+  ProbabilityStudy<dim>::joint_of(const unsigned int variable) const
+  {
+    const std::string &entry = scene.study_variables[variable]->entry;
+    for (const auto &joint : scene.joints)
+      if (entry == "Joints/" + joint->name + "/" + last_of(entry) &&
+          is_strength(last_of(entry)))
+        return joint.get();
+    return nullptr;
+  }
+
+
+
+  template <int dim>
+  void
+  ProbabilityStudy<dim>::set_strengths(const unsigned int index) const
+  {
+    for (unsigned int v = 0; v < values.size(); ++v)
+      {
+        const std::string &entry = scene.study_variables[v]->entry;
+        dealii::ParameterHandler prm;
+        joint_of(v)->declare_strength(prm);
+        parse_entries(prm,
+                      "set " + last_of(entry) + " = " +
+                        exact_text(values[v][index]),
+                      scene_file,
+                      "the variable '" + scene.study_variables[v]->name + "'");
+      }
+    for (unsigned int v = 0; v < values.size(); ++v)
+      check_joint(*joint_of(v));
+  }
+
+
+
+  template <int dim>
+  typename ProbabilityStudy<dim>::Geometry
+  ProbabilityStudy<dim>::make_geometry(const Scene<dim> &sample) const
+  {
+    // each rank for itself
+    const Communicator alone(MPI_COMM_SELF);
+    const dealii::ConditionalOStream silent(std::cout, false);
+    Geometry result;
+    Mesh<dim> mesh;
+    std::tie(mesh, result.blocks) = make_mesh_for_blocks(alone, sample, silent);
+    result.split                  = split_mesh(mesh, result.blocks, sample);
+    result.split.bolts            = lay_out_bolts(sample, result.split);
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  ProbabilityStudy<dim>::overrides_of(const unsigned int index) const
+  {
+    std::vector<std::string> list = overrides;
+    for (unsigned int v = 0; v < values.size(); ++v)
+      list.push_back(scene.study_variables[v]->entry + "=" +
+                     exact_text(values[v][index]));
+    return list;
+  }
+
+
+
+  template <int dim>
+  SampleResult
+  ProbabilityStudy<dim>::judge(const unsigned int index) const
+  {
+    Scene<dim> changed;
+    if (sets_strengths)
+      set_strengths(index);
+    else
+      changed.read(Communicator(MPI_COMM_SELF),
+                   scene_file,
+                   overrides_of(index));
+    const Scene<dim> &sample = sets_strengths ? scene : changed;
+    Geometry own;
+    if (!geometry)
+      own = make_geometry(sample);
+    const Geometry &g = geometry ? *geometry : own;
+    const auto &all   = g.blocks.blocks;
+
+    SampleResult result;
+    result.factor = std::numeric_limits<double>::infinity();
+    result.factors.assign(all.size(), result.factor);
+    std::vector<bool> is_exposed(all.size(), false);
+    for (unsigned int number = 1; number < sample.stages.size() + 2; ++number)
+      {
+        if (number > 1 && !is_changing(sample, number))
+          continue;
+        const Ground<dim> ground{sample, g.split, number, nullptr};
+        const FreeFaces<dim> free(ground);
+        for (unsigned int b = 0; b < all.size(); ++b)
+          {
+            const auto &classes = all[b].class_of_stage;
+            if (classes[std::min<std::size_t>(number, classes.size() - 1)] !=
+                BlockClass::exposed)
+              continue;
+            is_exposed[b] = true;
+            const double factor =
+              judge_block(ground, free, g.blocks, b, 0.).limit.factor;
+            result.factors[b] = std::min(result.factors[b], factor);
+            if (factor < result.factor)
+              {
+                result.factor = factor;
+                result.block  = all[b].id;
+                result.stage  = number;
+              }
+          }
+      }
+    for (unsigned int b = 0; b < all.size(); ++b)
+      {
+        result.n_exposed += is_exposed[b];
+        if (result.factors[b] < scene.study.threshold)
+          {
+            ++result.n_failed;
+            result.failed_volume += all[b].volume;
+          }
+      }
+    if (!geometry)
+      result.factors.clear();
+    return result;
+  }
+
+
+
+  template <int dim>
+  SampleResult
+  ProbabilityStudy<dim>::judge_named(const unsigned int index) const
+  {
+    try
+      {
+        return judge(index);
+      }
+    catch (const InputError &error)
+      {
+        std::string text =
+          "Sample " + std::to_string(index + 1) + " of the study (";
+        for (unsigned int v = 0; v < values.size(); ++v)
+          text += (v ? ", " : "") + scene.study_variables[v]->name + " = " +
+                  text_of(values[v][index]);
+        AssertThrow(false,
+                    InputError(text + ") cannot be judged: " + error.message));
+        throw;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ProbabilityStudy<dim>::judge_batch(const unsigned int begin,
+                                     const unsigned int end)
+  {
+    const unsigned int n_blocks = geometry ? geometry->blocks.blocks.size() : 0;
+    const unsigned int n        = n_sample_figures + n_blocks;
+    std::vector<double> figures(std::size_t(n) * (end - begin), 0.);
+    std::string message;
+    for (unsigned int i = begin; i < end && message.empty(); ++i)
+      if (i % communicator.size() == communicator.rank())
+        try
+          {
+            const SampleResult r = judge_named(i);
+            double *const row    = &figures[std::size_t(n) * (i - begin)];
+            const std::array<double, n_sample_figures> head = {
+              {r.factor,
+               double(r.block),
+               double(r.stage),
+               double(r.n_exposed),
+               double(r.n_failed),
+               r.failed_volume}};
+            std::copy(head.begin(), head.end(), row);
+            std::copy(r.factors.begin(),
+                      r.factors.end(),
+                      row + n_sample_figures);
+          }
+        catch (const InputError &error)
+          {
+            message = error.message;
+          }
+    message = communicator.any_text(message);
+    AssertThrow(message.empty(), InputError(message));
+    communicator.sum_lists(figures);
+    for (unsigned int i = begin; i < end; ++i)
+      {
+        const double *const row = &figures[std::size_t(n) * (i - begin)];
+        results.push_back(
+          {row[0],
+           static_cast<unsigned int>(row[1]),
+           static_cast<unsigned int>(row[2]),
+           static_cast<unsigned int>(row[3]),
+           static_cast<unsigned int>(row[4]),
+           row[5],
+           std::vector<double>(row + n_sample_figures, row + n)});
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  ProbabilityStudy<dim>::length_of_tunnel() const
+  {
+    if (dim == 2)
+      return 1.;
+    double low = std::numeric_limits<double>::max(), high = -low;
+    for (const auto &excavation : scene.excavations)
+      if (excavation->shape == ExcavationShape::extruded_polygon)
+        {
+          low  = std::min(low, excavation->from);
+          high = std::max(high, excavation->to);
+        }
+    return std::max(0., high - low);
+  }
+
+
+
+  template <int dim>
+  void
+  ProbabilityStudy<dim>::run()
+  {
+    watch_signals();
+    const double start = MPI_Wtime();
+    if (!changes_geometry())
+      geometry = std::make_unique<Geometry>(make_geometry(scene));
+    header = make_header();
+    read_samples();
+    // what no sample can be made of is said before anything is written
+    if (results.empty())
+      judge_named(0);
+    communicator.on_root([&]() {
+      std::error_code error;
+      std::filesystem::create_directories(folder, error);
+      AssertThrow(!error,
+                  InputError("The output folder '" + folder +
+                             "' cannot be made; check its path and "
+                             "permissions."));
+      scene.write_used(folder + "used.prm");
+    });
+    n_resumed = results.size();
+    if (communicator.is_root() && n_resumed > 0)
+      std::cout << "Study   goes on after " << n_resumed << " samples"
+                << std::endl;
+    // what cannot be used of the file is written anew
+    write_samples(0);
+    while (results.size() < scene.study.samples)
+      {
+        stop_if_asked(communicator);
+        const unsigned int begin = results.size();
+        judge_batch(begin,
+                    std::min(scene.study.samples,
+                             begin + samples_per_batch * communicator.size()));
+        write_samples(begin);
+      }
+    const StudyReport report(scene,
+                             geometry ? &geometry->blocks : nullptr,
+                             values,
+                             results,
+                             length_of_tunnel(),
+                             MPI_Wtime() - start,
+                             n_resumed);
+    if (communicator.is_root())
+      report.print(std::cout);
+    communicator.assert_written(!communicator.is_root() ||
+                                  report.write(folder + "study.json"),
+                                folder + "study.json");
+  }
+
+  template class ProbabilityStudy<2>;
+  template class ProbabilityStudy<3>;
+} // namespace Keyblock

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/study_report.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    constexpr std::array<double, 7> percents = {
+      {1., 5., 25., 50., 75., 95., 99.}};
+
+    /** Bins of histograms: this many from the least to the greatest value. */
+    constexpr unsigned int n_bins = 40;
+
+    /** Points of the curve of convergence. */
+    constexpr unsigned int n_points = 20;
+
+    Json
+    as_json(const ProbabilityEstimate &p)
+    {
+      return {{"value", p.value}, {"lower", p.lower}, {"upper", p.upper}};
+    }
+
+    Json
+    statistics_as_json(const std::vector<double> &values)
+    {
+      if (values.empty())
+        return nullptr;
+      const SampleStatistics statistics(values);
+      Json json = {{"samples", values.size()},
+                   {"mean", statistics.mean},
+                   {"deviation", statistics.deviation},
+                   {"least", statistics.sorted.front()},
+                   {"greatest", statistics.sorted.back()},
+                   {"percentiles", Json::object()},
+                   {"histogram", Json::object()}};
+      for (const double percent : percents)
+        json["percentiles"][std::to_string(std::lround(percent))] =
+          statistics.percentile(0.01 * percent);
+      const double low = statistics.sorted.front(),
+                   width =
+                     std::max(statistics.sorted.back() - low, 1e-300) / n_bins;
+      std::vector<unsigned int> counts(n_bins, 0);
+      for (const double x : values)
+        ++counts[std::min<unsigned int>((x - low) / width, n_bins - 1)];
+      json["histogram"] = {{"from", low}, {"width", width}, {"counts", counts}};
+      return json;
+    }
+
+    std::ostream &
+    operator<<(std::ostream &out, const ProbabilityEstimate &p)
+    {
+      return out << p.value << " [" << p.lower << ", " << p.upper << "]";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  StudyReport<dim>::StudyReport(const Scene<dim> &scene,
+                                const Blocks<dim> *blocks,
+                                const std::vector<std::vector<double>> &values,
+                                const std::vector<SampleResult> &results,
+                                const double length,
+                                const double seconds,
+                                const unsigned int n_resumed)
+    : scene(scene)
+    , blocks(blocks)
+    , values(values)
+    , results(results)
+    , length(length)
+    , seconds(seconds)
+    , n_resumed(n_resumed)
+  {
+    for (const SampleResult &result : results)
+      {
+        mean_failed += result.n_failed / double(results.size());
+        mean_volume += result.failed_volume / results.size();
+      }
+  }
+
+
+
+  template <int dim>
+  ProbabilityEstimate
+  StudyReport<dim>::probability_of(const std::size_t n) const
+  {
+    return estimate_probability(std::count_if(results.begin(),
+                                              results.begin() + n,
+                                              [](const SampleResult &r) {
+                                                return r.n_failed > 0;
+                                              }),
+                                n);
+  }
+
+
+
+  template <int dim>
+  ProbabilityEstimate
+  StudyReport<dim>::probability_of_block(const unsigned int block) const
+  {
+    return estimate_probability(std::count_if(results.begin(),
+                                              results.end(),
+                                              [&](const SampleResult &r) {
+                                                return r.factors[block] <
+                                                       scene.study.threshold;
+                                              }),
+                                results.size());
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  StudyReport<dim>::finite_factors() const
+  {
+    std::vector<double> factors;
+    for (const SampleResult &result : results)
+      if (std::isfinite(result.factor))
+        factors.push_back(result.factor);
+    return factors;
+  }
+
+
+
+  template <int dim>
+  double
+  StudyReport<dim>::correlation_of(const unsigned int variable) const
+  {
+    std::vector<double> x;
+    for (unsigned int i = 0; i < results.size(); ++i)
+      if (std::isfinite(results[i].factor))
+        x.push_back(values[variable][i]);
+    return rank_correlation(x, finite_factors());
+  }
+
+
+
+  template <int dim>
+  void
+  StudyReport<dim>::print(std::ostream &out) const
+  {
+    const unsigned int n_new = results.size() - n_resumed;
+    out << std::setprecision(4) << "Study   " << results.size()
+        << " samples of limit equilibrium, "
+        << (scene.study.sampling == Sampling::random ? "random"
+                                                     : "Latin hypercube")
+        << ", seed " << scene.study.seed << "; " << seconds << " s";
+    if (seconds > 0. && n_new > 0)
+      out << ", " << 60. * n_new / seconds << " a minute";
+    out << "\n        probability that a block fails (factor below "
+        << scene.study.threshold << "): " << probability_of(results.size())
+        << " with 95 %\n        failed blocks per sample " << mean_failed
+        << ", " << (dim == 2 ? "area " : "volume ") << mean_volume
+        << (dim == 2 ? " m2" : " m3");
+    if (dim == 3 && length > 0.)
+      out << ", per metre of tunnel " << mean_failed / length << " and "
+          << mean_volume / length << " m3";
+    const std::vector<double> factors = finite_factors();
+    if (!factors.empty())
+      {
+        const SampleStatistics statistics(factors);
+        out << "\n        least factor: mean " << statistics.mean
+            << ", deviation " << statistics.deviation << ", 5 % below "
+            << statistics.percentile(0.05) << ", 95 % below "
+            << statistics.percentile(0.95);
+      }
+    if (factors.size() < results.size())
+      out << "\n        in " << results.size() - factors.size()
+          << " samples no block can move";
+    out << '\n';
+    for (unsigned int v = 0; v < values.size(); ++v)
+      out << "        " << scene.study_variables[v]->name
+          << ": rank correlation with the least factor " << correlation_of(v)
+          << '\n';
+    if (blocks)
+      for (unsigned int b = 0; b < blocks->blocks.size(); ++b)
+        if (probability_of_block(b).value > 0.)
+          out << "        block " << blocks->blocks[b].id
+              << " fails with probability " << probability_of_block(b) << '\n';
+    out << std::flush;
+  }
+
+
+
+  template <int dim>
+  bool
+  StudyReport<dim>::write(const std::string &file_name) const
+  {
+    Json root = {{"scene", scene.file},
+                 {"samples", results.size()},
+                 {"seed", scene.study.seed},
+                 {"sampling", name_of(scene.study.sampling)},
+                 {"threshold", scene.study.threshold},
+                 {"seconds", seconds},
+                 {"resumed_samples", n_resumed},
+                 {"probability", as_json(probability_of(results.size()))},
+                 {"failed_blocks_per_sample", mean_failed},
+                 {"failed_volume_per_sample", mean_volume}};
+    if (length > 0.)
+      {
+        root["failed_blocks_per_metre"] = mean_failed / length;
+        root["failed_volume_per_metre"] = mean_volume / length;
+      }
+    root["least_factor"] = statistics_as_json(finite_factors());
+    root["immovable_share"] =
+      1. - finite_factors().size() / double(results.size());
+    std::vector<double> volumes;
+    for (const SampleResult &result : results)
+      if (result.n_failed > 0)
+        volumes.push_back(result.failed_volume);
+    root["failed_volume"] = statistics_as_json(volumes);
+    root["variables"]     = Json::array();
+    for (unsigned int v = 0; v < values.size(); ++v)
+      {
+        const SampleStatistics drawn(values[v]);
+        root["variables"].push_back(
+          {{"name", scene.study_variables[v]->name},
+           {"entry", scene.study_variables[v]->entry},
+           {"distribution", name_of(scene.study_variables[v]->distribution)},
+           {"mean", drawn.mean},
+           {"deviation", drawn.deviation},
+           {"rank_correlation", correlation_of(v)}});
+      }
+    root["convergence"] = Json::array();
+    for (unsigned int k = 1; k <= n_points; ++k)
+      {
+        const std::size_t n = k * results.size() / n_points;
+        if (n > 0)
+          {
+            Json point       = as_json(probability_of(n));
+            point["samples"] = n;
+            root["convergence"].push_back(point);
+          }
+      }
+    if (blocks)
+      {
+        root["blocks"] = Json::array();
+        for (unsigned int b = 0; b < blocks->blocks.size(); ++b)
+          {
+            std::vector<double> factors;
+            for (const SampleResult &result : results)
+              if (std::isfinite(result.factors[b]))
+                factors.push_back(result.factors[b]);
+            root["blocks"].push_back(
+              {{"id", blocks->blocks[b].id},
+               {"volume", blocks->blocks[b].volume},
+               {"probability", as_json(probability_of_block(b))},
+               {"factor", statistics_as_json(factors)}});
+          }
+      }
+    std::ofstream out(file_name);
+    out << root.dump(2) << '\n';
+    return static_cast<bool>(out.flush());
+  }
+
+  template class StudyReport<2>;
+  template class StudyReport<3>;
+} // namespace Keyblock

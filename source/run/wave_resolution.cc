@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/number_text.h>
+#include <keyblock/run/wave_resolution.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Share of a history's energy that the mesh is to carry [-]. */
+    constexpr double resolved_share = 0.95;
+
+    /** Speed of shear waves over the longest way across a cell's edges [1/s],
+     * where it is least. */
+    template <int dim>
+    double
+    slowest_crossing(const Scene<dim> &scene,
+                     const Mesh<dim> &mesh,
+                     Point<dim> &place)
+    {
+      double least = std::numeric_limits<double>::max();
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        {
+          const Material<dim> &rock = *scene.materials[mesh.material[c]];
+          if (rock.is_rigid())
+            continue;
+          double longest = 0.;
+          for (unsigned int v = 0; v < (1 << dim); ++v)
+            for (unsigned int d = 0; d < dim; ++d)
+              if (!((v >> d) & 1))
+                longest =
+                  std::max(longest,
+                           mesh.vertices[mesh.cells[c][v]].distance(
+                             mesh.vertices[mesh.cells[c][v | (1 << d)]]));
+          const double rate =
+            std::sqrt(rock.shear_modulus() / rock.density) / longest;
+          if (rate < least)
+            {
+              least = rate;
+              place = mesh.cell_center(c);
+            }
+        }
+      return least;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_short_waves(const Scene<dim> &scene, const Mesh<dim> &mesh)
+  {
+    std::vector<std::string> warnings;
+    double crossing = -1.;
+    Point<dim> place;
+    for (const auto &support : scene.supports)
+      {
+        if (!support->history)
+          continue;
+        if (crossing < 0.)
+          crossing = slowest_crossing(scene, mesh, place);
+        const double frequency =
+          support->history->frequency_below(resolved_share);
+        const double n_cells = crossing / frequency;
+        if (n_cells >= least_cells_per_wavelength)
+          continue;
+        std::string where = text_of(place[0]);
+        for (unsigned int d = 1; d < dim; ++d)
+          where += ", " + text_of(place[d]);
+        warnings.push_back(
+          "Of the history '" + support->history_file +
+          "' 95 % of the energy is below " + text_of(frequency) +
+          " Hz, whose shear waves are " + text_of(n_cells) +
+          " cells long at (" + where + ") m; " +
+          text_of(least_cells_per_wavelength) +
+          " are needed: refine the mesh, or filter the history.");
+      }
+    return warnings;
+  }
+
+  template std::vector<std::string> warnings_of_short_waves(const Scene<2> &,
+                                                            const Mesh<2> &);
+  template std::vector<std::string> warnings_of_short_waves(const Scene<3> &,
+                                                            const Mesh<3> &);
+} // namespace Keyblock

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a scene says of water, shaking and histories, and what it is warned of.
+#include <keyblock/base/number_text.h>
+#include <keyblock/scene/scene.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Last over largest displacement of a history, beyond which its base line
+     * is doubted [-]. */
+    constexpr double largest_base_line_error = 0.05;
+  } // namespace
+
+
+
+  template <int dim>
+  std::string
+  Scene<dim>::water_pressure(const unsigned int joint,
+                             const unsigned int number) const
+  {
+    const std::string &own = joints[joint]->water_pressure;
+    if (!own.empty())
+      return own;
+    std::string level = water.level;
+    for (const auto &stage : stages)
+      if (!stage->water_level.empty() && stage_number(stage->name) <= number)
+        level = stage->water_level;
+    if (level.empty() || level == no_water)
+      return "";
+    return exact_text(water.unit_weight) + " * max(0, (" + level + ") - " +
+           (dim == 2 ? "y" : "z") + ")";
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Scene<dim>::seismic_coefficient(const unsigned int number) const
+  {
+    Tensor<1, dim> coefficient;
+    for (const auto &stage : stages)
+      if (stage_number(stage->name) <= number)
+        for (unsigned int d = 0; d < stage->seismic_coefficient.size(); ++d)
+          coefficient[d] = stage->seismic_coefficient[d];
+    return coefficient;
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::read_histories()
+  {
+    for (const auto &support : supports)
+      if (!support->history_file.empty())
+        {
+          TimeSeries history =
+            TimeSeries::read((std::filesystem::path(file).parent_path() /
+                              support->history_file)
+                               .string(),
+                             "Supports/" + support->name + "/History file",
+                             dim);
+          if (support->history_quantity == HistoryQuantity::acceleration)
+            history = history.integral();
+          support->history = std::make_shared<TimeSeries>(std::move(history));
+        }
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Scene<dim>::warnings() const
+  {
+    std::vector<std::string> found = old_names;
+    for (const auto &material : materials)
+      if (material->is_plastic() &&
+          material->tensile_strength > material->apex())
+        {
+          std::ostringstream text;
+          text << "The entry 'Materials/" << material->name
+               << "/Tensile strength' is " << material->tensile_strength
+               << " Pa, beyond the apex of cohesion and friction at "
+               << material->apex() << " Pa, so that it never acts.";
+          found.push_back(text.str());
+        }
+    for (const auto &support : supports)
+      if (support->history &&
+          support->history_quantity != HistoryQuantity::stress)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const TimeSeries way = support->history->integral();
+            if (std::abs(way.last(d)) >
+                largest_base_line_error * way.largest_magnitude())
+              {
+                found.push_back(
+                  "The history '" + support->history_file +
+                  "' ends with a displacement of " + text_of(way.last(d)) +
+                  " m along " + "xyz"[d] + ", of at most " +
+                  text_of(way.largest_magnitude()) +
+                  " m on the way; correct its base line if it should end where "
+                  "it began.");
+              }
+          }
+    return found;
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template std::string Scene<dim>::water_pressure(const unsigned int,          \
+                                                  const unsigned int) const;   \
+  template Tensor<1, dim> Scene<dim>::seismic_coefficient(const unsigned int)  \
+    const;                                                                     \
+  template void Scene<dim>::read_histories();                                  \
+  template std::vector<std::string> Scene<dim>::warnings() const;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Keyblock

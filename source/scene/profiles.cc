@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What short entries stand for: the section of a tunnel or cavern, and ground
+// whose state follows from its depth.
+#include <keyblock/base/number_text.h>
+#include <keyblock/scene/check.h>
+#include <keyblock/scene/scene.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Widths of the excavations between them and the boundary of a domain
+     * whose Size is not given. */
+    constexpr double margin_of_domain = 4.;
+
+    using Polygon = std::vector<Point<2>>;
+
+    /** Corners of an excavation's section, counterclockwise from the left end
+     * of the floor. */
+    template <int dim>
+    Polygon
+    section_of(const Excavation<dim> &e)
+    {
+      const double half = 0.5 * e.width;
+      const double rise = e.shape == ExcavationShape::rectangle   ? 0.
+                          : e.shape == ExcavationShape::horseshoe ? half
+                                                                  : e.rise;
+      const double x = e.center[0], y = e.center[1], spring = e.height - rise;
+      Polygon corners = {Point<2>(x - half, y), Point<2>(x + half, y)};
+      if (spring > 0.)
+        corners.emplace_back(x + half, y + spring);
+      if (rise > 0.)
+        {
+          const double radius = 0.5 * (half * half / rise + rise);
+          const double angle  = std::asin(std::min(1., half / radius));
+          for (unsigned int i = 1; i < e.segments; ++i)
+            {
+              const double a = angle * (1. - 2. * i / e.segments);
+              corners.emplace_back(x + radius * std::sin(a),
+                                   y + e.height - radius * (1. - std::cos(a)));
+            }
+        }
+      if (spring > 0.)
+        corners.emplace_back(x - half, y + spring);
+      return corners;
+    }
+
+    /** The part of a convex polygon between two elevations. */
+    Polygon
+    cut_out(const Polygon &polygon, const double low, const double high)
+    {
+      Polygon result = polygon;
+      for (const bool is_floor : {true, false})
+        {
+          const double level = is_floor ? low : high;
+          const auto inside  = [&](const Point<2> &p) {
+            return is_floor ? p[1] - level : level - p[1];
+          };
+          Polygon cut;
+          for (std::size_t i = 0; i < result.size(); ++i)
+            {
+              const Point<2> &a = result[i];
+              const Point<2> &b = result[(i + 1) % result.size()];
+              const double ha = inside(a), hb = inside(b);
+              if (ha >= 0.)
+                cut.push_back(a);
+              if ((ha > 0. && hb < 0.) || (ha < 0. && hb > 0.))
+                cut.emplace_back(a[0] + ha / (ha - hb) * (b[0] - a[0]), level);
+            }
+          result = cut;
+        }
+      return result;
+    }
+
+    template <int dim>
+    void
+    check_profile(const Excavation<dim> &e)
+    {
+      const std::string section = "Excavations/" + e.name;
+      require(e.width > 0. && e.height > 0.,
+              "The excavation '" + e.name + "' is a " + name_of(e.shape) +
+                " of " + text_of(e.width) + " m by " + text_of(e.height) +
+                " m; give '" + section + "/Width' and 'Height'.");
+      require(e.shape != ExcavationShape::horseshoe ||
+                e.height >= 0.5 * e.width,
+              "The entry '" + section + "/Height' is " + text_of(e.height) +
+                " m, less than the radius of the crown, half of the width of " +
+                text_of(e.width) +
+                " m; raise it, or take a cavern with a "
+                "'Rise'.");
+      require(e.shape != ExcavationShape::cavern ||
+                (e.rise > 0. && e.rise <= 0.5 * e.width && e.rise <= e.height),
+              "The entry '" + section + "/Rise' is " + text_of(e.rise) +
+                " m; give the rise of the crown's arch, up to half of the "
+                "width and to the height.");
+      require(e.bench_levels.size() == e.bench_stages.size(),
+              "The entry '" + section + "/Bench levels' has " +
+                std::to_string(e.bench_levels.size()) +
+                " numbers and 'Bench stages' " +
+                std::to_string(e.bench_stages.size()) +
+                " names; give a stage for what is below each level.");
+      double above = e.center[1] + e.height;
+      for (const double level : e.bench_levels)
+        {
+          require(level < above && level > e.center[1],
+                  "The entry '" + section + "/Bench levels' has " +
+                    text_of(level) + " m, which is not below " +
+                    text_of(above) + " m and above the floor at " +
+                    text_of(e.center[1]) +
+                    " m; give elevations from the top down.");
+          above = level;
+        }
+    }
+
+    template <int dim>
+    void
+    surround(Domain<dim> &domain,
+             const std::vector<const Excavation<dim> *> &profiles)
+    {
+      Point<dim> low, high;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          low[d]  = 1e300;
+          high[d] = -1e300;
+        }
+      double width = 0.;
+      for (const Excavation<dim> *e : profiles)
+        {
+          width         = std::max({width, e->width, e->height});
+          low[0]        = std::min(low[0], e->center[0] - 0.5 * e->width);
+          high[0]       = std::max(high[0], e->center[0] + 0.5 * e->width);
+          low[dim - 1]  = std::min(low[dim - 1], e->center[1]);
+          high[dim - 1] = std::max(high[dim - 1], e->center[1] + e->height);
+          if (dim == 3)
+            {
+              low[1]  = std::min(low[1], e->from);
+              high[1] = std::max(high[1], e->to);
+            }
+        }
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double margin =
+            d == 0 || d == dim - 1 ? margin_of_domain * width : 0.;
+          domain.corner[d] = low[d] - margin;
+          domain.size.push_back(high[d] - low[d] + 2. * margin);
+        }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::make_profiles()
+  {
+    std::vector<const Excavation<dim> *> profiles;
+    for (const auto &e : excavations)
+      if (e->is_profile())
+        {
+          check_profile(*e);
+          profiles.push_back(e.get());
+        }
+    if (profiles.empty())
+      return;
+    if (domain.shape == DomainShape::box && domain.size.empty())
+      surround(domain, profiles);
+    std::vector<std::unique_ptr<Excavation<dim>>> expanded;
+    for (auto &e : excavations)
+      {
+        if (!e->is_profile())
+          {
+            expanded.push_back(std::move(e));
+            continue;
+          }
+        const Polygon section = section_of(*e);
+        double high           = e->center[1] + e->height;
+        for (unsigned int i = 0; i <= e->bench_levels.size(); ++i)
+          {
+            auto part = std::make_unique<Excavation<dim>>(*e);
+            const double low =
+              i < e->bench_levels.size() ? e->bench_levels[i] : e->center[1];
+            part->shape    = dim == 2 ? ExcavationShape::polygon
+                                      : ExcavationShape::extruded_polygon;
+            part->vertices = cut_out(section, low, high);
+            if (i > 0)
+              {
+                part->name += " bench " + std::to_string(i);
+                part->stage = e->bench_stages[i - 1];
+              }
+            expanded.push_back(std::move(part));
+            high = low;
+          }
+      }
+    excavations = std::move(expanded);
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::complete_ground()
+  {
+    if (ground.depth <= 0.)
+      return;
+    double density = ground.density;
+    for (const auto &material : materials)
+      if (density == 0. && !material->is_rigid())
+        density = material->density;
+    require(domain.shape == DomainShape::box && domain.size.size() == dim,
+            "The entry 'Ground/Depth' needs a domain that is a box, on which "
+            "rollers and overburden stand; set 'Domain/Shape' to box, or leave "
+            "'Ground' out.");
+    const double top = domain.corner[dim - 1] + domain.size[dim - 1];
+    require(top <= ground.depth,
+            "The domain reaches up to " + text_of(top) +
+              " m, above the surface, which the entry 'Ground/Depth' puts at " +
+              text_of(ground.depth) +
+              " m above elevation 0; lower the domain, or raise the depth.");
+    const std::string none_across = dim == 2 ? "0; " : "0; 0; ";
+    if (initial_state.gravity.empty())
+      initial_state.gravity = none_across + "-" + exact_text(standard_gravity);
+    if (initial_state.stress.empty() && !initial_state.has_depth_stress() &&
+        initial_state.measured_points.empty())
+      {
+        initial_state.surface_elevation        = ground.depth;
+        initial_state.vertical_stress_gradient = standard_gravity * density;
+        initial_state.lateral_ratios           = ground.k0;
+        initial_state.lateral_azimuth          = ground.azimuth;
+      }
+    if (supports.empty())
+      for (const bool is_bottom : {true, false})
+        {
+          auto support        = std::make_unique<Support<dim>>();
+          support->name       = is_bottom ? "ground below" : "ground beside";
+          support->directions = SupportDirections::normal;
+          support->boundaries = {"left", "right"};
+          if (dim == 3)
+            support->boundaries.insert(support->boundaries.end(),
+                                       {"front", "back"});
+          if (is_bottom)
+            support->boundaries = {"bottom"};
+          supports.push_back(std::move(support));
+        }
+    if (tractions.empty() && top < ground.depth)
+      {
+        auto overburden        = std::make_unique<Traction<dim>>();
+        overburden->name       = "overburden";
+        overburden->boundaries = {"top"};
+        overburden->expression =
+          none_across +
+          exact_text(-standard_gravity * density * (ground.depth - top));
+        tractions.push_back(std::move(overburden));
+      }
+  }
+
+  template void Scene<2>::make_profiles();
+  template void Scene<3>::make_profiles();
+  template void Scene<2>::complete_ground();
+  template void Scene<3>::complete_ground();
+} // namespace Keyblock

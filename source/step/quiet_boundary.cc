@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/step/quiet_boundary.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace Keyblock
+{
+  template <int dim>
+  Tensor<2, dim>
+  quiet_impedance(const Material<dim> &material, const Tensor<1, dim> &n)
+  {
+    const double shear = std::sqrt(material.density * material.shear_modulus());
+    const double pressure =
+      std::sqrt(material.density *
+                (material.lame_lambda() + 2. * material.shear_modulus()));
+    Tensor<2, dim> impedance = (pressure - shear) * outer_product(n, n);
+    for (unsigned int d = 0; d < dim; ++d)
+      impedance[d][d] += shear;
+    return impedance;
+  }
+
+
+
+  template <int dim>
+  QuietBoundary<dim>::QuietBoundary(const Scene<dim> &scene,
+                                    const SplitMesh<dim> &split,
+                                    const Numbering<dim> &numbering)
+    : scene(scene)
+    , split(split)
+    , numbering(numbering)
+    , is_excavated(split.mesh.n_cells(), false)
+    , acts(scene.supports.size(), false)
+    , dead_load(dim * numbering.n_owned(), 0.)
+  {
+    for (const auto &support : scene.supports)
+      waves.push_back(support->is_quiet() && !support->velocity.empty()
+                        ? std::make_unique<Expression<dim>>(
+                            support->velocity, dim, "Supports/*/Velocity")
+                        : nullptr);
+  }
+
+
+
+  template <int dim>
+  bool
+  QuietBoundary<dim>::is_wanted(const Scene<dim> &scene)
+  {
+    return std::any_of(scene.supports.begin(),
+                       scene.supports.end(),
+                       [](const auto &s) { return s->is_quiet(); });
+  }
+
+
+
+  template <int dim>
+  bool
+  QuietBoundary<dim>::release(const unsigned int number,
+                              const std::vector<double> &reaction)
+  {
+    std::vector<bool> is_new(acts.size(), false);
+    for (unsigned int s = 0; s < acts.size(); ++s)
+      if (scene.supports[s]->is_quiet() && !acts[s] &&
+          scene.stage_number(scene.supports[s]->stage) <= number)
+        acts[s] = is_new[s] = true;
+    if (std::find(is_new.begin(), is_new.end(), true) == is_new.end())
+      return false;
+    find_dashpots();
+    std::vector<bool> is_let_go(numbering.n_owned(), false);
+    for (const Dashpot &dashpot : dashpots)
+      if (is_new[dashpot.support])
+        is_let_go[dashpot.node] = true;
+    for (unsigned int node = 0; node < is_let_go.size(); ++node)
+      if (is_let_go[node])
+        for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+          dead_load[i] += reaction[i];
+    return true;
+  }
+
+
+
+  template <int dim>
+  void
+  QuietBoundary<dim>::take_ground(const Ground<dim> &ground)
+  {
+    for (unsigned int c = 0; c < is_excavated.size(); ++c)
+      is_excavated[c] = ground.is_excavated(c);
+    find_dashpots();
+  }
+
+
+
+  template <int dim>
+  void
+  QuietBoundary<dim>::find_dashpots()
+  {
+    const Mesh<dim> &mesh = split.mesh;
+    std::map<std::array<unsigned int, 2>, Tensor<2, dim>> found;
+    for (unsigned int s = 0; s < acts.size(); ++s)
+      if (acts[s])
+        for (const std::string &name : scene.supports[s]->boundaries)
+          for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+            for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+              if (mesh.is_on(c, f, name) && !is_excavated[c] &&
+                  !scene.materials[mesh.material[c]]->is_rigid())
+                {
+                  const Tensor<1, dim> area = mesh.face_area_vector(c, f);
+                  const Tensor<2, dim> impedance =
+                    area.norm() / Mesh<dim>::n_face_vertices *
+                    quiet_impedance(*scene.materials[mesh.material[c]],
+                                    area / area.norm());
+                  for (const unsigned int v : mesh.face_vertices(c, f))
+                    split.for_each_carrier(
+                      v, [&](const unsigned int carrier, const double weight) {
+                        if (numbering.is_owned(carrier))
+                          found[{{numbering.local_node(carrier), s}}] +=
+                            weight * impedance;
+                      });
+                }
+    dashpots.clear();
+    at_nodes.clear();
+    for (const auto &[place, impedance] : found)
+      {
+        dashpots.push_back({place[0], place[1], impedance});
+        if (at_nodes.empty() || at_nodes.back().node != place[0])
+          at_nodes.push_back({place[0], {}, {}});
+        at_nodes.back().impedance += impedance;
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  QuietBoundary<dim>::nodes() const
+  {
+    std::vector<unsigned int> list;
+    for (const Node &entry : at_nodes)
+      list.push_back(entry.node);
+    return list;
+  }
+
+
+
+  template <int dim>
+  bool
+  QuietBoundary<dim>::is_viscous() const
+  {
+    return std::find(acts.begin(), acts.end(), true) != acts.end();
+  }
+
+
+
+  template <int dim>
+  void
+  QuietBoundary<dim>::add_damping_force(const MotionOfStep<dim> &motion,
+                                        std::vector<double> &force)
+  {
+    const Fields<dim> &fields = motion.fields;
+    for (Node &entry : at_nodes)
+      {
+        const unsigned int first = dim * entry.node;
+        const double half        = 0.5 * motion.kick;
+        const double factor      = half * fields.inverse_mass[entry.node];
+        Tensor<1, dim> middle; // the velocity then, without the dashpots
+        for (unsigned int d = 0; d < dim; ++d)
+          middle[d] =
+            fields.velocity[first + d] * (1. - half * motion.mass_damping) +
+            factor * (fields.load[first + d] -
+                      fields.internal_force[first + d] - force[first + d]);
+        Tensor<2, dim> slowed = factor * entry.impedance;
+        for (unsigned int d = 0; d < dim; ++d)
+          slowed[d][d] += 1.;
+        entry.force = invert(slowed) * (entry.impedance * middle);
+        for (unsigned int d = 0; d < dim; ++d)
+          force[first + d] += entry.force[d];
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  QuietBoundary<dim>::damping_work(const Fields<dim> &fields,
+                                   const double kick) const
+  {
+    double work = 0.;
+    for (const Node &entry : at_nodes)
+      for (unsigned int d = 0; d < dim; ++d)
+        work += 0.5 * kick * entry.force[d] *
+                (fields.old_velocity[dim * entry.node + d] +
+                 fields.velocity[dim * entry.node + d]);
+    return work;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  QuietBoundary<dim>::incoming_velocity(const unsigned int support,
+                                        const Point<dim> &place,
+                                        const double time) const
+  {
+    if (waves[support])
+      return waves[support]->vector(place, time);
+    Tensor<1, dim> velocity;
+    if (const auto &history = scene.supports[support]->history)
+      for (unsigned int d = 0; d < dim; ++d)
+        velocity[d] = history->value(time, d);
+    return velocity;
+  }
+
+
+
+  template <int dim>
+  bool
+  QuietBoundary<dim>::is_load_changing() const
+  {
+    for (unsigned int s = 0; s < acts.size(); ++s)
+      if (acts[s] && (waves[s] || scene.supports[s]->history))
+        return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  void
+  QuietBoundary<dim>::add_load(const double time,
+                               std::vector<double> &load) const
+  {
+    for (unsigned int i = 0; i < dead_load.size(); ++i)
+      load[i] += dead_load[i];
+    for (const Dashpot &dashpot : dashpots)
+      if (waves[dashpot.support] || scene.supports[dashpot.support]->history)
+        {
+          const Point<dim> &place =
+            split.mesh.vertices[numbering.vertex_of_node[dashpot.node]];
+          const Tensor<1, dim> force =
+            2. * dashpot.impedance *
+            incoming_velocity(dashpot.support, place, time);
+          for (unsigned int d = 0; d < dim; ++d)
+            load[dim * dashpot.node + d] += force[d];
+        }
+  }
+
+
+
+  template <int dim>
+  ForceElementState
+  QuietBoundary<dim>::remember() const
+  {
+    return {name(), std::vector<double>(acts.begin(), acts.end()), dead_load};
+  }
+
+
+
+  template <int dim>
+  void
+  QuietBoundary<dim>::recall(const ForceElementState &state)
+  {
+    for (unsigned int s = 0; s < acts.size(); ++s)
+      acts[s] = state.numbers.at(s) != 0.;
+    dead_load = state.nodal;
+    find_dashpots();
+  }
+
+
+
+  template Tensor<2, 2> quiet_impedance(const Material<2> &,
+                                        const Tensor<1, 2> &);
+  template Tensor<2, 3> quiet_impedance(const Material<3> &,
+                                        const Tensor<1, 3> &);
+  template class QuietBoundary<2>;
+  template class QuietBoundary<3>;
+} // namespace Keyblock

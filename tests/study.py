@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A study's probability, its independence of ranks, and that it goes on.
+
+usage: study.py KEYBLOCK SCENE FOLDER
+"""
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+
+# of a normal friction angle, 30 +- 2 degrees, below 28 degrees
+PROBABILITY = 0.15865525393145707
+SEEDS, LEAST_HITS = 20, 17
+
+
+def study(keyblock, scene, folder, *more, ranks=1):
+    """Run a study; the text of its table, and its results."""
+    command = [keyblock, scene, "--study", "--output", str(folder)]
+    for entry in more:
+        command += ["--set", entry]
+    if ranks > 1:
+        command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n",
+                   str(ranks), *command]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    table = (folder / "samples.csv").read_text(encoding="utf-8")
+    return table, json.loads((folder / "study.json").read_text(encoding="utf-8"))
+
+
+def main():
+    """Exit with 1 and a sentence for what is wrong."""
+    keyblock, scene, folder = sys.argv[1:]
+    folder = pathlib.Path(folder)
+    shutil.rmtree(folder, ignore_errors=True)
+    table, results = study(keyblock, scene, folder / "one")
+    p = results["probability"]
+    faults = []
+    # a Latin hypercube has the share to one sample
+    if abs(p["value"] - PROBABILITY) > 1.001e-3:
+        faults.append(f"probability {p['value']}")
+    if results["resumed_samples"] != 0 or len(table.splitlines()) != 1002:
+        faults.append("not 1000 new samples")
+    if results["seconds"] > 2:
+        faults.append(f"1000 samples took {results['seconds']} s")
+    if study(keyblock, scene, folder / "two", ranks=2)[0] != table:
+        faults.append("2 ranks have other samples")
+
+    # killed within a row
+    cut = table[:len(table) // 3]
+    (folder / "one" / "samples.csv").write_text(cut, encoding="utf-8")
+    again, results = study(keyblock, scene, folder / "one")
+    if again != table:
+        faults.append("a study that goes on has other samples")
+    if results["resumed_samples"] != len(cut.splitlines()) - 3:
+        faults.append(f"{results['resumed_samples']} samples taken over")
+    # another scene does not go on from it
+    if study(keyblock, scene, folder / "one",
+             "Study/Seed=2")[1]["resumed_samples"] != 0:
+        faults.append("samples of another seed taken over")
+
+    hits = 0
+    for seed in range(1, SEEDS + 1):
+        p = study(keyblock, scene, folder / "seeds", f"Study/Seed={seed}",
+                  "Study/Sampling=random")[1]["probability"]
+        hits += p["lower"] <= PROBABILITY <= p["upper"]
+    if hits < LEAST_HITS:
+        faults.append(f"the band has the probability for {hits} of {SEEDS} seeds")
+    # a new mesh and strengths by entries of other sections give the same
+    drawn = study(keyblock, scene, folder / "mesh",
+                  "Study/Names=friction, density", "Study/Samples=20",
+                  "Study/density/Entry=Materials/rock/Density",
+                  "Study/density/Distribution=uniform",
+                  "Study/density/Minimum=1000", "Study/density/Maximum=3000")[0]
+    for row in drawn.splitlines()[2:]:
+        values = row.split(",")
+        factor = (math.tan(math.radians(float(values[1])))
+                  / math.tan(math.radians(28)))
+        if abs(float(values[3]) / factor - 1) > 1e-6:
+            faults.append(f"row '{row}' is not tan(phi) / tan(28)")
+            break
+    if faults:
+        sys.exit("; ".join(faults))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/errors.h>
+#include <keyblock/base/time_series.h>
+
+#include "world.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <fstream>
+
+using namespace Keyblock;
+
+namespace
+{
+  std::string
+  write(const std::string &text)
+  {
+    const std::string file =
+      "time_series_" + std::to_string(world.size()) + ".csv";
+    MPI_Barrier(world);
+    if (world.is_root())
+      std::ofstream(file) << text;
+    MPI_Barrier(world);
+    return file;
+  }
+
+  /** The sentence with which a file is refused. */
+  std::string
+  refusal(const std::string &text, const unsigned int n_components = 1)
+  {
+    try
+      {
+        TimeSeries::read(write(text),
+                         "Supports/base/History file",
+                         n_components);
+      }
+    catch (const InputError &error)
+      {
+        return error.message;
+      }
+    return "";
+  }
+} // namespace
+
+BOOST_AUTO_TEST_CASE(time_series_between_rows)
+{
+  const TimeSeries series =
+    TimeSeries::read(write("t, v_x, v_y\n# a comment\n1, 0, 4\n1.5, 2, 2\n"
+                           "2, -2, 0\n"),
+                     "Supports/base/History file",
+                     2);
+  BOOST_TEST(series.start_time() == 1.);
+  BOOST_TEST(series.end_time() == 2.);
+  BOOST_TEST(series.value(1.25, 0) == 1.);
+  BOOST_TEST(series.value(1.75, 0) == 0.);
+  BOOST_TEST(series.value(1.75, 1) == 1.);
+  BOOST_TEST(series.value(2., 0) == -2.);
+  BOOST_TEST(series.value(0.99, 1) == 0.);
+  BOOST_TEST(series.value(2.01, 0) == 0.);
+  BOOST_TEST(series.largest_magnitude() == 4.);
+  BOOST_TEST(series.integral().last(1) == 2.);
+}
+
+BOOST_AUTO_TEST_CASE(time_series_frequency)
+{
+  std::vector<double> v;
+  for (unsigned int i = 0; i < 1000; ++i)
+    v.push_back(std::sin(2. * 3.14159265358979 * 7. * 0.002 * i));
+  const TimeSeries sine(0., 0.002, {v});
+  BOOST_TEST(std::abs(sine.frequency_below(0.5) - 7.) < 0.5);
+  BOOST_TEST(sine.frequency_below(0.99) < 12.);
+}
+
+BOOST_AUTO_TEST_CASE(time_series_refusals)
+{
+  BOOST_TEST(refusal("t, v\n0, 1\n1, 2\n").empty());
+  BOOST_TEST(refusal("t, v\n0, 1\n1, 2\n1.5, 3\n").find("even times") !=
+             std::string::npos);
+  BOOST_TEST(refusal("t, v\n0, 1\n1, 2\n0.5, 3\n").find("Line 4") !=
+             std::string::npos);
+  BOOST_TEST(refusal("t, v\n0, 1\n1, fast\n").find("'fast' in column 2") !=
+             std::string::npos);
+  BOOST_TEST(refusal("t, v\n0, 1\n").find("1 rows") != std::string::npos);
+  BOOST_TEST(refusal("t, v\n0, 1\n1, 2\n", 2).find("it needs 3") !=
+             std::string::npos);
+}
