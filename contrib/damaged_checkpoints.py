@@ -36,8 +36,8 @@ RAW = re.compile(r"what\(\)|std::|terminate called|ExceptionBase|MPI_ABORT|"
                  r"Segmentation|core dumped|dealii|Process received signal")
 
 # of summary.json: what is measured on the clock or of the machine
-# besides times: the digest is that of all entries, the checkpoint interval included
-TIMINGS = {"digest", "wall_time", "loop_time", "contact_time", "force_time", "seconds",
+# besides times: the digest is that of all entries, overrides among them, the checkpoint interval included
+TIMINGS = {"digest", "overrides", "wall_time", "loop_time", "contact_time", "force_time", "seconds",
            "phase_1_seconds", "million_element_steps_per_second",
            "peak_memory_bytes", "ranks"}
 

@@ -43,8 +43,8 @@ parser.add_argument("--set", action="append", default=[])
 options = parser.parse_args()
 random.seed(1)
 
-# besides times: the digest is that of all entries, the checkpoint interval included
-TIMINGS = {"digest", "wall_time", "loop_time", "contact_time", "force_time", "seconds",
+# besides times: the digest is that of all entries, overrides among them, the checkpoint interval included
+TIMINGS = {"digest", "overrides", "wall_time", "loop_time", "contact_time", "force_time", "seconds",
            "phase_1_seconds", "million_element_steps_per_second",
            "peak_memory_bytes", "ranks"}
 

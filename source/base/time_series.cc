@@ -94,17 +94,22 @@ namespace Keyblock
         for (unsigned int c = 0; c < n_components; ++c)
           values[c].push_back(number_at(table, row, c + 1));
       }
+    const auto place = [&](const unsigned int i) {
+      return "Line " + std::to_string(table.rows[i].line) +
+             " of the history '" + file_name + "' has the time " +
+             text_of(time[i]) + " s";
+    };
+    for (unsigned int i = 1; i < time.size(); ++i)
+      AssertThrow(time[i] > time[i - 1],
+                  InputError(place(i) + " after " + text_of(time[i - 1]) +
+                             " s; give times that grow evenly."));
     const double interval = (time.back() - time.front()) / (time.size() - 1);
     for (unsigned int i = 1; i < time.size(); ++i)
-      AssertThrow(time[i] > time[i - 1] &&
-                    std::abs(time[i] - time[0] - i * interval) <=
-                      largest_unevenness * interval,
-                  InputError("Line " + std::to_string(table.rows[i].line) +
-                             " of the history '" + file_name +
-                             "' has the time " + text_of(time[i]) +
-                             " s after " + text_of(time[i - 1]) +
-                             " s, where the others are " + text_of(interval) +
-                             " s apart; give even times."));
+      AssertThrow(std::abs(time[i] - time[0] - i * interval) <=
+                    largest_unevenness * interval,
+                  InputError(place(i) + ", where rows are " +
+                             text_of(interval) +
+                             " s apart in the mean; give even times."));
     return TimeSeries(time.front(), interval, std::move(values));
   }
 

@@ -58,7 +58,34 @@ namespace Keyblock
     const BlockClass now =
       b.class_of_stage[std::min<std::size_t>(record.present.number(),
                                              b.class_of_stage.size() - 1)];
-    return now == BlockClass::exposed || now == BlockClass::hidden;
+    return now == BlockClass::exposed ||
+           (now == BlockClass::hidden &&
+            !model.scene.safety.wants_exposed_only());
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  SafetyStudy<dim>::select_critical(
+    const std::vector<unsigned int> &blocks) const
+  {
+    if (!model.scene.safety.wants_critical_only() || blocks.empty())
+      return blocks;
+    std::vector<bool> is_removed;
+    for (const unsigned int stage : record.present.removal_stage)
+      is_removed.push_back(stage > 0 && stage < record.present.number());
+    const Ground<dim> ground{model.scene,
+                             model.split,
+                             record.present.number(),
+                             &is_removed};
+    const FreeFaces<dim> free(ground);
+    std::vector<unsigned int> critical;
+    for (const unsigned int b : blocks)
+      if (judge_block(ground, free, model.blocks, b, model.step->time)
+            .limit.factor < model.scene.safety.critical_factor)
+        critical.push_back(b);
+    return critical;
   }
 
 
@@ -83,7 +110,7 @@ namespace Keyblock
              record.present.removal_stage[b] >= record.present.number()))
           wanted.push_back(b);
       }
-    return wanted;
+    return select_critical(wanted);
   }
 
 

@@ -2,10 +2,10 @@
 #include <keyblock/run/stage_recorder.h>
 #include <keyblock/run/stage_reporter.h>
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <sstream>
 
 namespace Keyblock
 {
@@ -48,9 +48,7 @@ namespace Keyblock
   void
   StageRecorder<dim>::stepped(StageProgress<dim> &progress, const Stage &stage)
   {
-    if (writes_vtu() && !stage.is_quasi_static() &&
-        progress.n_done >= double(progress.n_vtu + 1) * progress.n_planned /
-                             model.scene.output.vtu_count)
+    if (is_vtu_due(progress, stage))
       write_vtu(progress);
     print_progress(progress);
   }
@@ -71,6 +69,9 @@ namespace Keyblock
   void
   StageRecorder<dim>::ended(StageProgress<dim> &progress, const Stage &stage)
   {
+    // what follows does not stand behind the line of progress
+    if (const unsigned int width = terminal_width(); width > 0)
+      model.out << '\r' << std::string(width - 1, ' ') << '\r' << std::flush;
     if (stage.is_static())
       {
         sampled(progress);
@@ -81,6 +82,25 @@ namespace Keyblock
     if (writes_vtu() && stage.is_quasi_static())
       write_vtu(progress);
     book_time();
+  }
+
+
+
+  template <int dim>
+  bool
+  StageRecorder<dim>::is_vtu_due(const StageProgress<dim> &progress,
+                                 const Stage &stage) const
+  {
+    const double share =
+      (progress.n_vtu + 1.) / std::max(1u, model.scene.output.vtu_count);
+    if (!writes_vtu())
+      return false;
+    if (!stage.is_quasi_static())
+      return progress.n_done >= share * progress.n_planned;
+    // the last one is that of its end
+    const Loads<dim> &loads = model.conditions->loads;
+    return loads.is_ramping() && share < 1. &&
+           1. - loads.ramp_share_left() >= share;
   }
 
 
@@ -131,34 +151,70 @@ namespace Keyblock
 
 
   template <int dim>
+  StageAdvance
+  StageRecorder<dim>::advance_of(const StageProgress<dim> &progress) const
+  {
+    const Stage &stage = *model.scene.stages[progress.index];
+    StageAdvance now;
+    now.time          = MPI_Wtime();
+    now.steps         = progress.n_done;
+    now.largest_steps = progress.n_planned;
+    now.ratio         = model.step->unbalanced_ratio;
+    now.target        = stage.duration > 0. ? 0. : stage.unbalanced_ratio;
+    now.planned       = now.target > 0. ? 0. : progress.n_planned;
+    now.ramp_left     = model.conditions->loads.ramp_share_left();
+    return now;
+  }
+
+
+
+  template <int dim>
   void
   StageRecorder<dim>::print_progress(const StageProgress<dim> &progress)
   {
-    const double fraction = double(progress.n_done) / progress.n_planned;
-    const double time     = MPI_Wtime();
-    const bool is_live    = isatty(STDOUT_FILENO);
-    const double interval = is_live ? 0.5 : 30.;
-    if (last_printed == 0.)
-      last_printed = time;
+    const unsigned int width = terminal_width();
+    const double interval    = width > 0 ? 0.5 : 30.;
+    if (stage_printed != progress.index)
+      {
+        last_printed  = advance_of(progress);
+        stage_printed = progress.index;
+      }
     // all ranks must agree on taking part in the sums
     if (model.step->n_steps % 50 != 0 ||
-        !model.communicator.on_any(time - last_printed > interval))
+        !model.communicator.on_any(MPI_Wtime() - last_printed.time > interval))
       return;
-    last_printed = time;
+    const StageAdvance now = advance_of(progress);
     JointSums<dim> points;
     if (model.contact)
       points = model.contact->report().count_points();
-    const double elapsed = time - record.wall_start;
-    model.out << (is_live ? "\r" : "")
-              << model.scene.stages[progress.index]->name << "  step "
-              << model.step->n_steps << "  t = " << std::setprecision(4)
-              << model.step->time << " s  "
-              << 1e-6 * model.n_cells_global * model.step->n_steps / elapsed
-              << " M element-steps/s  kinetic " << model.step->energies.kinetic
-              << " J  open/sliding/bonded " << points.n_open << "/"
-              << points.n_sliding << "/" << points.n_sticking << "  left "
-              << std::lround(elapsed / fraction * (1. - fraction)) << " s"
-              << (is_live ? "   " : "\n") << std::flush;
+    std::ostringstream line;
+    line << std::setprecision(3) << "Stage " << progress.index + 1 << " of "
+         << model.scene.stages.size() << " ("
+         << model.scene.stages[progress.index]->name << ")  step "
+         << progress.n_done;
+    if (now.planned > 0.)
+      line << " of " << progress.n_planned;
+    else if (now.ramp_left > 0.)
+      line << "  ramp " << std::lround(100. * (1. - now.ramp_left)) << " %";
+    if (now.target > 0.)
+      line << "  unbalanced " << now.ratio << " of " << now.target;
+    line << "  open/sliding/sticking " << points.n_open << "/"
+         << points.n_sliding << "/" << points.n_sticking;
+    if (points.n_intact > 0)
+      line << ", bonded " << points.n_intact;
+    const double left = time_left(last_printed, now);
+    if (left >= 0.)
+      line << "  left " << duration_text(left);
+    line << "  "
+         << 1e-6 * model.n_cells_global * (now.steps - last_printed.steps) /
+              (now.time - last_printed.time)
+         << " M element-steps/s";
+    std::string text = line.str();
+    if (width > 0)
+      text.resize(width - 1, ' ');
+    model.out << (width > 0 ? "\r" : "") << text << (width > 0 ? "" : "\n")
+              << std::flush;
+    last_printed = now;
   }
 
   template class StageRecorder<2>;

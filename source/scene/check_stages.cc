@@ -233,14 +233,16 @@ namespace Keyblock
   check_safety(const Scene<dim> &scene)
   {
     const SafetySettings &safety = scene.safety;
-    if (safety.blocks != "none" && safety.blocks != "all")
+    if (safety.blocks != "none" && safety.blocks != "all" &&
+        !safety.wants_exposed_only())
       for (const std::string &word :
            dealii::Utilities::split_string_list(safety.blocks))
         require(!word.empty() &&
                   word.find_first_not_of("0123456789") == std::string::npos &&
                   word.find_first_not_of('0') != std::string::npos,
                 "The entry 'Safety factor/Blocks' contains '" + word +
-                  "'; give none, all, or numbers of the block table.");
+                  "'; give none, all, exposed, critical, or numbers of the "
+                  "block table.");
     for (const std::string &name : safety.stages)
       require(scene.stage_number(name) < scene.stages.size() + 2,
               "The entry 'Safety factor/Stages' names '" + name +

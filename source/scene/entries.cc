@@ -689,11 +689,19 @@ namespace Keyblock
   void
   SafetySettings::declare(ParameterHandler &prm)
   {
-    prm.add_parameter("Blocks",
-                      blocks,
-                      "Blocks whose safety factor is looked for at the end of "
-                      "stages: none, all (finite ones that are not attached), "
-                      "or their numbers in the block table.");
+    prm.add_parameter(
+      "Blocks",
+      blocks,
+      "Blocks whose safety factor is looked for at the end of "
+      "stages: none; all (finite ones that are not attached); "
+      "exposed (those with a free face); critical (those of "
+      "them whose factor by limit equilibrium is below Critical "
+      "factor); or their numbers in the block table.");
+    prm.add_parameter("Critical factor",
+                      critical_factor,
+                      "Factor by limit equilibrium below which a block is "
+                      "critical [-].",
+                      positive);
     prm.add_parameter("Stages",
                       stages,
                       "Names of the stages at whose end safety factors are "
@@ -907,7 +915,9 @@ namespace Keyblock
                       Integer(1));
     prm.add_parameter("VTU count",
                       vtu_count,
-                      "Number of VTU outputs per stage, besides the first.",
+                      "Number of VTU outputs per stage, besides the first: at "
+                      "even times, or in quasi-static stages at even shares "
+                      "of the ramp and at the end.",
                       Integer(0));
     prm.add_parameter("Write VTU", write_vtu, "Whether to write VTU at all.");
     prm.add_parameter("Checkpoint interval",

@@ -175,8 +175,10 @@ namespace Keyblock
   bool
   SafetySettings::wants_block(const unsigned int id) const
   {
-    if (blocks == "none" || blocks == "all")
-      return blocks == "all";
+    if (blocks == "none")
+      return false;
+    if (blocks == "all" || wants_exposed_only())
+      return true;
     for (const std::string &word : dealii::Utilities::split_string_list(blocks))
       if (word == std::to_string(id))
         return true;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What the step measures: every energy, and the unbalanced force.
-#include <keyblock/step/step.h>
+#include <keyblock/step/energy_ledger.h>
 
 #include <algorithm>
 #include <cmath>
@@ -96,32 +95,72 @@ namespace Keyblock
 
 
   template <int dim>
+  EnergyLedger<dim>::EnergyLedger(const Numbering<dim> &numbering,
+                                  const Conditions<dim> &conditions,
+                                  const CellArrays<dim> &cells,
+                                  const Fields<dim> &fields,
+                                  const Contact<dim> *contact)
+    : numbering(numbering)
+    , conditions(conditions)
+    , cells(cells)
+    , fields(fields)
+    , contact(contact)
+  {}
+
+
+
+  template <int dim>
   void
-  ExplicitStep<dim>::book_work(const NodeRun &run)
+  EnergyLedger<dim>::begin_stage(LedgerState &state) const
   {
-    const double half_kick   = 0.5 * kick;
-    const unsigned int begin = dim * run.begin, end = dim * run.end;
-    sums.external += half_kick * work_of<dim>(fields.load, fields, begin, end);
-    if (has_damping_force())
-      sums.stiffness_damping +=
-        half_kick * work_of<dim>(fields.damping_force, fields, begin, end);
-    if (stage.local_damping > 0.)
-      sums.local_damping -=
-        0.5 * work_of<dim>(fields.local_damping, fields, begin, end);
-    if (stage.mass_damping > 0.)
-      for (unsigned int i = begin; i < end; ++i)
-        sums.mass_damping += half_kick * stage.mass_damping *
-                             fields.mass[i / dim] * fields.old_velocity[i] *
-                             (fields.old_velocity[i] + fields.velocity[i]);
+    state.sums = Energies();
+    if (contact)
+      state.contact_work_at_start = contact->tally.work;
+  }
+
+
+
+  template <int dim>
+  double
+  EnergyLedger<dim>::energy_of_cells(const double *positions) const
+  {
+    return elastic_energy<dim>(cells, positions);
   }
 
 
 
   template <int dim>
   void
-  ExplicitStep<dim>::book_supports()
+  EnergyLedger<dim>::book_work(const NodeRun &run,
+                               const LedgerStep &step,
+                               LedgerState &state) const
   {
-    const bool has_viscous = has_damping_force();
+    const double half_kick   = 0.5 * step.kick;
+    const unsigned int begin = dim * run.begin, end = dim * run.end;
+    state.sums.external +=
+      half_kick * work_of<dim>(fields.load, fields, begin, end);
+    if (step.has_damping_force)
+      state.sums.stiffness_damping +=
+        half_kick * work_of<dim>(fields.damping_force, fields, begin, end);
+    if (step.stage.local_damping > 0.)
+      state.sums.local_damping -=
+        0.5 * work_of<dim>(fields.local_damping, fields, begin, end);
+    if (step.stage.mass_damping > 0.)
+      for (unsigned int i = begin; i < end; ++i)
+        state.sums.mass_damping +=
+          half_kick * step.stage.mass_damping * fields.mass[i / dim] *
+          fields.old_velocity[i] *
+          (fields.old_velocity[i] + fields.velocity[i]);
+  }
+
+
+
+  template <int dim>
+  void
+  EnergyLedger<dim>::book_supports(const LedgerStep &step,
+                                   LedgerState &state) const
+  {
+    const bool has_viscous = step.has_damping_force;
     // the force that a support must have given: what the others left missing
     for (const NodeSupport<dim> &support : fields.supports)
       if (support.motion >= 0 && support.node < numbering.n_owned())
@@ -134,8 +173,9 @@ namespace Keyblock
                            fields.contact_force[i];
             if (has_viscous)
               given -= fields.damping_force[i];
-            sums.supports += 0.5 * (change - kick * given) *
-                             (fields.old_velocity[i] + fields.velocity[i]);
+            state.sums.supports +=
+              0.5 * (change - step.kick * given) *
+              (fields.old_velocity[i] + fields.velocity[i]);
           }
   }
 
@@ -143,21 +183,22 @@ namespace Keyblock
 
   template <int dim>
   void
-  ExplicitStep<dim>::book_radiation()
+  EnergyLedger<dim>::book_radiation(const LedgerStep &step,
+                                    LedgerState &state) const
   {
-    const double work = conditions.radiated_work(kick);
-    sums.radiation += work;
+    const double work = conditions.radiated_work(step.kick);
+    state.sums.radiation += work;
     // the damping force of the ledger has it, too
-    sums.stiffness_damping -= work;
+    state.sums.stiffness_damping -= work;
   }
 
 
 
   template <int dim>
   double
-  ExplicitStep<dim>::stored_energy() const
+  EnergyLedger<dim>::stored_energy(const double *positions) const
   {
-    double stored = elastic_energy<dim>(cells, positions());
+    double stored = elastic_energy<dim>(cells, positions);
     for (const auto &element : conditions.elements)
       stored += element->stored_energy(fields.displacement);
     return stored;
@@ -167,7 +208,7 @@ namespace Keyblock
 
   template <int dim>
   double
-  ExplicitStep<dim>::plastic_work() const
+  EnergyLedger<dim>::plastic_work() const
   {
     double work = cells.plastic_work;
     for (const auto &element : conditions.elements)
@@ -178,8 +219,19 @@ namespace Keyblock
 
 
   template <int dim>
-  void
-  ExplicitStep<dim>::sample_energies()
+  Energies
+  EnergyLedger<dim>::sum_over_ranks(const Energies &mine) const
+  {
+    std::array<double, n_energy_terms> values = mine.as_array();
+    numbering.communicator.sum_lists(values);
+    return Energies::from_array(values);
+  }
+
+
+
+  template <int dim>
+  Energies
+  EnergyLedger<dim>::sample(const LedgerStep &step, LedgerState &state) const
   {
     double kinetic = 0., kinetic_before = 0., internal = 0., before = 0.;
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
@@ -191,111 +243,48 @@ namespace Keyblock
           internal += fields.internal_force[i] * v;
           before += fields.internal_force[i] * (v + w);
         }
-    Energies mine = sums;
+    Energies mine = state.sums;
     // discrete energy of the leapfrog between n and n + 1 (theory, eq. 14)
-    mine.elastic = stored_energy() + 0.5 * dt * internal;
+    mine.elastic = stored_energy(step.positions) + 0.5 * step.dt * internal;
     mine.kinetic = kinetic;
-    if (is_first)
-      plastic_work_at_start = plastic_work();
-    mine.plastic   = plastic_work() - plastic_work_at_start;
-    mine.excavated = excavated_energy;
-    if (is_first)
-      sums.start = kinetic_before + mine.elastic - 0.5 * kick * before;
-    mine.start = sums.start;
+    if (step.is_first)
+      state.plastic_work_at_start = plastic_work();
+    mine.plastic   = plastic_work() - state.plastic_work_at_start;
+    mine.excavated = state.excavated_energy;
+    if (step.is_first)
+      state.sums.start =
+        kinetic_before + mine.elastic - 0.5 * step.kick * before;
+    mine.start = state.sums.start;
     if (contact)
       {
         mine.friction =
-          contact->tally.work.friction - contact_work_at_start.friction;
+          contact->tally.work.friction - state.contact_work_at_start.friction;
         mine.contact_closure =
-          contact->tally.work.closure - contact_work_at_start.closure;
-        mine.penetration =
-          contact->tally.work.penetration - contact_work_at_start.penetration;
+          contact->tally.work.closure - state.contact_work_at_start.closure;
+        mine.penetration = contact->tally.work.penetration -
+                           state.contact_work_at_start.penetration;
         mine.dilation =
-          contact->tally.work.dilation - contact_work_at_start.dilation;
+          contact->tally.work.dilation - state.contact_work_at_start.dilation;
       }
-    std::array<double, n_energy_terms> values = mine.as_array();
-    numbering.communicator.sum_lists(values);
-    energies = Energies::from_array(values);
+    return sum_over_ranks(mine);
   }
 
 
 
   template <int dim>
-  void
-  ExplicitStep<dim>::sample_start()
+  Energies
+  EnergyLedger<dim>::sample_start(const double *positions) const
   {
     Energies mine;
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
         mine.kinetic +=
           0.5 * fields.mass[node] * fields.velocity[i] * fields.velocity[i];
-    mine.elastic                              = stored_energy();
-    mine.start                                = mine.kinetic + mine.elastic;
-    std::array<double, n_energy_terms> values = mine.as_array();
-    numbering.communicator.sum_lists(values);
-    energies = Energies::from_array(values);
+    mine.elastic = stored_energy(positions);
+    mine.start   = mine.kinetic + mine.elastic;
+    return sum_over_ranks(mine);
   }
 
-
-
-  template <int dim>
-  void
-  ExplicitStep<dim>::sample_unbalanced_force()
-  {
-    double unbalanced = 0., largest = 0., n_free = 0.;
-    double loads = 0., reactions = 0., internal = 0.;
-    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
-      {
-        std::array<double, dim> force;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const unsigned int i = dim * node + d;
-            force[d]             = fields.load[i] - fields.internal_force[i] +
-                       fields.contact_force[i];
-            internal += std::abs(fields.internal_force[i]);
-            if (fields.inverse_mass[node] > 0.)
-              loads += std::abs(fields.load[i]);
-          }
-        const int s = fields.support_of_node[node];
-        if (s >= 0)
-          for (unsigned int k = 0; k < fields.supports[s].n_directions; ++k)
-            {
-              const auto &direction = fields.supports[s].directions[k];
-              const double held     = dot<dim>(direction, force);
-              reactions += std::abs(held);
-              for (unsigned int d = 0; d < dim; ++d)
-                force[d] -= held * direction[d];
-            }
-        if (fields.inverse_mass[node] == 0.)
-          continue;
-        ++n_free;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            unbalanced += std::abs(force[d]);
-            largest = std::max(largest, std::abs(force[d]));
-          }
-      }
-    std::array<double, 5> sums = {
-      {unbalanced, n_free, loads, reactions, internal}};
-    numbering.communicator.sum_lists(sums);
-    largest      = numbering.communicator.max(largest);
-    double scale = out_of_balance_sum;
-    if (scale == 0.)
-      scale = sums[2] > 0. ? sums[2] : sums[3] > 0. ? sums[3] : sums[4];
-    unbalanced_ratio    = scale > 0. ? sums[0] / scale : 0.;
-    largest_nodal_ratio = scale > 0. ? largest * sums[1] / scale : 0.;
-  }
-
-  template void ExplicitStep<2>::book_work(const NodeRun &);
-  template void ExplicitStep<3>::book_work(const NodeRun &);
-  template void ExplicitStep<2>::book_supports();
-  template void ExplicitStep<3>::book_supports();
-  template void ExplicitStep<2>::book_radiation();
-  template void ExplicitStep<3>::book_radiation();
-  template void ExplicitStep<2>::sample_energies();
-  template void ExplicitStep<3>::sample_energies();
-  template void ExplicitStep<2>::sample_start();
-  template void ExplicitStep<3>::sample_start();
-  template void ExplicitStep<2>::sample_unbalanced_force();
-  template void ExplicitStep<3>::sample_unbalanced_force();
+  template class EnergyLedger<2>;
+  template class EnergyLedger<3>;
 } // namespace Keyblock

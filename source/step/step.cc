@@ -9,21 +9,6 @@
 
 namespace Keyblock
 {
-  namespace
-  {
-    double
-    sum_of_sizes(const Communicator &communicator,
-                 const std::vector<double> &forces)
-    {
-      double sum = 0.;
-      for (const double force : forces)
-        sum += std::abs(force);
-      return communicator.sum(sum);
-    }
-  } // namespace
-
-
-
   template <int dim>
   ExplicitStep<dim>::ExplicitStep(const Scene<dim> &scene,
                                   const SplitMesh<dim> &split,
@@ -44,6 +29,7 @@ namespace Keyblock
     , contact(contact)
     , resting(split, numbering, cells, fields, conditions.elements)
     , deformation_damping(split, blocks, numbering, cells, fields)
+    , ledger(numbering, conditions, cells, fields, contact)
   {}
 
 
@@ -54,9 +40,7 @@ namespace Keyblock
                                  const unsigned int number)
   {
     is_first = true;
-    sums     = Energies();
-    if (contact)
-      contact_work_at_start = contact->tally.work;
+    ledger.begin_stage(work);
     apply_settings(new_stage);
     if (stage.reset_motion || stage.is_quasi_static())
       stop_motion();
@@ -170,45 +154,6 @@ namespace Keyblock
 
 
   template <int dim>
-  std::vector<double>
-  ExplicitStep<dim>::excavate(const unsigned int number)
-  {
-    update_forces();
-    const double before = elastic_energy<dim>(cells, positions());
-    conditions.excavate(number);
-    conditions.set_damping(stage.damping_ratio);
-    excavated_energy = before - elastic_energy<dim>(cells, positions());
-    update_forces();
-    std::vector<double> out_of_balance(dim * numbering.n_owned(), 0.);
-    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
-      if (fields.inverse_mass[node] > 0.)
-        for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
-          out_of_balance[i] =
-            fields.internal_force[i] - fields.load[i] - fields.contact_force[i];
-    conditions.supports.remove_held_components(out_of_balance);
-    // a block that is taken away later in the stage carries less
-    out_of_balance_sum =
-      std::max(out_of_balance_sum,
-               sum_of_sizes(numbering.communicator, out_of_balance));
-    return out_of_balance;
-  }
-
-
-
-  template <int dim>
-  double
-  ExplicitStep<dim>::share_of_excavated(
-    const std::vector<double> &out_of_balance) const
-  {
-    return out_of_balance_sum > 0.
-             ? sum_of_sizes(numbering.communicator, out_of_balance) /
-                 out_of_balance_sum
-             : 0.;
-  }
-
-
-
-  template <int dim>
   void
   ExplicitStep<dim>::add_displacement(const std::vector<double> &change)
   {
@@ -262,15 +207,15 @@ namespace Keyblock
     numbering.interpolate_hanging(fields.velocity);
     if (keeps_ledger)
       {
-        book_supports();
-        book_radiation();
+        ledger.book_supports(ledger_step(), work);
+        ledger.book_radiation(ledger_step(), work);
       }
     if (sample)
       {
         for (const NodeRun &run : resting.moving_nodes())
           if (keeps_ledger)
-            book_work(run);
-        sample_energies();
+            ledger.book_work(run, ledger_step(), work);
+        energies = ledger.sample(ledger_step(), work);
         sample_unbalanced_force();
       }
     move_nodes(sample);
@@ -288,6 +233,24 @@ namespace Keyblock
 
 
   template <int dim>
+  LedgerStep
+  ExplicitStep<dim>::ledger_step() const
+  {
+    return {stage, kick, dt, has_damping_force(), is_first, positions()};
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitStep<dim>::sample_start()
+  {
+    energies = ledger.sample_start(positions());
+  }
+
+
+
+  template <int dim>
   void
   ExplicitStep<dim>::predict_nodes(const bool moves_inner)
   {
@@ -298,16 +261,16 @@ namespace Keyblock
               fields.velocity.end(),
               fields.old_velocity.begin() +
                 (moves_inner ? dim * numbering.n_owned() : 0));
-    const NodeWork work = predict(stage,
-                                  {kick,
-                                   dt,
-                                   moves_inner,
-                                   scene.time_stepping.is_large(),
-                                   has_damping_force(),
-                                   resting.moving_nodes()},
-                                  fields);
+    const NodeWork moved = predict(stage,
+                                   {kick,
+                                    dt,
+                                    moves_inner,
+                                    scene.time_stepping.is_large(),
+                                    has_damping_force(),
+                                    resting.moving_nodes()},
+                                   fields);
     if (keeps_ledger)
-      sums.add(work);
+      work.sums.add(moved);
     conditions.apply_supports(time, dt);
     numbering.update_ghosts(fields.velocity);
   }
@@ -346,6 +309,7 @@ namespace Keyblock
                   fields.velocity.begin() + dim * run.end,
                   fields.rate.begin() + dim * run.begin);
     };
+    const LedgerStep step            = ledger_step();
     const std::vector<NodeRun> &runs = resting.moving_nodes();
     for (unsigned int r = 0; r < runs.size(); ++r)
       {
@@ -361,7 +325,7 @@ namespace Keyblock
                                    &fields.displacement})
           __builtin_prefetch(values->data() + next);
         if (keeps_ledger && !with_inner)
-          book_work(run);
+          ledger.book_work(run, step, work);
         move(run);
       }
     move(ghosts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The forces of a step: of all cells or those that do not rest, and of force
-// elements.
+// elements, and what they leave unbalanced.
 #include <keyblock/step/step.h>
 
 
@@ -65,7 +65,7 @@ namespace Keyblock
               : std::vector<unsigned int>());
     // the energy that a stage starts with is measured after the check
     if (!is_first)
-      sums.local_damping += stopped;
+      work.sums.local_damping += stopped;
   }
 
 
@@ -118,10 +118,59 @@ namespace Keyblock
     force_seconds += MPI_Wtime() - start;
   }
 
+  template <int dim>
+  void
+  ExplicitStep<dim>::sample_unbalanced_force()
+  {
+    double unbalanced = 0., largest = 0., n_free = 0.;
+    double loads = 0., reactions = 0., internal = 0.;
+    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
+      {
+        std::array<double, dim> force;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int i = dim * node + d;
+            force[d]             = fields.load[i] - fields.internal_force[i] +
+                       fields.contact_force[i];
+            internal += std::abs(fields.internal_force[i]);
+            if (fields.inverse_mass[node] > 0.)
+              loads += std::abs(fields.load[i]);
+          }
+        const int s = fields.support_of_node[node];
+        if (s >= 0)
+          for (unsigned int k = 0; k < fields.supports[s].n_directions; ++k)
+            {
+              const auto &direction = fields.supports[s].directions[k];
+              const double held     = dot<dim>(direction, force);
+              reactions += std::abs(held);
+              for (unsigned int d = 0; d < dim; ++d)
+                force[d] -= held * direction[d];
+            }
+        if (fields.inverse_mass[node] == 0.)
+          continue;
+        ++n_free;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            unbalanced += std::abs(force[d]);
+            largest = std::max(largest, std::abs(force[d]));
+          }
+      }
+    std::array<double, 5> sums = {
+      {unbalanced, n_free, loads, reactions, internal}};
+    numbering.communicator.sum_lists(sums);
+    largest      = numbering.communicator.max(largest);
+    double scale = out_of_balance_sum;
+    if (scale == 0.)
+      scale = sums[2] > 0. ? sums[2] : sums[3] > 0. ? sums[3] : sums[4];
+    unbalanced_ratio    = scale > 0. ? sums[0] / scale : 0.;
+    largest_nodal_ratio = scale > 0. ? largest * sums[1] / scale : 0.;
+  }
+
 #define INSTANTIATE(dim)                                                       \
   template void ExplicitStep<dim>::update_internal_force(const bool);          \
   template bool ExplicitStep<dim>::has_damping_force() const;                  \
-  template void ExplicitStep<dim>::compute_internal_force(const bool);
+  template void ExplicitStep<dim>::compute_internal_force(const bool);         \
+  template void ExplicitStep<dim>::sample_unbalanced_force();
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -1,5 +1,8 @@
 keyblock_scene(tutorial/sliding_block)
 keyblock_scene(tutorial/joint_network)
+keyblock_scene(tutorial/first_tunnel RANKS 1
+  SET "Safety factor/Blocks=critical" "Safety factor/Stages=heading"
+  "Safety factor/Bracket=0.02")
 keyblock_scene(verification/resting)
 keyblock_scene(verification/incline_25)
 keyblock_scene(verification/incline_30)

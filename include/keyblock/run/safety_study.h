@@ -30,6 +30,11 @@ namespace Keyblock
     list_blocks_of_rank_group(const RankGroups &groups) const;
     bool is_class_wanted(const unsigned int block) const;
 
+    /** Those of @p blocks that limit equilibrium calls critical, if only they
+     * are asked for. */
+    std::vector<unsigned int>
+    select_critical(const std::vector<unsigned int> &blocks) const;
+
     /** Factor of a block that was removed in the stage. */
     SafetyFactor factor_of_failed_block(StrengthReductionSearch<dim> &search,
                                         const unsigned int block);

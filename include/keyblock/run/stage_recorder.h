@@ -3,6 +3,7 @@
 #define keyblock_run_stage_recorder_h
 
 #include <keyblock/run/checkpointing.h>
+#include <keyblock/run/progress_line.h>
 #include <keyblock/run/stage_observer.h>
 
 namespace Keyblock
@@ -33,14 +34,22 @@ namespace Keyblock
     void book_time();
     void print_progress(const StageProgress<dim> &progress);
 
+    /** Whether a VTU is due within a stage: at even shares of its steps, or of
+     * the ramp where it ends by its unbalanced ratio. */
+    bool is_vtu_due(const StageProgress<dim> &progress,
+                    const Stage &stage) const;
+
+    StageAdvance advance_of(const StageProgress<dim> &progress) const;
+
     const Model<dim> &model;
     Monitors<dim> &monitors;
     Output<dim> &output;
     Checkpointing<dim> &checkpointing;
     RunRecord<dim> &record;
-    std::string folder;       ///< of output, with '/' at its end
-    double loop_start   = 0.; ///< wall time [s]
-    double last_printed = 0.; ///< wall time of the last line of progress [s]
+    std::string folder;                ///< of output, with '/' at its end
+    double loop_start = 0.;            ///< wall time [s]
+    StageAdvance last_printed;         ///< at the last line of progress
+    unsigned int stage_printed = none; ///< its stage
   };
 } // namespace Keyblock
 

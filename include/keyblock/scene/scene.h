@@ -472,6 +472,7 @@ namespace Keyblock
     double removal_slip            = 0.05;
     BoltConvention bolt_convention = BoltConvention::active;
     double wanted                  = 0.; ///< factor [-]
+    double critical_factor         = 2.; ///< by limit equilibrium [-]
     unsigned int rank_groups       = 1;
 
     bool
@@ -480,7 +481,23 @@ namespace Keyblock
       return blocks != "none";
     }
 
-    /** Whether the factor of the block called @p id (from 1) is asked for. */
+    /** Whether only blocks with a free face are asked for. */
+    bool
+    wants_exposed_only() const
+    {
+      return blocks == "exposed" || wants_critical_only();
+    }
+
+    /** Whether only those of them are, whose factor by limit equilibrium is
+     * below the critical one. */
+    bool
+    wants_critical_only() const
+    {
+      return blocks == "critical";
+    }
+
+    /** Whether the factor of the block called @p id (from 1) is asked for, as
+     * far as its number tells. */
     bool wants_block(const unsigned int id) const;
 
     bool wants_stage(const std::string &name) const;

@@ -5,7 +5,7 @@
 #include <keyblock/contact/contact.h>
 #include <keyblock/step/conditions.h>
 #include <keyblock/step/deformation_damping.h>
-#include <keyblock/step/energies.h>
+#include <keyblock/step/energy_ledger.h>
 #include <keyblock/step/resting_cells.h>
 
 #include <algorithm>
@@ -42,10 +42,7 @@ namespace Keyblock
     bool starts_at_rest    = true; ///< the next kick is a half one
     bool is_first          = true; ///< of the stage
     bool is_stress_current = true; ///< contains the last move
-    Energies sums;                 ///< work terms of this rank
-    ContactWork contact_work_at_start;
-    double plastic_work_at_start = 0.;
-    double excavated_energy      = 0.;
+    LedgerState work;
     double out_of_balance_sum = 0.; ///< of |force| of the cells excavated [N]
   };
 
@@ -96,7 +93,7 @@ namespace Keyblock
     void
     forget_excavated_cells()
     {
-      out_of_balance_sum = excavated_energy = 0.;
+      out_of_balance_sum = work.excavated_energy = 0.;
     }
 
     /** Add the elastic response to the displacement increment @p change (local
@@ -170,22 +167,14 @@ namespace Keyblock
     bool may_rest() const;
     /** Whether forces by velocities act: stiffness damping, dashpots. */
     bool has_damping_force() const;
-    /** This rank's elastic energy, of cells and force elements (collective)
-     * [J]. */
-    double stored_energy() const;
-    /** What plastic strains of this rank have dissipated, ever [J]. */
-    double plastic_work() const;
     /** Choose the cells to leave out until the next check. */
     void look_for_rest();
     /** Kick all nodes; with @p moves_inner the inner ones move as well. */
     void predict_nodes(const bool moves_inner);
     void resolve_contact();
 
-    /** Add the work done on a run of nodes in this step. */
-    void book_work(const NodeRun &run);
-    void book_supports();
-    void book_radiation();
-    void sample_energies();
+    /** What the ledger has to know of this step. */
+    LedgerStep ledger_step() const;
 
     /** Move the outer nodes and the ghosts, and book the work done on them;
      * or all nodes, whose work has been booked. */
@@ -200,6 +189,7 @@ namespace Keyblock
     Contact<dim> *contact;
     RestingCells<dim> resting;
     DeformationDamping<dim> deformation_damping;
+    EnergyLedger<dim> ledger;
     unsigned int n_searches_seen = none; ///< of contact
   };
 
@@ -228,20 +218,7 @@ namespace Keyblock
     std::copy(list.begin(), list.end(), terms.begin());
     energies = Energies::from_array(terms);
 
-    terms = sums.as_array();
-    std::vector<double *> shares;
-    shares.reserve(terms.size() + 6);
-    for (double &term : terms)
-      shares.push_back(&term);
-    for (double *const share : {&contact_work_at_start.friction,
-                                &contact_work_at_start.closure,
-                                &contact_work_at_start.penetration,
-                                &contact_work_at_start.dilation,
-                                &plastic_work_at_start,
-                                &excavated_energy})
-      shares.push_back(share);
-    file.exchange_shares(group + "work", shares);
-    sums = Energies::from_array(terms);
+    work.exchange(file, group);
   }
 } // namespace Keyblock
 

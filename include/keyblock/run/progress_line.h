@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_run_progress_line_h
+#define keyblock_run_progress_line_h
+
+#include <string>
+
+namespace Keyblock
+{
+  /** How far a stage is, as a line of progress tells it. */
+  struct StageAdvance
+  {
+    double time          = 0.; ///< wall time [s]
+    double steps         = 0.; ///< of the stage
+    double planned       = 0.; ///< the same; 0: it ends by its ratio
+    double ratio         = 0.; ///< unbalanced [-]
+    double target        = 0.; ///< of the ratio [-]
+    double ramp_left     = 0.; ///< share of the ramp [-]
+    double largest_steps = 0.; ///< after which it ends in any case
+  };
+
+  /**
+   * Wall time [s] that the stage will take from @p now on, as it went since
+   * @p before: by the number of steps, or by how fast the unbalanced ratio
+   * falls. Below zero if that cannot be told: during the ramp, and while the
+   * ratio does not fall.
+   */
+  double time_left(const StageAdvance &before, const StageAdvance &now);
+
+  /** That many seconds for people: 45 s, 3.5 min, 2.1 h. */
+  std::string duration_text(const double seconds);
+
+  /** Columns of the terminal that standard output is, or 0 if it is none. */
+  unsigned int terminal_width();
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/number_text.h>
+#include <keyblock/run/progress_line.h>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Keyblock
+{
+  double
+  time_left(const StageAdvance &before, const StageAdvance &now)
+  {
+    const double seconds = now.time - before.time;
+    const double steps   = now.steps - before.steps;
+    if (seconds <= 0. || steps <= 0.)
+      return -1.;
+    const double by_steps =
+      now.largest_steps > 0. ? (now.largest_steps - now.steps) * seconds / steps
+                             : -1.;
+    if (now.planned > 0.)
+      return std::max(0., now.planned - now.steps) * seconds / steps;
+    if (now.ramp_left > 0. || before.ramp_left > 0. || now.target <= 0. ||
+        now.ratio <= 0. || before.ratio <= now.ratio)
+      return -1.;
+    const double left = std::max(0., std::log(now.ratio / now.target)) *
+                        seconds / std::log(before.ratio / now.ratio);
+    return by_steps >= 0. ? std::min(left, by_steps) : left;
+  }
+
+
+
+  std::string
+  duration_text(const double seconds)
+  {
+    if (seconds < 100.)
+      return std::to_string(std::lround(seconds)) + " s";
+    if (seconds < 6000.)
+      return text_of(seconds / 60., 2) + " min";
+    return text_of(seconds / 3600., 2) + " h";
+  }
+
+
+
+  unsigned int
+  terminal_width()
+  {
+    if (!isatty(STDOUT_FILENO))
+      return 0;
+    winsize size{};
+    constexpr unsigned int usual = 80;
+    return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0
+             ? size.ws_col
+             : usual;
+  }
+} // namespace Keyblock

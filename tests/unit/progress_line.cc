@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Times left are those of what ends the stage, or none.
+#include <keyblock/run/progress_line.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+
+using namespace Keyblock;
+
+BOOST_AUTO_TEST_CASE(time_left_by_steps)
+{
+  StageAdvance before, now;
+  before.planned = now.planned = before.largest_steps = now.largest_steps =
+    1000;
+  now.time  = 2.;
+  now.steps = 100.;
+  BOOST_TEST(std::abs(time_left(before, now) - 18.) < 1e-12);
+  BOOST_TEST(time_left(now, now) < 0.);
+}
+
+BOOST_AUTO_TEST_CASE(time_left_by_ratio)
+{
+  // a decade in 3 s, two to go
+  StageAdvance before, now;
+  before.ratio  = 1e-2;
+  before.target = now.target = 1e-5;
+  now.ratio                  = 1e-3;
+  now.time                   = 3.;
+  now.steps                  = 50.;
+  now.largest_steps          = 200000.;
+  BOOST_TEST(std::abs(time_left(before, now) - 6.) < 1e-9);
+  now.largest_steps = 75.; // 25 steps at most
+  BOOST_TEST(std::abs(time_left(before, now) - 1.5) < 1e-9);
+  now.ramp_left = 0.1;
+  BOOST_TEST(time_left(before, now) < 0.);
+  now.ramp_left = 0.;
+  now.ratio     = 2e-2; // it rises
+  BOOST_TEST(time_left(before, now) < 0.);
+}
+
+BOOST_AUTO_TEST_CASE(durations_for_people)
+{
+  BOOST_TEST(duration_text(0.4) == "0 s");
+  BOOST_TEST(duration_text(99.) == "99 s");
+  BOOST_TEST(duration_text(210.) == "3.5 min");
+  BOOST_TEST(duration_text(7560.) == "2.1 h");
+}
