@@ -9,6 +9,10 @@ if [ ! -f "$build/compile_commands.json" ]; then
   echo "There is no $build/compile_commands.json; configure that folder first." >&2
   exit 1
 fi
+if grep -q cmake_pch "$build/compile_commands.json"; then
+  echo "clang-tidy cannot read GCC's precompiled headers; configure $build with -DPRECOMPILE_HEADERS=OFF." >&2
+  exit 1
+fi
 if [ $# -eq 0 ]; then
   # shellcheck disable=SC2046
   set -- $(find source -name '*.cc' | sort)
