@@ -9,6 +9,14 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Loads smaller than this, over the internal forces, do not drive [-]. */
+    constexpr double share_that_drives = 1e-12;
+  } // namespace
+
+
+
   template <int dim>
   void
   ExplicitStep<dim>::update_internal_force(const bool of_all)
@@ -161,7 +169,11 @@ namespace Keyblock
     largest      = numbering.communicator.max(largest);
     double scale = out_of_balance_sum;
     if (scale == 0.)
-      scale = sums[2] > 0. ? sums[2] : sums[3] > 0. ? sums[3] : sums[4];
+      {
+        // what is left of a wave at its end drives nothing
+        const double least = share_that_drives * sums[4];
+        scale = sums[2] > least ? sums[2] : sums[3] > least ? sums[3] : sums[4];
+      }
     unbalanced_ratio    = scale > 0. ? sums[0] / scale : 0.;
     largest_nodal_ratio = scale > 0. ? largest * sums[1] / scale : 0.;
   }

@@ -48,6 +48,12 @@ keyblock_scene(verification/quiet_column RANKS 1 2)
 keyblock_scene(verification/quiet_column REFERENCES quiet_column_shear RANKS 1
   SET "Supports/sides/Directions=y"
   "Initial state/Velocity=if(abs(y - 200) < 20, (1 + cos(pi*(y - 200)/20))/2, 0)@ 0")
+# waves from both ends, which are let in and out again; what is left of them
+# when they are over drives nothing
+keyblock_scene(verification/quiet_column REFERENCES quiet_column_wave RANKS 1
+  SET "Initial state/Velocity=" "Supports/sides/Directions=y"
+  "Supports/ends/Velocity=exp(-((t - 0.05)/0.01)^2)@ 0"
+  "Stages/run/Duration=0.6")
 # the dead load of what was held, and nothing moves
 keyblock_scene(verification/quiet_column REFERENCES quiet_column_at_rest
   RANKS 1 2 SET "Initial state/Velocity=" "Initial state/Gravity=0@ -9.81"
