@@ -24,10 +24,14 @@ namespace Keyblock
     void
     require_listed(const std::string &complaint, const std::string &source)
     {
+      // as deal.II 9.4 says it, and 9.6
       const std::regex unknown(
         "Line <(\\d+)>.*no such subsection to be entered: ([^.]+)\\.(.*)");
+      const std::regex newer(
+        "Line <(\\d+)>.*to enter a subsection '([^.']+)\\.([^']*)', but.*");
       std::smatch found;
-      const bool is_unlisted = std::regex_match(complaint, found, unknown);
+      const bool is_unlisted = std::regex_match(complaint, found, unknown) ||
+                               std::regex_match(complaint, found, newer);
       AssertThrow(!is_unlisted,
                   InputError("In " + source + ", line " + found[1].str() +
                              ": there is a subsection '" + found[2].str() +
