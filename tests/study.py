@@ -80,6 +80,17 @@ def main():
         if abs(float(values[3]) / factor - 1) > 1e-6:
             faults.append(f"row '{row}' is not tan(phi) / tan(28)")
             break
+    # the weaker of two joints at one place rules, whichever that is in a sample
+    drawn = study(keyblock, scene, folder / "shared", "Study/Samples=8",
+                  "Joints/Names=base, again", "Joints/again/Point=0, 0",
+                  "Joints/again/Friction angle=29")[0]
+    for row in drawn.splitlines()[2:]:
+        values = row.split(",")
+        factor = (math.tan(math.radians(min(29., float(values[1]))))
+                  / math.tan(math.radians(28)))
+        if abs(float(values[2]) / factor - 1) > 1e-6:
+            faults.append(f"row '{row}' does not have the weaker joint")
+            break
     if faults:
         sys.exit("; ".join(faults))
 

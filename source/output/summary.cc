@@ -14,7 +14,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <iomanip>
 #include <sstream>
 
 namespace Keyblock
@@ -254,19 +253,6 @@ namespace Keyblock
       return json;
     }
 
-    /** CRC-64/XZ of all entries as used, in hexadecimal digits. */
-    template <int dim>
-    std::string
-    digest_of(const Scene<dim> &scene)
-    {
-      const std::string entries = scene.used_entries();
-      Digest digest;
-      digest.add(entries.data(), entries.size());
-      std::ostringstream text;
-      text << std::hex << std::setfill('0') << std::setw(16) << digest.value();
-      return text.str();
-    }
-
     Json
     geostress_as_json(const Geostress &geostress)
     {
@@ -322,7 +308,7 @@ namespace Keyblock
       root["bolts"] = bolts_as_json(run.bolts);
     root["scene"] = {{"name", scene.file},
                      {"title", scene.title},
-                     {"digest", digest_of(scene)},
+                     {"digest", digest_of(scene.used_entries())},
                      {"overrides", run.overrides},
                      {"seeds", seeds_as_json(scene)},
                      {"dimension", dim},

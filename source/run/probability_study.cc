@@ -35,20 +35,18 @@ namespace Keyblock
     bool
     is_strength(const std::string &name)
     {
-      static const std::set<std::string> strengths = {"Law",
-                                                      "Friction angle",
-                                                      "Kinetic friction angle",
-                                                      "Cohesion",
-                                                      "Residual cohesion",
-                                                      "Tensile strength",
-                                                      "Water pressure",
-                                                      "JRC",
-                                                      "JCS",
-                                                      "Residual friction angle",
-                                                      "Slip distance",
-                                                      "Dilation angle",
-                                                      "Dilation slip"};
-      return strengths.count(name) > 0;
+      JointStrength strength;
+      dealii::ParameterHandler prm;
+      strength.declare_strength(prm);
+      try
+        {
+          prm.get(name);
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+          return false;
+        }
+      return true;
     }
 
     /** Whether an entry changes neither mesh nor blocks. */
@@ -90,9 +88,7 @@ namespace Keyblock
          : "output-" + std::filesystem::path(scene_file).stem().string()) +
       "/";
     draw();
-    sets_strengths = true;
-    for (unsigned int v = 0; v < scene.study_variables.size(); ++v)
-      sets_strengths = sets_strengths && joint_of(v) != nullptr;
+    find_joints();
   }
 
 
@@ -111,15 +107,20 @@ namespace Keyblock
 
 
   template <int dim>
-  Joint<dim> *
-  ProbabilityStudy<dim>::joint_of(const unsigned int variable) const
+  void
+  ProbabilityStudy<dim>::find_joints()
   {
-    const std::string &entry = scene.study_variables[variable]->entry;
-    for (const auto &joint : scene.joints)
-      if (entry == "Joints/" + joint->name + "/" + last_of(entry) &&
-          is_strength(last_of(entry)))
-        return joint.get();
-    return nullptr;
+    for (const auto &variable : scene.study_variables)
+      {
+        const std::string name = last_of(variable->entry);
+        for (const auto &joint : scene.joints)
+          if (variable->entry == "Joints/" + joint->name + "/" + name &&
+              is_strength(name))
+            joints.push_back(joint.get());
+      }
+    // all of them, or nothing is gained
+    if (joints.size() < scene.study_variables.size())
+      joints.clear();
   }
 
 
@@ -132,15 +133,15 @@ namespace Keyblock
       {
         const std::string &entry = scene.study_variables[v]->entry;
         dealii::ParameterHandler prm;
-        joint_of(v)->declare_strength(prm);
+        joints[v]->declare_strength(prm);
         parse_entries(prm,
                       "set " + last_of(entry) + " = " +
                         exact_text(values[v][index]),
                       scene_file,
                       "the variable '" + scene.study_variables[v]->name + "'");
       }
-    for (unsigned int v = 0; v < values.size(); ++v)
-      check_joint(*joint_of(v));
+    for (const Joint<dim> *joint : joints)
+      check_joint(*joint);
   }
 
 
@@ -155,6 +156,7 @@ namespace Keyblock
     Geometry result;
     Mesh<dim> mesh;
     std::tie(mesh, result.blocks) = make_mesh_for_blocks(alone, sample, silent);
+    result.shares_faces           = !mesh.report.merged.empty();
     result.split                  = split_mesh(mesh, result.blocks, sample);
     result.split.bolts            = lay_out_bolts(sample, result.split);
     return result;
@@ -180,13 +182,13 @@ namespace Keyblock
   ProbabilityStudy<dim>::judge(const unsigned int index) const
   {
     Scene<dim> changed;
-    if (sets_strengths)
+    if (!joints.empty())
       set_strengths(index);
     else
       changed.read(Communicator(MPI_COMM_SELF),
                    scene_file,
                    overrides_of(index));
-    const Scene<dim> &sample = sets_strengths ? scene : changed;
+    const Scene<dim> &sample = joints.empty() ? changed : scene;
     Geometry own;
     if (!geometry)
       own = make_geometry(sample);
@@ -336,6 +338,9 @@ namespace Keyblock
     const double start = MPI_Wtime();
     if (!changes_geometry())
       geometry = std::make_unique<Geometry>(make_geometry(scene));
+    // the weaker of two joints rules where they share faces
+    if (geometry && geometry->shares_faces)
+      geometry = nullptr;
     header = make_header();
     read_samples();
     // what no sample can be made of is said before anything is written

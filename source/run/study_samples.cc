@@ -16,14 +16,6 @@ namespace Keyblock
 {
   namespace
   {
-    std::string
-    digest_of(const std::string &text)
-    {
-      Digest digest;
-      digest.add(text.data(), text.size());
-      return std::to_string(digest.value());
-    }
-
     /** A random order of 0 ... n - 1. */
     std::vector<unsigned int>
     shuffled(const unsigned int n, RandomNumbers &random)

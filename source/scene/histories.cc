@@ -92,21 +92,19 @@ namespace Keyblock
     for (const auto &support : supports)
       if (support->history &&
           support->history_quantity != HistoryQuantity::stress)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const TimeSeries way = support->history->integral();
+        {
+          const TimeSeries way = support->history->integral();
+          for (unsigned int d = 0; d < dim; ++d)
             if (std::abs(way.last(d)) >
                 largest_base_line_error * way.largest_magnitude())
-              {
-                found.push_back(
-                  "The history '" + support->history_file +
-                  "' ends with a displacement of " + text_of(way.last(d)) +
-                  " m along " + "xyz"[d] + ", of at most " +
-                  text_of(way.largest_magnitude()) +
-                  " m on the way; correct its base line if it should end where "
-                  "it began.");
-              }
-          }
+              found.push_back(
+                "The history '" + support->history_file +
+                "' ends with a displacement of " + text_of(way.last(d)) +
+                " m along " + "xyz"[d] + ", of at most " +
+                text_of(way.largest_magnitude()) +
+                " m on the way; correct its base line if it should end where "
+                "it began.");
+        }
     return found;
   }
 

@@ -5,6 +5,9 @@
 #include <boost/crc.hpp>
 
 #include <cstdint>
+#include <iomanip>
+#include <sstream>
+#include <string>
 
 namespace Keyblock
 {
@@ -28,6 +31,17 @@ namespace Keyblock
   private:
     boost::crc_optimal<64, 0x42F0E1EBA9EA3693, ~0ULL, ~0ULL, true, true> crc;
   };
+
+  /** Of a text, as 16 hexadecimal digits. */
+  inline std::string
+  digest_of(const std::string &text)
+  {
+    Digest digest;
+    digest.add(text.data(), text.size());
+    std::ostringstream digits;
+    digits << std::hex << std::setfill('0') << std::setw(16) << digest.value();
+    return digits.str();
+  }
 } // namespace Keyblock
 
 #endif

@@ -40,6 +40,7 @@ namespace Keyblock
     {
       SplitMesh<dim> split;
       Blocks<dim> blocks;
+      bool shares_faces = false; ///< joints with each other
     };
 
     /** Values of the variables in all samples: by variable. */
@@ -48,8 +49,8 @@ namespace Keyblock
     /** Whether a variable changes more than strengths and loads. */
     bool changes_geometry() const;
 
-    /** The joint whose strength a variable (by index) is, or null. */
-    Joint<dim> *joint_of(const unsigned int variable) const;
+    /** Look for the joints whose strengths the variables are. */
+    void find_joints();
 
     /** Put the values of a sample into the joints of `scene`: where all
      * variables are strengths of joints nothing else has to be read anew.
@@ -85,7 +86,10 @@ namespace Keyblock
     const std::vector<std::string> overrides;
     Scene<dim> scene;
     std::string folder;
-    bool sets_strengths = false; ///< all variables are strengths of joints
+
+    /** Of the scene, by variable, where all variables are strengths of joints;
+     * else empty. */
+    std::vector<Joint<dim> *> joints;
     std::string header;
     std::unique_ptr<Geometry> geometry; ///< null: one for each sample
     std::vector<std::vector<double>> values;
