@@ -19,8 +19,6 @@ MOST_LINES, MOST_LINES_OF_FUNCTION = 400, 100
 
 # files that may be longer, and why
 LONG = {
-    "source/scene/entries.cc": "a list of entries",
-    "include/keyblock/scene/scene.h": "a list of entries",
     "source/rock/cell_kernels.cc": "compiled as a whole for each instruction set",
     "source/mesh/refinement.cc": "one class around deal.II's Triangulation",
     "source/contact/solver.cc": "inlined as a whole into its sweeps",

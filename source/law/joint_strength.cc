@@ -89,6 +89,12 @@ namespace Keyblock
                       water_pressure,
                       "A formula in x, y (z) and t: pressure of water in the "
                       "joint, which pushes both sides apart [Pa]; empty: that "
-                      "below Water/Level.");
+                      "below Water level.");
+    prm.add_parameter("Water level",
+                      water_level,
+                      "Elevation of the water that stands in the joint, a "
+                      "formula in x, y (z), t, as in a crack that has filled "
+                      "[m]; none: it is dry; empty: Water/Level, or that of "
+                      "the stage.");
   }
 } // namespace Keyblock

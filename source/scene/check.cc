@@ -155,6 +155,7 @@ namespace Keyblock
       check_stage(*stage);
     check_stages_of_excavations(*this);
     check_bolts(*this);
+    check_liners(*this);
     check_time_stepping(time_stepping);
     check_initial_state(*this);
     check_expressions(*this);

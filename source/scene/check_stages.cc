@@ -21,6 +21,16 @@ namespace Keyblock
     require(stage.duration > 0. || stage.maximum_steps > 0 || stage.is_static(),
             "The stage '" + stage.name + "' never ends; set 'Stages/" +
               stage.name + "/Duration' or 'Maximum steps'.");
+    const std::string rayleigh = "Stages/" + stage.name + "/Rayleigh ";
+    require(stage.rayleigh_ratio == 0. || stage.rayleigh_frequency > 0.,
+            "The entry '" + rayleigh + "ratio' is " +
+              text_of(stage.rayleigh_ratio) + ", but '" + rayleigh +
+              "frequency' is 0; give the frequency at which it holds in Hz.");
+    require(stage.rayleigh_ratio == 0. || stage.kind == StageKind::dynamic,
+            "The entry '" + rayleigh + "ratio' is " +
+              text_of(stage.rayleigh_ratio) + ", but the stage is " +
+              name_of(stage.kind) +
+              "; Rayleigh damping is for dynamic stages, leave it out.");
   }
 
 
@@ -278,10 +288,25 @@ namespace Keyblock
                               1,
                               "Stages/" + stage->name + "/Water level");
     for (const auto &joint : scene.joints)
-      if (!joint->water_pressure.empty())
+      {
+        const std::string section = "Joints/" + joint->name;
         check_expression<dim>(joint->water_pressure,
                               1,
-                              "Joints/" + joint->name + "/Water pressure");
+                              section + "/Water pressure");
+        if (joint->water_level != no_water)
+          check_expression<dim>(joint->water_level,
+                                1,
+                                section + "/Water level");
+        require(joint->water_pressure.empty() || joint->water_level.empty(),
+                "The joint '" + joint->name +
+                  "' has both 'Water pressure' and 'Water level'; keep one.");
+      }
+    for (const auto &stage : scene.stages)
+      for (const std::string &name : stage->drained_joints)
+        require(has_joint(scene, name),
+                "The entry 'Stages/" + stage->name +
+                  "/Drained joints' names '" + name +
+                  "', which is no joint or set of joints; correct the name.");
   }
 
   template void check_material(const Material<2> &);

@@ -23,13 +23,21 @@ namespace Keyblock
   Scene<dim>::water_pressure(const unsigned int joint,
                              const unsigned int number) const
   {
-    const std::string &own = joints[joint]->water_pressure;
-    if (!own.empty())
-      return own;
-    std::string level = water.level;
+    const Joint<dim> &own = *joints[joint];
+    std::string level     = water.level;
     for (const auto &stage : stages)
-      if (!stage->water_level.empty() && stage_number(stage->name) <= number)
-        level = stage->water_level;
+      if (stage_number(stage->name) <= number)
+        {
+          for (const std::string &name : stage->drained_joints)
+            if (name == own.name || name == own.set)
+              return "";
+          if (!stage->water_level.empty())
+            level = stage->water_level;
+        }
+    if (!own.water_pressure.empty())
+      return own.water_pressure;
+    if (!own.water_level.empty())
+      level = own.water_level;
     if (level.empty() || level == no_water)
       return "";
     return exact_text(water.unit_weight) + " * max(0, (" + level + ") - " +

@@ -160,6 +160,9 @@ namespace Keyblock
   void
   Stage::complete()
   {
+    if (rayleigh_terms != RayleighTerms::stiffness)
+      mass_damping +=
+        2. * dealii::numbers::PI * rayleigh_frequency * rayleigh_ratio;
     if (!is_quasi_static())
       return;
     if (local_damping == 0.)
@@ -168,6 +171,16 @@ namespace Keyblock
       unbalanced_ratio = 1e-5;
     if (maximum_steps == 0)
       maximum_steps = 200000;
+  }
+
+
+
+  double
+  Stage::rayleigh_stiffness() const
+  {
+    return rayleigh_ratio > 0. && rayleigh_terms != RayleighTerms::mass
+             ? rayleigh_ratio / (2. * dealii::numbers::PI * rayleigh_frequency)
+             : 0.;
   }
 
 

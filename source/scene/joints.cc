@@ -340,6 +340,7 @@ namespace Keyblock
         add("Residual cohesion", exact_text(joint->residual_cohesion));
         add_law(*joint, add);
         add("Water pressure", joint->water_pressure);
+        add("Water level", joint->water_level);
         add("Set", joint->set);
         text += "  end\n";
       }

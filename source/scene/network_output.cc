@@ -255,6 +255,13 @@ namespace Keyblock
            "kinetic friction angle (deg),cohesion (Pa),tensile strength (Pa),"
            "residual cohesion (Pa),water pressure (Pa)"
         << law_titles(laws) << '\n';
+    const auto water = [&](const auto &joint) -> std::string {
+      if (joint->water_level.empty())
+        return joint->water_pressure;
+      return joint->water_level == no_water
+               ? "0"
+               : scene.water_pressure(&joint - scene.joints.data(), 1);
+    };
     for (const auto &joint : scene.joints)
       out << field(joint->name) << ',' << field(joint->set) << ','
           << geometry_fields(*joint, scene.domain.origin, has_normals) << ','
@@ -262,8 +269,8 @@ namespace Keyblock
           << exact_text(joint->kinetic_friction_angle) << ','
           << exact_text(joint->cohesion) << ','
           << exact_text(joint->tensile_strength) << ','
-          << exact_text(joint->residual_cohesion) << ','
-          << field(joint->water_pressure) << law_fields(*joint, laws) << '\n';
+          << exact_text(joint->residual_cohesion) << ',' << field(water(joint))
+          << law_fields(*joint, laws) << '\n';
     check_written(out, file_name);
   }
 

@@ -27,6 +27,7 @@ namespace Keyblock
                                                     "Materials",
                                                     "Supports",
                                                     "Bolts",
+                                                    "Shotcrete",
                                                     "Tractions",
                                                     "Stages",
                                                     "Monitors",
@@ -177,6 +178,7 @@ namespace Keyblock
     declare_items(prm, "Materials", materials);
     declare_items(prm, "Supports", supports);
     declare_items(prm, "Bolts", bolts);
+    declare_items(prm, "Shotcrete", liners);
     declare_items(prm, "Tractions", tractions);
     declare_items(prm, "Stages", stages);
     declare_items(prm, "Monitors", monitors);
@@ -202,6 +204,7 @@ namespace Keyblock
     make_items(materials, read_names(names, "Materials"));
     make_items(supports, read_names(names, "Supports"));
     make_items(bolts, read_names(names, "Bolts"));
+    make_items(liners, read_names(names, "Shotcrete"));
     make_items(tractions, read_names(names, "Tractions"));
     make_items(stages, read_names(names, "Stages"));
     make_items(monitors, read_names(names, "Monitors"));
@@ -289,6 +292,7 @@ namespace Keyblock
     make_items(scene.materials, {"NAME"});
     make_items(scene.supports, {"NAME"});
     make_items(scene.bolts, {"NAME"});
+    make_items(scene.liners, {"NAME"});
     make_items(scene.tractions, {"NAME"});
     make_items(scene.stages, {"NAME"});
     make_items(scene.monitors, {"NAME"});

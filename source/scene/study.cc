@@ -177,7 +177,7 @@ namespace Keyblock
     prm.add_parameter("Samples",
                       samples,
                       "Number of samples that `keyblock SCENE.prm --study` "
-                      "judges by limit equilibrium.",
+                      "judges.",
                       Integer(1, 100000000));
     prm.add_parameter("Seed",
                       seed,
@@ -189,6 +189,13 @@ namespace Keyblock
                       "Way of drawing samples. latin hypercube: one value in "
                       "each of as many equally probable parts as there are "
                       "samples; random: each by itself.");
+    prm.add_parameter("Level",
+                      level,
+                      "Level of the study. rigid: limit equilibrium alone, no "
+                      "step is taken; full: samples in which a block has a "
+                      "factor below Safety factor/Critical factor by it are "
+                      "run, with factors by strength reduction of those "
+                      "blocks.");
     prm.add_parameter("Threshold",
                       threshold,
                       "Factor below which a block counts as failed [-].",

@@ -200,10 +200,10 @@ namespace Keyblock
 
   template <int dim>
   void
-  Conditions<dim>::set_damping(const double damping_ratio)
+  Conditions<dim>::set_damping(const Stage &stage)
   {
-    active_cells.set_damping(damping_ratio);
-    if (damping_ratio > 0. || has_viscous_elements())
+    active_cells.set_damping(stage);
+    if (stage.has_stiffness_damping() || has_viscous_elements())
       fields.damping_force.assign(fields.velocity.size(), 0.);
   }
 
@@ -238,7 +238,7 @@ namespace Keyblock
       quiet->release(1, given);
     loads.forget_load();
     set_up_supports();
-    set_damping(0.);
+    set_damping(Stage());
     return remark;
   }
 

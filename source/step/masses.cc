@@ -161,10 +161,10 @@ namespace Keyblock
 
   template <int dim>
   void
-  ActiveCells<dim>::set_damping(const double damping_ratio)
+  ActiveCells<dim>::set_damping(const Stage &stage)
   {
     cells.beta.clear();
-    if (damping_ratio == 0.)
+    if (!stage.has_stiffness_damping())
       return;
     for (unsigned int c = 0; c < frequency.size(); ++c)
       {
@@ -173,7 +173,8 @@ namespace Keyblock
           mass_scaling.empty()
             ? frequency[c]
             : std::max(frequency[c], scaling_of(c)->scaled(frequency[c]));
-        cells.beta.push_back(2. * damping_ratio / highest);
+        cells.beta.push_back(2. * stage.damping_ratio / highest +
+                             stage.rayleigh_stiffness());
       }
   }
 
@@ -181,7 +182,7 @@ namespace Keyblock
   template void ActiveCells<dim>::set_up_mass_scaling();                       \
   template void ActiveCells<dim>::set_up_weighing_mass();                      \
   template void ActiveCells<dim>::scale_density(const bool);                   \
-  template void ActiveCells<dim>::set_damping(const double);
+  template void ActiveCells<dim>::set_damping(const Stage &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -22,7 +22,8 @@ namespace Keyblock
   StableStep<dim>::damping_ratio(const Stage &stage) const
   {
     return stage.damping_ratio +
-           0.5 * (stage.mass_damping + damping_rate) / frequency;
+           0.5 * (stage.mass_damping + damping_rate) / frequency +
+           0.5 * stage.rayleigh_stiffness() * frequency;
   }
 
 

@@ -57,7 +57,7 @@ namespace Keyblock
     stage = new_stage;
     if (contact)
       contact->override_friction(stage.friction_angle_override);
-    conditions.set_damping(stage.damping_ratio);
+    conditions.set_damping(stage);
     fields.local_damping.assign(
       stage.local_damping > 0. ? fields.velocity.size() : 0, 0.);
   }
@@ -87,6 +87,8 @@ namespace Keyblock
       compute_internal_force();
     std::fill(fields.velocity.begin(), fields.velocity.end(), 0.);
     std::fill(fields.rate.begin(), fields.rate.end(), 0.);
+    for (const auto &element : conditions.elements)
+      element->stop_motion();
     starts_at_rest = true;
   }
 

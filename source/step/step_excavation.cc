@@ -29,7 +29,7 @@ namespace Keyblock
     update_forces();
     const double before = ledger.energy_of_cells(positions());
     conditions.excavate(number);
-    conditions.set_damping(stage.damping_ratio);
+    conditions.set_damping(stage);
     work.excavated_energy = before - ledger.energy_of_cells(positions());
     update_forces();
     std::vector<double> out_of_balance(dim * numbering.n_owned(), 0.);

@@ -48,7 +48,7 @@ namespace Keyblock
   bool
   ExplicitStep<dim>::has_damping_force() const
   {
-    return stage.damping_ratio > 0. || conditions.has_viscous_elements();
+    return stage.has_stiffness_damping() || conditions.has_viscous_elements();
   }
 
 
@@ -87,7 +87,7 @@ namespace Keyblock
     ForcePass pass;
     pass.step        = is_stress_current ? 0. : previous_dt;
     pass.is_large    = scene.time_stepping.is_large();
-    pass.has_damping = stage.damping_ratio > 0.;
+    pass.has_damping = stage.has_stiffness_damping();
     pass.cells       = with_resting ? nullptr : resting.awake_cells();
     if (has_damping_force())
       std::fill(fields.damping_force.begin(), fields.damping_force.end(), 0.);
@@ -119,7 +119,12 @@ namespace Keyblock
         conditions.set_load(time);
         for (const auto &element : conditions.elements)
           if (element->is_viscous())
-            element->add_damping_force({fields, kick, stage.mass_damping},
+            element->add_damping_force({fields,
+                                        time,
+                                        pass.step,
+                                        kick,
+                                        stage.mass_damping,
+                                        stage.rayleigh_stiffness()},
                                        fields.damping_force);
       }
     is_stress_current = true;

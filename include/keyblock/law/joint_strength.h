@@ -24,6 +24,7 @@ namespace Keyblock
     double tensile_strength       = 0.;  ///< [Pa]
     double residual_cohesion      = -1.; ///< [Pa]; -1: as cohesion
     std::string water_pressure;          ///< formula [Pa]; empty: none
+    std::string water_level;             ///< formula [m]; empty: the scene's
 
     std::string law;                ///< its name
     std::vector<double> law_values; ///< of joint_law_entries(), in their order

@@ -61,6 +61,14 @@ namespace dealii::Patterns::Tools
     : Keyblock::ChoiceConversion<Keyblock::ExcavationShape>
   {};
   template <>
+  struct Convert<Keyblock::RayleighTerms>
+    : Keyblock::ChoiceConversion<Keyblock::RayleighTerms>
+  {};
+  template <>
+  struct Convert<Keyblock::StudyLevel>
+    : Keyblock::ChoiceConversion<Keyblock::StudyLevel>
+  {};
+  template <>
   struct Convert<Keyblock::JointShape>
     : Keyblock::ChoiceConversion<Keyblock::JointShape>
   {};

@@ -72,19 +72,21 @@ namespace Keyblock
     formula,
     rectangle,
     horseshoe,
-    cavern
+    cavern,
+    file
   };
   template <>
   struct ChoiceNames<ExcavationShape>
   {
-    static constexpr std::array<const char *, 8> names = {{"polygon",
+    static constexpr std::array<const char *, 9> names = {{"polygon",
                                                            "circle",
                                                            "box",
                                                            "extruded polygon",
                                                            "formula",
                                                            "rectangle",
                                                            "horseshoe",
-                                                           "cavern"}};
+                                                           "cavern",
+                                                           "file"}};
   };
 
   /** Extent of a joint within its plane. */
@@ -197,19 +199,20 @@ namespace Keyblock
       {"automatic", "full", "mean dilatation"}};
   };
 
-  /** Whether a support holds its nodes, stands for infinite rock or lets waves
-   * out. */
+  /** Whether a support holds its nodes, stands for infinite rock, lets waves
+   * out, or moves with ground that has no excavation. */
   enum class SupportKind
   {
     held,
     far_field,
-    quiet
+    quiet,
+    free_field
   };
   template <>
   struct ChoiceNames<SupportKind>
   {
-    static constexpr std::array<const char *, 3> names = {
-      {"held", "far field", "quiet"}};
+    static constexpr std::array<const char *, 4> names = {
+      {"held", "far field", "quiet", "free field"}};
   };
 
   /** What the history of a support is one of. */
@@ -295,6 +298,32 @@ namespace Keyblock
   {
     static constexpr std::array<const char *, 3> names = {
       {"dynamic", "quasi-static", "static"}};
+  };
+
+  /** Which parts of Rayleigh damping act. */
+  enum class RayleighTerms
+  {
+    both,
+    mass,
+    stiffness
+  };
+  template <>
+  struct ChoiceNames<RayleighTerms>
+  {
+    static constexpr std::array<const char *, 3> names = {
+      {"both", "mass", "stiffness"}};
+  };
+
+  /** What judges the blocks of a study's samples. */
+  enum class StudyLevel
+  {
+    rigid,
+    full
+  };
+  template <>
+  struct ChoiceNames<StudyLevel>
+  {
+    static constexpr std::array<const char *, 2> names = {{"rigid", "full"}};
   };
 
   /** What a monitor looks at. */

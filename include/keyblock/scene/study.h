@@ -39,6 +39,7 @@ namespace Keyblock
     unsigned int samples = 1000;
     unsigned int seed    = 1;
     Sampling sampling    = Sampling::latin_hypercube;
+    StudyLevel level     = StudyLevel::rigid;
     double threshold     = 1.; ///< factors below it are failures [-]
 
     void declare(dealii::ParameterHandler &prm);

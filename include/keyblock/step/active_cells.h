@@ -81,7 +81,7 @@ namespace Keyblock
     void reduce_strength(const double share);
 
     /** Set cells.beta for stiffness-proportional damping. */
-    void set_damping(const double damping_ratio);
+    void set_damping(const Stage &stage);
 
     /** Set masses that give all cells the lowest frequency of them, or those
      * of `mass_scaling`, the true ones without it; nodes held in all directions

@@ -71,7 +71,7 @@ namespace Keyblock
     void scale_density(const bool is_scaled);
 
     /** Prepare for stiffness-proportional damping of this ratio [-]. */
-    void set_damping(const double damping_ratio);
+    void set_damping(const Stage &stage);
 
     /** Whether an element has a force by velocities. */
     bool

@@ -35,8 +35,11 @@ namespace Keyblock
   struct MotionOfStep
   {
     const Fields<dim> &fields; ///< velocities before the kick, other forces
+    double time;               ///< [s]
+    double step;               ///< since forces were asked for last; 0: again
     double kick;               ///< [s]
     double mass_damping;       ///< of the stage [1/s]
+    double stiffness_damping;  ///< of the stage, but for Damping ratio [s]
   };
 
   /** Stiffness W C W^T that couples many nodes, of low rank. */
@@ -84,6 +87,11 @@ namespace Keyblock
      * may be asked for more than once (collective) [m, N]. */
     virtual void add_force(const std::vector<double> &displacement,
                            std::vector<double> &force) = 0;
+
+    /** Velocities are set to zero. */
+    virtual void
+    stop_motion()
+    {}
 
     /** Whether it has a force by velocities. */
     virtual bool

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_scene_domain_h
+#define keyblock_scene_domain_h
+
+#include <deal.II/base/point.h>
+
+#include <keyblock/scene/choices.h>
+
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace Keyblock
+{
+  using dealii::ParameterHandler;
+  using dealii::Point;
+
+  /** The body of ground that is modelled, before anything is excavated. */
+  template <int dim>
+  struct Domain
+  {
+    DomainShape shape = DomainShape::box;
+    Point<dim> corner;
+    std::vector<double> size;
+    std::vector<Point<dim>> edges;
+    std::vector<Point<dim>> polygon;
+    std::string file;
+    std::vector<std::string> truncated_boundaries = {"all"};
+    Point<dim> origin; ///< grid coordinates of the model's (0, 0, 0) [m]
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** How the domain is cut into cells. */
+  template <int dim>
+  struct Meshing
+  {
+    MeshGenerator generator = MeshGenerator::structured;
+    std::vector<unsigned int> cells;
+    std::vector<std::string> gradings;
+    double size               = 0.;
+    double size_at_excavation = 0.;
+    double size_at_joints     = 0.;
+    double grading_distance   = 0.;
+    double cells_across       = 0.;
+    double least_size         = 0.;
+    double joint_tolerance    = 1e-6;
+    double snap               = 0.2;
+
+    // local refinement
+    std::vector<double> refine_at_excavations;
+    std::vector<double> refine_at_joints;
+    std::string refinement_levels;
+
+    bool
+    is_refined() const
+    {
+      return !refine_at_excavations.empty() || !refine_at_joints.empty() ||
+             !refinement_levels.empty();
+    }
+
+    void declare(ParameterHandler &prm);
+  };
+
+  /** A region that is excavated out in one stage. */
+  template <int dim>
+  struct Excavation
+  {
+    std::string name;
+    ExcavationShape shape = ExcavationShape::polygon;
+    std::vector<Point<2>> vertices;
+    Point<dim> corner;
+    std::vector<double> size;
+    Point<2> center;
+    double radius         = 0.;
+    double width          = 0.;
+    double height         = 0.;
+    double rise           = 0.;
+    unsigned int segments = 24;
+    std::vector<double> bench_levels;
+    std::vector<std::string> bench_stages;
+    double from = 0.;
+    double to   = 0.;
+    std::string formula;
+    std::string file;
+    double scale      = 1.; ///< length of the file's unit [m]
+    std::string stage = "start";
+    std::string backfill_stage;
+    std::string backfill_material;
+
+    /** Whether Center, Width and Height say what it is: polygons for all but
+     * the reader of entries (Scene::make_profiles). */
+    bool
+    is_profile() const
+    {
+      return shape == ExcavationShape::rectangle ||
+             shape == ExcavationShape::horseshoe ||
+             shape == ExcavationShape::cavern;
+    }
+
+    void declare(ParameterHandler &prm);
+  };
+} // namespace Keyblock
+
+#endif

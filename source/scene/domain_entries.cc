@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Entries of domain, mesh and excavations: name, default, range, unit and
+// meaning.
+#include <deal.II/base/parameter_handler.h>
+
+#include <keyblock/scene/choice_patterns.h>
+#include <keyblock/scene/domain.h>
+#include <keyblock/scene/entry_patterns.h>
+
+namespace Keyblock
+{
+  using namespace EntryPatterns;
+
+  template <int dim>
+  void
+  Domain<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Shape",
+                      shape,
+                      "box: axis-parallel, by Corner and Size; parallelepiped: "
+                      "by Corner and Edges; polygon (2D): by Polygon; file: "
+                      "whatever the mesh in File covers.");
+    prm.add_parameter("Corner", corner, "The corner with least x, y (z) [m].");
+    prm.add_parameter("Size", size, "Lengths along x, y (z) of a box [m].");
+    prm.add_parameter("Edges",
+                      edges,
+                      "Edge vectors of a parallelepiped from Corner [m], for "
+                      "example `1, 0; 0, 2`; they must be right-handed.");
+    prm.add_parameter(
+      "Polygon",
+      polygon,
+      "Corners of a 2D domain in order [m], `x, y; x, y; ...`.");
+    prm.add_parameter("File",
+                      file,
+                      "Mesh file: Gmsh .msh, Abaqus .inp, VTK .vtk, UCD .ucd, "
+                      "relative to the scene file. Triangles, tetrahedra and "
+                      "wedges are cut into quadrilaterals and hexahedra.");
+    prm.add_parameter(
+      "Truncated boundaries",
+      truncated_boundaries,
+      "Outer boundaries beyond which the rock goes on: a block "
+      "that touches one is infinite. Names left, right, bottom, "
+      "top, front, back, all, none, or `id N` for a "
+      "boundary of a mesh file.");
+    prm.add_parameter("Origin",
+                      origin,
+                      "Coordinates of the model's origin in the grid of the "
+                      "table Joints/File: they are subtracted from the table's "
+                      "coordinates, so that the model has small numbers [m].");
+  }
+
+
+  template <int dim>
+  void
+  Meshing<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Generator",
+                      generator,
+                      "structured: equal cells in a box or parallelepiped "
+                      "(joints and excavations must follow cell faces); gmsh: "
+                      "a mesh that follows joints and excavations; file: "
+                      "Domain/File.");
+    prm.add_parameter("Cells",
+                      cells,
+                      "Structured: number of cells along each edge.");
+    prm.add_parameter("Gradings",
+                      gradings,
+                      "Structured: for each edge, either `uniform` or a ratio "
+                      "of the last cell's length to the first's.");
+    prm.add_parameter("Size",
+                      size,
+                      "Gmsh: cell size far away [m]; 0 means a twentieth (2D) "
+                      "or a twelfth (3D) of the domain's longest side.",
+                      not_negative);
+    prm.add_parameter(
+      "Size at excavation",
+      size_at_excavation,
+      "Gmsh: cell size on the excavation [m]; 0 means Size, or, "
+      "if Cells across blocks or no Size is given, at most a "
+      "tenth of the narrowest excavation.",
+      not_negative);
+    prm.add_parameter("Size at joints",
+                      size_at_joints,
+                      "Gmsh: cell size on joints [m]; 0 means no request.",
+                      not_negative);
+    prm.add_parameter("Grading distance",
+                      grading_distance,
+                      "Gmsh: distance over which the size grows to Size [m]; 0 "
+                      "means a quarter of the domain.",
+                      not_negative);
+    prm.add_parameter(
+      "Cells across blocks",
+      cells_across,
+      "Number of cells that finite blocks near excavations (all finite blocks, "
+      "if nothing is excavated) are to have across their least width, in gmsh "
+      "meshes: the scene is meshed again with smaller cells where blocks have "
+      "fewer, at most three times. 0: sizes do not depend on blocks.",
+      Double(0., 50.));
+    prm.add_parameter("Least size",
+                      least_size,
+                      "Gmsh: the smallest cell size that Cells across blocks "
+                      "may ask for [m]; 0 means a quarter of Size at "
+                      "excavation.",
+                      not_negative);
+    prm.add_parameter(
+      "Joint tolerance",
+      joint_tolerance,
+      "Distance of a cell face's vertices from a joint, as a fraction of the "
+      "face's size, within which the face lies on the joint [-].",
+      Double(0., 0.1));
+    prm.add_parameter(
+      "Snap",
+      snap,
+      "Distance, as a fraction of the edge length wanted there (2.6 cell sizes "
+      "in 2D, 3 in 3D), within which vertices are moved onto a joint that is "
+      "cut into a gmsh mesh, where joints cannot be followed exactly with "
+      "cells of a good shape [-]. Larger: larger time steps; smaller: joints "
+      "and thin blocks more exact. 0: joints are always followed exactly, or "
+      "the scene is refused.",
+      Double(0., 0.45));
+    prm.add_parameter("Refine at excavations",
+                      refine_at_excavations,
+                      "Distances from outlines of excavations [m], decreasing: "
+                      "cells nearer than the first are halved once, nearer "
+                      "than the second twice, and so on.");
+    prm.add_parameter(
+      "Refine at joints",
+      refine_at_joints,
+      "Distances from joints [m], decreasing: cells nearer than the first are "
+      "halved once, nearer than the second twice, and so on.");
+    prm.add_parameter(
+      "Refinement levels",
+      refinement_levels,
+      "A formula in x, y (z): how often cells are halved whose centre is "
+      "there. A box: `2 * (abs(x) < 5) * (abs(y) < 8)`.");
+  }
+
+
+  template <int dim>
+  void
+  Excavation<dim>::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Shape",
+      shape,
+      "polygon (2D): Vertices; circle (2D): Center and Radius, "
+      "arcs kept; box: Corner and Size; extruded polygon "
+      "(3D): Vertices in the x-z plane, From and To along y; "
+      "rectangle, horseshoe (half a circle on walls), cavern "
+      "(an arch of Rise on walls): Center, Width and Height, in "
+      "3D along y as an extruded polygon; file: the solids of File (3D), "
+      "or the closed outline in it (2D); "
+      "formula (structured and file meshes): Formula.");
+    prm.add_parameter(
+      "Formula",
+      formula,
+      "A formula in x, y (z) that is positive at the centres of "
+      "the cells excavated out.");
+    prm.add_parameter("File",
+                      file,
+                      "File of the shape file, relative to the scene's: solids "
+                      "from STEP or BREP (.step, .stp, .brep) or a closed "
+                      "surface of triangles (.stl), in 2D a closed polyline "
+                      "(.dxf).");
+    prm.add_parameter("Scale",
+                      scale,
+                      "Length of the unit of .stl and .dxf files [m]; STEP "
+                      "files name theirs.",
+                      positive);
+    prm.add_parameter("Vertices", vertices, "Corners in order [m].");
+    prm.add_parameter("Corner",
+                      corner,
+                      "The corner with least coordinates [m].");
+    prm.add_parameter("Size", size, "Lengths along the axes [m].");
+    prm.add_parameter("Center",
+                      center,
+                      "Centre of the circle; middle of the floor of a "
+                      "rectangle, horseshoe or cavern, in 3D its x and z [m].");
+    prm.add_parameter("Width",
+                      width,
+                      "Width of a rectangle, horseshoe or cavern [m].",
+                      not_negative);
+    prm.add_parameter("Height",
+                      height,
+                      "Height of it, from the floor to the crown [m].",
+                      not_negative);
+    prm.add_parameter("Rise",
+                      rise,
+                      "Rise of a cavern's arch above its springs [m].",
+                      not_negative);
+    prm.add_parameter("Segments",
+                      segments,
+                      "Number of chords of the crown.",
+                      Integer(2, 1000));
+    prm.add_parameter("Bench levels",
+                      bench_levels,
+                      "Elevations at which it is parted into benches, from the "
+                      "top down [m]. What is above the first is excavated in "
+                      "Stage.");
+    prm.add_parameter("Bench stages",
+                      bench_stages,
+                      "Name of the stage that excavates what is below each of "
+                      "Bench levels. The parts are called NAME bench 1, NAME "
+                      "bench 2, ...");
+    prm.add_parameter("Radius",
+                      radius,
+                      "Radius of the circle [m].",
+                      not_negative);
+    prm.add_parameter("From", from, "Extrusion: least y [m].");
+    prm.add_parameter("To", to, "Extrusion: greatest y [m].");
+    prm.add_parameter("Stage",
+                      stage,
+                      "Name of the stage that excavates the region; start: the "
+                      "region is empty from the beginning.");
+    prm.add_parameter("Backfill stage",
+                      backfill_stage,
+                      "Name of a later stage that fills it, unstressed; empty: "
+                      "none.");
+    prm.add_parameter("Backfill material",
+                      backfill_material,
+                      "Name of the material it is filled with.");
+  }
+
+  template struct Domain<2>;
+  template struct Domain<3>;
+  template struct Meshing<2>;
+  template struct Meshing<3>;
+  template struct Excavation<2>;
+  template struct Excavation<3>;
+} // namespace Keyblock
