@@ -79,3 +79,11 @@ keyblock_restart(teams_20 verification/factor_incline RANKS 2 SLOW
 # cells at rest
 keyblock_restart(pulse verification/pulse RANKS 2
   ARGUMENTS --ranks 2 --set "Time stepping/Rest speed=1e-3")
+# shotcrete that yields under a block that moves off, and is sprayed with the stage
+keyblock_restart(lined_roof verification/lined_roof
+  ARGUMENTS --set "Shotcrete/shell/Thickness=0.02" --set "Stages/dig/Maximum steps=3000")
+# ground beside the model that moves
+keyblock_restart(free_field verification/free_field ARGUMENTS
+  --set "Stages/shake/Duration=0.3")
+keyblock_restart(free_field_2 verification/free_field RANKS 2
+  ARGUMENTS --ranks 2 --set "Stages/shake/Duration=0.3")

@@ -3,7 +3,7 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
-#include <keyblock/mesh/excavation_region.h>
+#include <keyblock/blocks/liner_layout.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,55 +24,6 @@ namespace Keyblock
 
     template <int dim>
     using Outline = std::vector<Piece<dim>>;
-
-    /** Whether a face with the normal @p inward is of one of the parts. */
-    template <int dim>
-    bool
-    is_of_parts(const Tensor<1, dim> &inward,
-                const std::vector<std::string> &parts)
-    {
-      const double up        = inward[dim - 1];
-      const std::string part = std::abs(up) < std::sqrt(0.5) ? "walls"
-                               : up > 0.                     ? "roof"
-                                                             : "floor";
-      return std::find(parts.begin(), parts.end(), part) != parts.end();
-    }
-
-    /** Free faces of the rock beside one of the set's excavations. */
-    template <int dim>
-    std::vector<CellFace>
-    list_faces(const BoltSet<dim> &set, const Ground<dim> &ground)
-    {
-      const Mesh<dim> &mesh = ground.split.mesh;
-      std::vector<CellFace> found;
-      for (const CellFace &f : list_free_faces(ground))
-        {
-          if (mesh.boundary[f.cell][f.face] != none)
-            continue;
-          const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
-          const double depth = 1e-3 * std::pow(area.norm(), 1. / (dim - 1));
-          const Point<dim> outside =
-            mesh.face_center(f.cell, f.face) + depth / area.norm() * area;
-          const unsigned int across = mesh.neighbor[f.cell][f.face];
-          for (unsigned int e = 0; e < ground.scene.excavations.size(); ++e)
-            {
-              const auto &excavation = *ground.scene.excavations[e];
-              if (std::find(set.excavations.begin(),
-                            set.excavations.end(),
-                            excavation.name) == set.excavations.end())
-                continue;
-              if ((across != none && mesh.excavation_stage[across] > 0 &&
-                   mesh.excavation[across] == e) ||
-                  (excavation.shape != ExcavationShape::formula &&
-                   depth_inside(excavation, outside) > 0.))
-                {
-                  found.push_back(f);
-                  break;
-                }
-            }
-        }
-      return found;
-    }
 
     /** Where the plane of a ring cuts a face: nothing, or a piece. */
     void
@@ -287,7 +238,8 @@ namespace Keyblock
                   const unsigned int index,
                   const Ground<dim> &ground)
   {
-    const std::vector<CellFace> faces = list_faces(set, ground);
+    const std::vector<CellFace> faces =
+      list_excavation_faces(ground, set.excavations);
     std::vector<Bolt<dim>> pattern;
     if (!faces.empty())
       {

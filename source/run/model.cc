@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/blocks/bolt_layout.h>
+#include <keyblock/blocks/liner_layout.h>
 #include <keyblock/run/model.h>
 #include <keyblock/scene/step_count.h>
 
@@ -30,6 +31,7 @@ namespace Keyblock
     mesh_report            = mesh.report;
     split                  = split_mesh(mesh, blocks, scene);
     split.bolts            = lay_out_bolts(scene, split);
+    split.liners           = lay_out_liners(scene, split);
   }
 
 

@@ -4,6 +4,7 @@
 #include <keyblock/base/stop_request.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/bolt_layout.h>
+#include <keyblock/blocks/liner_layout.h>
 #include <keyblock/run/probability_study.h>
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/scene/check_parts.h>
@@ -159,6 +160,7 @@ namespace Keyblock
     result.shares_faces           = !mesh.report.merged.empty();
     result.split                  = split_mesh(mesh, result.blocks, sample);
     result.split.bolts            = lay_out_bolts(sample, result.split);
+    result.split.liners           = lay_out_liners(sample, result.split);
     return result;
   }
 

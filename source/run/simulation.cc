@@ -291,7 +291,8 @@ namespace Keyblock
     report.contact_time   = model.step->contact_seconds;
     report.force_time     = model.step->force_seconds;
     report.mass_scaling   = model.conditions->active_cells.mass_scaling;
-    report.bolts = list_figures(model.conditions->report_bolts(), model.scene);
+    report.bolts  = list_figures(model.conditions->report_bolts(), model.scene);
+    report.liners = model.conditions->report_liners();
     report.skipped_steps = model.communicator.sum(model.step->n_skipped);
     report.capped_groups =
       model.communicator.sum(model.contact ? model.contact->tally.n_capped : 0);

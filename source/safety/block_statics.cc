@@ -31,7 +31,7 @@ namespace Keyblock
         , block(blocks.blocks[block])
         , around(statics.around)
         , limit(statics.limit)
-        , bolts(statics.bolts)
+        , support(statics.support)
         , remarks(statics.remarks)
       {}
 
@@ -62,13 +62,13 @@ namespace Keyblock
       void
       add_support()
       {
-        if (!bolts.pulls.empty())
-          add() << "with " << bolts.describe() << ", "
+        if (!support.is_empty())
+          add() << "with " << support.describe() << ", "
                 << name_of(scene.safety.bolt_convention);
         if (scene.safety.wanted == 0.)
           return;
-        const SupportDemand demand =
-          find_demand(ground, free, index, around, bolts, scene.safety.wanted);
+        const SupportDemand demand = find_demand(
+          ground, free, index, around, support, scene.safety.wanted);
         if (demand.force == 0.)
           return;
         add() << "a factor of " << scene.safety.wanted;
@@ -271,7 +271,7 @@ namespace Keyblock
       const Block<dim> &block;
       const BlockSurroundings<dim> &around;
       const LimitEquilibrium<dim> &limit;
-      const BlockBolts<dim> &bolts;
+      const BlockSupport<dim> &support;
       std::vector<std::string> &remarks;
       std::ostringstream last;
     };
@@ -289,17 +289,21 @@ namespace Keyblock
   {
     BlockStatics<dim> statics;
     statics.around = look_around(ground, free, blocks.blocks[block], time);
-    const BlockLoads<dim> &loads   = statics.around.loads;
-    statics.bolts                  = find_bolts_of_block(ground, block);
-    statics.limit                  = solve_with_bolts<dim>(statics.around.faces,
-                                          loads.without_water(),
-                                          statics.bolts,
-                                          ground.scene.safety.bolt_convention ==
-                                            BoltConvention::passive);
-    const double factor_of_sliding = statics.limit.factor;
+    const BlockLoads<dim> &loads = statics.around.loads;
+    statics.support              = find_support_of_block(ground, block, time);
+    statics.limit =
+      solve_with_support<dim>(statics.around.faces,
+                              loads.without_water(),
+                              statics.support,
+                              ground.scene.safety.bolt_convention ==
+                                BoltConvention::passive);
+    const double factor_of_sliding      = statics.limit.factor;
     std::vector<PointForce<dim>> forces = loads.all();
-    for (const auto &pull : statics.bolts.pulls)
+    for (const auto &pull : statics.support.pulls)
       forces.push_back({pull.place, pull.force * pull.along});
+    if (statics.support.shotcrete_weight.norm() > 0.)
+      forces.push_back(
+        {statics.support.shotcrete_center, statics.support.shotcrete_weight});
     const Rotation rotation =
       judge_rotation<dim>(statics.around.faces, forces, statics.limit);
     Remarks<dim> remarks(ground, free, blocks, block, statics);

@@ -33,6 +33,24 @@ namespace Keyblock
       require(!support.is_quiet() || support.displacement.empty(),
               who + "is quiet, which no 'Displacement' can be given to; set "
                     "'Velocity' for the wave that it lets in.");
+      require(!support.is_free_field() ||
+                (support.velocity.empty() && !support.history),
+              who + "is a free field with a 'Velocity' or a 'History file'; "
+                    "the ground beside it is moved by the support of the "
+                    "boundary bottom, give them there.");
+    }
+
+    /** Whether a support holds or moves the bottom of the model. */
+    template <int dim>
+    bool
+    has_foot(const Scene<dim> &scene)
+    {
+      for (const auto &support : scene.supports)
+        if (!support->is_free_field())
+          for (const std::string &name : support->boundaries)
+            if (name == "bottom" || name == "all")
+              return true;
+      return false;
     }
   } // namespace
 
@@ -52,6 +70,11 @@ namespace Keyblock
                   (support->is_quiet() ? "quiet" : "a far field") +
                   ", which needs 'Boundaries'; name them.");
         check_motion(*support);
+        require(!support->is_free_field() || has_foot(scene),
+                "The support '" + support->name +
+                  "' is a free field, but no other support names the boundary "
+                  "bottom, on which the ground beside the model stands; add "
+                  "one, held, moved or quiet.");
         require(scene.stage_number(support->stage) < scene.stages.size() + 2,
                 "The entry '" + section + "/Stage' is '" + support->stage +
                   "', which is not in 'Stages/Names'; name a stage there, or "

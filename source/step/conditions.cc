@@ -57,6 +57,13 @@ namespace Keyblock
         bolts         = of_scene.get();
         elements.push_back(std::move(of_scene));
       }
+    if (!split.liners.empty())
+      {
+        auto sprayed =
+          std::make_unique<Shotcrete<dim>>(scene, split, numbering);
+        shotcrete = sprayed.get();
+        elements.push_back(std::move(sprayed));
+      }
   }
 
 

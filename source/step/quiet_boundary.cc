@@ -32,10 +32,11 @@ namespace Keyblock
     , numbering(numbering)
     , is_excavated(split.mesh.n_cells(), false)
     , acts(scene.supports.size(), false)
+    , free_field(scene, split, numbering)
     , dead_load(dim * numbering.n_owned(), 0.)
   {
     for (const auto &support : scene.supports)
-      waves.push_back(support->is_quiet() && !support->velocity.empty()
+      waves.push_back(!support->velocity.empty()
                         ? std::make_unique<Expression<dim>>(
                             support->velocity, dim, "Supports/*/Velocity")
                         : nullptr);
@@ -127,6 +128,15 @@ namespace Keyblock
           at_nodes.push_back({place[0], {}, {}});
         at_nodes.back().impedance += impedance;
       }
+    free_field.find_sides(acts, is_excavated, [this](const unsigned int node) {
+      return std::lower_bound(at_nodes.begin(),
+                              at_nodes.end(),
+                              node,
+                              [](const Node &entry, const unsigned int n) {
+                                return entry.node < n;
+                              }) -
+             at_nodes.begin();
+    });
   }
 
 
@@ -158,8 +168,19 @@ namespace Keyblock
                                         std::vector<double> &force)
   {
     const Fields<dim> &fields = motion.fields;
-    for (Node &entry : at_nodes)
+    if (!free_field.is_empty())
+      free_field.advance(motion,
+                         acts,
+                         [this](const unsigned int support,
+                                const Point<dim> &place,
+                                const double time) {
+                           return incoming_velocity(support, place, time);
+                         });
+    drive.assign(at_nodes.size(), Tensor<1, dim>());
+    free_field.add_drive(drive);
+    for (unsigned int i = 0; i < at_nodes.size(); ++i)
       {
+        Node &entry              = at_nodes[i];
         const unsigned int first = dim * entry.node;
         const double half        = 0.5 * motion.kick;
         const double factor      = half * fields.inverse_mass[entry.node];
@@ -167,12 +188,12 @@ namespace Keyblock
         for (unsigned int d = 0; d < dim; ++d)
           middle[d] =
             fields.velocity[first + d] * (1. - half * motion.mass_damping) +
-            factor * (fields.load[first + d] -
+            factor * (fields.load[first + d] + drive[i][d] -
                       fields.internal_force[first + d] - force[first + d]);
         Tensor<2, dim> slowed = factor * entry.impedance;
         for (unsigned int d = 0; d < dim; ++d)
           slowed[d][d] += 1.;
-        entry.force = invert(slowed) * (entry.impedance * middle);
+        entry.force = invert(slowed) * (entry.impedance * middle) - drive[i];
         for (unsigned int d = 0; d < dim; ++d)
           force[first + d] += entry.force[d];
       }
@@ -218,7 +239,7 @@ namespace Keyblock
   QuietBoundary<dim>::is_load_changing() const
   {
     for (unsigned int s = 0; s < acts.size(); ++s)
-      if (acts[s] && (waves[s] || scene.supports[s]->history))
+      if (acts[s] && has_wave(s))
         return true;
     return false;
   }
@@ -233,7 +254,7 @@ namespace Keyblock
     for (unsigned int i = 0; i < dead_load.size(); ++i)
       load[i] += dead_load[i];
     for (const Dashpot &dashpot : dashpots)
-      if (waves[dashpot.support] || scene.supports[dashpot.support]->history)
+      if (has_wave(dashpot.support))
         {
           const Point<dim> &place =
             split.mesh.vertices[numbering.vertex_of_node[dashpot.node]];
@@ -251,7 +272,12 @@ namespace Keyblock
   ForceElementState
   QuietBoundary<dim>::remember() const
   {
-    return {name(), std::vector<double>(acts.begin(), acts.end()), dead_load};
+    ForceElementState state{name(),
+                            std::vector<double>(acts.begin(), acts.end()),
+                            dead_load};
+    const std::vector<double> ground = free_field.remember();
+    state.numbers.insert(state.numbers.end(), ground.begin(), ground.end());
+    return state;
   }
 
 
@@ -263,6 +289,7 @@ namespace Keyblock
     for (unsigned int s = 0; s < acts.size(); ++s)
       acts[s] = state.numbers.at(s) != 0.;
     dead_load = state.nodal;
+    free_field.recall(state.numbers.data() + acts.size());
     find_dashpots();
   }
 

@@ -58,6 +58,23 @@ keyblock_scene(verification/quiet_column REFERENCES quiet_column_wave RANKS 1
 keyblock_scene(verification/quiet_column REFERENCES quiet_column_at_rest
   RANKS 1 2 SET "Initial state/Velocity=" "Initial state/Gravity=0@ -9.81"
   "Initial state/Equilibrium=static")
+keyblock_scene(verification/free_field RANKS 1 2)
+keyblock_scene(verification/free_field REFERENCES free_field_pressure RANKS 1
+  SET "Supports/bottom/Velocity=0@ if(t < 0.1, 0.05 * (1 - cos(20 * pi * t)), 0)")
+keyblock_scene(verification/free_field REFERENCES free_field_doubled RANKS 1
+  SET "Materials/soft/Young modulus=2.5e9" "Materials/soft/Density=2500"
+  "Materials/soft/Poisson ratio=0.25" "Mesh/Cells=20, 60"
+  "Stages/shake/Duration=0.144868329805")
+keyblock_scene(verification/free_field REFERENCES free_field_gmsh RANKS 1 2
+  SET "Mesh/Generator=gmsh" "Mesh/Size=2.5")
+keyblock_scene(verification/free_field REFERENCES free_field_held RANKS 1
+  SET "Supports/bottom/Kind=held")
+keyblock_scene(verification/free_field_3d RANKS 1 2)
+keyblock_scene(verification/rayleigh RANKS 1 2)
+keyblock_scene(verification/rayleigh REFERENCES rayleigh_mass RANKS 1
+  SET "Stages/swing/Rayleigh terms=mass")
+keyblock_scene(verification/rayleigh REFERENCES rayleigh_stiffness RANKS 1
+  SET "Stages/swing/Rayleigh terms=stiffness")
 keyblock_scene(verification/joint_wave RANKS 1 2)
 keyblock_scene(verification/joint_wave REFERENCES joint_wave_tenth RANKS 1
   SET "Joints/joint/Cohesion=1e4")
@@ -199,6 +216,12 @@ keyblock_scene(verification/cohesive_incline
   SET "Joints/base/Tensile strength=1000")
 # clamped: pressure, friction angle
 keyblock_scene(verification/roof_clamped RANKS 1 2)
+keyblock_scene(verification/lined_roof RANKS 1 2)
+keyblock_scene(verification/lined_roof REFERENCES lined_roof_weight RANKS 1
+  SET "Shotcrete/shell/Density=2400")
+keyblock_scene(verification/lined_roof REFERENCES lined_roof_thin RANKS 1
+  SET "Shotcrete/shell/Thickness=0.02")
+keyblock_scene(verification/lined_roof_3d RANKS 1 2)
 keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_20 RANKS 1
   SET "Tractions/push/Traction=-20e3@ 0"
   "Initial state/Stress=-20e3@ 0@ -4e3@ 0")

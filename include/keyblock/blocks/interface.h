@@ -4,6 +4,7 @@
 
 #include <keyblock/blocks/blocks.h>
 #include <keyblock/blocks/bolt.h>
+#include <keyblock/blocks/laid_liner.h>
 
 namespace Keyblock
 {
@@ -79,7 +80,8 @@ namespace Keyblock
      * they carry no mass and are in no pair. */
     std::vector<HangingVertex> hanging;
 
-    std::vector<Bolt<dim>> bolts; ///< of the scene, see lay_out_bolts()
+    std::vector<Bolt<dim>> bolts;       ///< of the scene, see lay_out_bolts()
+    std::vector<LaidLiner<dim>> liners; ///< the same, see lay_out_liners()
 
     /** Call @p action(vertex, weight) for each vertex that carries what acts at
      * @p vertex: itself, or its masters if it hangs. */

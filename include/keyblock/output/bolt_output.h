@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <keyblock/step/bolts.h>
+#include <keyblock/step/shotcrete.h>
 
 namespace Keyblock
 {
@@ -40,6 +41,11 @@ namespace Keyblock
 
   /** They stand in summary.json so. */
   nlohmann::ordered_json bolts_as_json(const std::vector<BoltFigures> &bolts);
+
+  /** Shotcrete stands there so. */
+  template <int dim>
+  nlohmann::ordered_json liners_as_json(const std::vector<LinerReport> &liners,
+                                        const Scene<dim> &scene);
 } // namespace Keyblock
 
 #endif

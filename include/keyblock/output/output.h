@@ -60,6 +60,7 @@ namespace Keyblock
     double step_ratio = 1.; ///< least over median of the cells at the start
     std::vector<MassScaling> mass_scaling; ///< at the end, by block
     std::vector<BoltFigures> bolts;        ///< at the end
+    std::vector<LinerReport> liners;       ///< at the end
     std::vector<std::string> warnings;     ///< of the scene and its set-up
     std::vector<std::string> overrides;    ///< "Section/Entry=value"
   };

@@ -2,8 +2,8 @@
 #ifndef keyblock_safety_block_statics_h
 #define keyblock_safety_block_statics_h
 
-#include <keyblock/safety/block_bolts.h>
 #include <keyblock/safety/block_rotation.h>
+#include <keyblock/safety/block_support.h>
 
 #include <iosfwd>
 
@@ -14,7 +14,7 @@ namespace Keyblock
   struct BlockStatics
   {
     BlockSurroundings<dim> around;
-    BlockBolts<dim> bolts;
+    BlockSupport<dim> support;
     LimitEquilibrium<dim> limit;
 
     /** What is special, and what was left out. */

@@ -7,6 +7,7 @@
 #include <keyblock/step/far_field_springs.h>
 #include <keyblock/step/loads.h>
 #include <keyblock/step/quiet_boundary.h>
+#include <keyblock/step/shotcrete.h>
 #include <keyblock/step/supports.h>
 
 #include <algorithm>
@@ -113,6 +114,13 @@ namespace Keyblock
       return bolts ? bolts->report() : std::vector<BoltReport<dim>>();
     }
 
+    /** What shotcrete bears. */
+    std::vector<LinerReport>
+    report_liners() const
+    {
+      return shotcrete ? shotcrete->report() : std::vector<LinerReport>();
+    }
+
     /** Set fields.load to all loads at @p time. */
     void set_load(const double time);
 
@@ -147,6 +155,7 @@ namespace Keyblock
 
     FarFieldSprings<dim> *far_field = nullptr; ///< one of elements, if any
     Bolts<dim> *bolts               = nullptr; ///< the same
+    Shotcrete<dim> *shotcrete       = nullptr; ///< the same
     QuietBoundary<dim> *quiet       = nullptr; ///< the same
   };
 } // namespace Keyblock

@@ -4,7 +4,7 @@
 
 #include <keyblock/base/expression.h>
 #include <keyblock/base/time_series.h>
-#include <keyblock/step/force_element.h>
+#include <keyblock/step/free_field.h>
 
 namespace Keyblock
 {
@@ -18,8 +18,9 @@ namespace Keyblock
                                  const Tensor<1, dim> &n);
 
   /**
-   * Supports of kind quiet: dashpots that let waves out of the model and, if a
-   * wave is given, let it in. A support holds its nodes until the stage that it
+   * Supports of kind quiet and free field: dashpots that let waves out of the
+   * model and, if a wave is given or ground beside the model moves (FreeField),
+   * let it in. A support holds its nodes until the stage that it
    * names; from then on what it carried stays as a dead load. With impedance C,
    * velocity v and the incoming wave's particle velocity w the traction is
    * 2 C w - C v: outgoing and incoming waves add up without disturbing each
@@ -67,6 +68,11 @@ namespace Keyblock
     add_force(const std::vector<double> &, std::vector<double> &) override
     {}
     bool is_viscous() const override;
+    void
+    stop_motion() override
+    {
+      free_field.stop_motion();
+    }
     void add_damping_force(const MotionOfStep<dim> &motion,
                            std::vector<double> &force) override;
     double damping_work(const Fields<dim> &fields,
@@ -104,8 +110,15 @@ namespace Keyblock
 
     void find_dashpots();
 
-    /** Particle velocity of the wave that support number @p support lets in
-     * [m/s]. */
+    /** Whether a support lets a wave in that Velocity or a history gives. */
+    bool
+    has_wave(const unsigned int support) const
+    {
+      return waves[support] || scene.supports[support]->history;
+    }
+
+    /** Particle velocity of the wave that support number @p support lets in, or
+     * the velocity that it prescribes [m/s]. */
     Tensor<1, dim> incoming_velocity(const unsigned int support,
                                      const Point<dim> &place,
                                      const double time) const;
@@ -119,7 +132,9 @@ namespace Keyblock
     std::vector<std::unique_ptr<Expression<dim>>> waves; ///< by support
     std::vector<Dashpot> dashpots;
     std::vector<Node> at_nodes;
-    std::vector<double> dead_load; ///< by owned degree of freedom [N]
+    FreeField<dim> free_field;
+    std::vector<Tensor<1, dim>> drive; ///< of the free field, by node [N]
+    std::vector<double> dead_load;     ///< by owned degree of freedom [N]
   };
 } // namespace Keyblock
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/safety/block_bolts.h>
+#include <keyblock/safety/block_support.h>
 
+#include <keyblock/base/expression.h>
 #include <keyblock/blocks/bolt_layout.h>
 
 #include <cmath>
@@ -22,7 +23,7 @@ namespace Keyblock
 
   template <int dim>
   Tensor<1, dim>
-  BlockBolts<dim>::force() const
+  BlockSupport<dim>::force() const
   {
     Tensor<1, dim> sum;
     for (const Pull &pull : pulls)
@@ -34,7 +35,7 @@ namespace Keyblock
 
   template <int dim>
   Tensor<1, dim>
-  BlockBolts<dim>::dowel_force(const Tensor<1, dim> &direction) const
+  BlockSupport<dim>::dowel_force(const Tensor<1, dim> &direction) const
   {
     Tensor<1, dim> sum;
     for (const Pull &pull : pulls)
@@ -50,11 +51,47 @@ namespace Keyblock
 
 
   template <int dim>
-  std::string
-  BlockBolts<dim>::describe() const
+  Tensor<1, dim>
+  BlockSupport<dim>::shotcrete_force(const Tensor<1, dim> &direction) const
   {
+    Tensor<1, dim> sum;
+    for (const auto &[trace, strength] : sections)
+      {
+        const Tensor<1, dim> sheared = trace.in_section(direction);
+        if (sheared.norm() > 1e-12)
+          sum -= strength / sheared.norm() * sheared;
+      }
+    return sum;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  BlockSupport<dim>::force_against(const Tensor<1, dim> &direction) const
+  {
+    return force() + dowel_force(direction) + shotcrete_force(direction);
+  }
+
+
+
+  template <int dim>
+  std::string
+  BlockSupport<dim>::describe() const
+  {
+    std::ostringstream out;
+    out.precision(4);
+    if (shotcrete_strength > 0.)
+      {
+        out << "shotcrete of " << 1e-3 * shotcrete_strength << " kN"
+            << (dim == 2 ? "/m" : "");
+        if (dim == 3)
+          out << " along " << shotcrete_length << " m";
+        if (!pulls.empty())
+          out << " and ";
+      }
     if (pulls.empty())
-      return "";
+      return out.str();
     std::map<std::string, unsigned int> limits;
     double sum = 0.;
     for (const Pull &pull : pulls)
@@ -62,8 +99,6 @@ namespace Keyblock
         ++limits[Keyblock::describe(pull.limit)];
         sum += pull.force;
       }
-    std::ostringstream out;
-    out.precision(4);
     out << pulls.size() << (pulls.size() == 1 ? " bolt" : " bolts") << " of "
         << 1e-3 * sum << " kN" << (dim == 2 ? "/m" : "") << " (";
     for (auto limit = limits.begin(); limit != limits.end(); ++limit)
@@ -79,11 +114,63 @@ namespace Keyblock
 
 
 
-  template <int dim>
-  BlockBolts<dim>
-  find_bolts_of_block(const Ground<dim> &ground, const unsigned int block)
+  namespace
   {
-    BlockBolts<dim> result;
+    template <int dim>
+    void
+    add_shotcrete(const Ground<dim> &ground,
+                  const unsigned int block,
+                  const double time,
+                  BlockSupport<dim> &support)
+    {
+      const Scene<dim> &scene = ground.scene;
+      double mass             = 0.;
+      for (unsigned int i = 0; i < ground.split.liners.size(); ++i)
+        {
+          const Liner &liner = *scene.liners[i];
+          if (scene.stage_number(liner.stage) > ground.stage_number)
+            continue;
+          for (const LinerTrace<dim> &trace : ground.split.liners[i].traces)
+            if ((trace.block[0] == block || trace.block[1] == block) &&
+                !ground.is_excavated(trace.cell[0]) &&
+                !ground.is_excavated(trace.cell[1]))
+              {
+                const double strength =
+                  liner.shear_strength * liner.thickness * trace.length;
+                support.shotcrete_length += trace.length;
+                support.shotcrete_strength += strength;
+                support.sections.emplace_back(trace, strength);
+              }
+          for (const LinerArea &part : ground.split.liners[i].areas)
+            if (part.block == block && !ground.is_excavated(part.cell))
+              {
+                const double m = part.area * liner.thickness * liner.density;
+                mass += m;
+                support.shotcrete_center +=
+                  m * Tensor<1, dim>(ground.split.mesh.vertices[part.vertex]);
+              }
+        }
+      if (mass == 0. || scene.initial_state.gravity.empty())
+        return;
+      support.shotcrete_center /= mass;
+      support.shotcrete_weight =
+        mass * Expression<dim>(scene.initial_state.gravity,
+                               dim,
+                               "Initial state/Gravity")
+                 .vector(support.shotcrete_center, time);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  BlockSupport<dim>
+  find_support_of_block(const Ground<dim> &ground,
+                        const unsigned int block,
+                        const double time)
+  {
+    BlockSupport<dim> result;
+    add_shotcrete(ground, block, time, result);
     for (const Bolt<dim> &bolt : ground.split.bolts)
       {
         const BoltSet<dim> &set = *ground.scene.bolts[bolt.set];
@@ -98,7 +185,7 @@ namespace Keyblock
             BoltChain chain(properties_of(set), bolt.places);
             chain.set_ground(list_held_nodes(bolt, ground));
             const BoltChain::Capacity capacity = chain.capacity(crossing.place);
-            typename BlockBolts<dim>::Pull pull;
+            typename BlockSupport<dim>::Pull pull;
             pull.place          = bolt.at(crossing.place);
             pull.along          = (is_near ? 1. : -1.) * bolt.direction();
             pull.force          = set.share() * capacity.force;
@@ -114,21 +201,22 @@ namespace Keyblock
 
   template <int dim>
   LimitEquilibrium<dim>
-  solve_with_bolts(std::vector<BlockFace<dim>> &faces,
-                   const Tensor<1, dim> &load,
-                   const BlockBolts<dim> &bolts,
-                   const bool is_passive)
+  solve_with_support(std::vector<BlockFace<dim>> &faces,
+                     const Tensor<1, dim> &load,
+                     const BlockSupport<dim> &support,
+                     const bool is_passive)
   {
-    LimitEquilibrium<dim> bare = solve_with_laws<dim>(faces, load);
-    if (bolts.pulls.empty() || bare.direction.norm() == 0.)
+    const Tensor<1, dim> all_load = load + support.shotcrete_weight;
+    LimitEquilibrium<dim> bare    = solve_with_laws<dim>(faces, all_load);
+    if (support.is_empty() || bare.direction.norm() == 0.)
       return bare;
     const Tensor<1, dim> way = bare.direction;
-    const Tensor<1, dim> all = bolts.force() + bolts.dowel_force(way);
+    const Tensor<1, dim> all = support.force_against(way);
     if (!is_passive)
-      return solve_with_laws<dim>(faces, load + all);
+      return solve_with_laws<dim>(faces, all_load + all);
     const double against = -(all * way);
     LimitEquilibrium<dim> held =
-      solve_with_laws<dim>(faces, load + all + against * way);
+      solve_with_laws<dim>(faces, all_load + all + against * way);
     if (held.driving_force > 0. && std::isfinite(held.factor))
       {
         const double driving = held.driving_force + std::max(0., -against);
@@ -147,7 +235,7 @@ namespace Keyblock
               const FreeFaces<dim> &free,
               const unsigned int block,
               const BlockSurroundings<dim> &around,
-              const BlockBolts<dim> &bolts,
+              const BlockSupport<dim> &support,
               const double factor)
   {
     Tensor<1, dim> area;
@@ -160,7 +248,7 @@ namespace Keyblock
     const Tensor<1, dim> load = around.loads.without_water();
     const auto factor_with    = [&](const double force) {
       std::vector<BlockFace<dim>> faces = around.faces;
-      BlockBolts<dim> more              = bolts;
+      BlockSupport<dim> more            = support;
       if (force > 0.)
         {
           more.pulls.emplace_back();
@@ -168,7 +256,7 @@ namespace Keyblock
           more.pulls.back().force = force;
         }
       const LimitEquilibrium<dim> limit =
-        solve_with_bolts<dim>(faces, load, more, is_passive);
+        solve_with_support<dim>(faces, load, more, is_passive);
       return limit.mode == LimitEquilibrium<dim>::Mode::lifting ? 0.
                                                                    : limit.factor;
     };
@@ -207,19 +295,20 @@ namespace Keyblock
   }
 
 #define INSTANTIATE(dim)                                                       \
-  template struct BlockBolts<dim>;                                             \
-  template BlockBolts<dim> find_bolts_of_block(const Ground<dim> &,            \
-                                               const unsigned int);            \
-  template LimitEquilibrium<dim> solve_with_bolts(                             \
+  template struct BlockSupport<dim>;                                           \
+  template BlockSupport<dim> find_support_of_block(const Ground<dim> &,        \
+                                                   const unsigned int,         \
+                                                   const double);              \
+  template LimitEquilibrium<dim> solve_with_support(                           \
     std::vector<BlockFace<dim>> &,                                             \
     const Tensor<1, dim> &,                                                    \
-    const BlockBolts<dim> &,                                                   \
+    const BlockSupport<dim> &,                                                 \
     const bool);                                                               \
   template SupportDemand find_demand(const Ground<dim> &,                      \
                                      const FreeFaces<dim> &,                   \
                                      const unsigned int,                       \
                                      const BlockSurroundings<dim> &,           \
-                                     const BlockBolts<dim> &,                  \
+                                     const BlockSupport<dim> &,                \
                                      const double);
   INSTANTIATE(2)
   INSTANTIATE(3)

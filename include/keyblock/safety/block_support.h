@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef keyblock_safety_block_bolts_h
-#define keyblock_safety_block_bolts_h
+#ifndef keyblock_safety_block_support_h
+#define keyblock_safety_block_support_h
 
 #include <keyblock/rock/bolt_chain.h>
 #include <keyblock/safety/block_faces.h>
 
 namespace Keyblock
 {
-  /** What bolts can do for a block: each bolt that goes from it into another
-   * one, or into it from there. */
+  /** What bolts and shotcrete can do for a block: each bolt that goes from it
+   * into another one, or into it from there, and the sections of shotcrete
+   * that it has to shear. */
   template <int dim>
-  struct BlockBolts
+  struct BlockSupport
   {
     struct Pull
     {
@@ -22,6 +23,22 @@ namespace Keyblock
     };
     std::vector<Pull> pulls;
 
+    double shotcrete_length   = 0.; ///< of traces under it [m]
+    double shotcrete_strength = 0.; ///< of its sections along them [N]
+
+    /** Sections by their normals, and the strength of each [N]. */
+    std::vector<std::pair<LinerTrace<dim>, double>> sections;
+
+    Tensor<1, dim> shotcrete_weight; ///< of that on the block [N]
+    Point<dim> shotcrete_center;     ///< where that acts [m]
+
+    bool
+    is_empty() const
+    {
+      return pulls.empty() && shotcrete_strength == 0. &&
+             shotcrete_weight.norm() == 0.;
+    }
+
     /** Sum of the forces along the bolts [N]. */
     Tensor<1, dim> force() const;
 
@@ -29,27 +46,35 @@ namespace Keyblock
      * (unit vector) [N]. */
     Tensor<1, dim> dowel_force(const Tensor<1, dim> &direction) const;
 
+    /** The same of sections of shotcrete [N]. */
+    Tensor<1, dim> shotcrete_force(const Tensor<1, dim> &direction) const;
+
+    /** What resists a motion of the block along @p direction (unit vector),
+     * and what bolts do besides [N]. */
+    Tensor<1, dim> force_against(const Tensor<1, dim> &direction) const;
+
     /** Number, capacity and what limits them, in words. */
     std::string describe() const;
   };
 
-  /** The bolts of @p block (index) that are installed at the stage of
-   * @p ground. */
+  /** Bolts and shotcrete of @p block (index) that are there at the stage of
+   * @p ground, the weight of shotcrete at a @p time. */
   template <int dim>
-  BlockBolts<dim> find_bolts_of_block(const Ground<dim> &ground,
-                                      const unsigned int block);
+  BlockSupport<dim> find_support_of_block(const Ground<dim> &ground,
+                                          const unsigned int block,
+                                          const double time);
 
   /**
-   * Limit equilibrium of a block on @p faces under @p load with bolts.
+   * Limit equilibrium of a block on @p faces under @p load with its support.
    * Active: their forces are a part of the load. Passive: of their part along
    * the way that the block would take without them, what is against it is added
    * to what resists (Hoek and Bray 1981).
    */
   template <int dim>
-  LimitEquilibrium<dim> solve_with_bolts(std::vector<BlockFace<dim>> &faces,
-                                         const Tensor<1, dim> &load,
-                                         const BlockBolts<dim> &bolts,
-                                         const bool is_passive);
+  LimitEquilibrium<dim> solve_with_support(std::vector<BlockFace<dim>> &faces,
+                                           const Tensor<1, dim> &load,
+                                           const BlockSupport<dim> &support,
+                                           const bool is_passive);
 
   /** What a wanted factor of a block asks for besides the support it has. */
   struct SupportDemand
@@ -67,7 +92,7 @@ namespace Keyblock
                             const FreeFaces<dim> &free,
                             const unsigned int block,
                             const BlockSurroundings<dim> &around,
-                            const BlockBolts<dim> &bolts,
+                            const BlockSupport<dim> &support,
                             const double factor);
 } // namespace Keyblock
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_blocks_laid_liner_h
+#define keyblock_blocks_laid_liner_h
+
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <vector>
+
+namespace Keyblock
+{
+  /** A piece of the trace of a joint under shotcrete: two vertices at one
+   * place, on the two sides. */
+  template <int dim>
+  struct LinerTrace
+  {
+    std::array<unsigned int, 2> vertex; ///< of the split mesh
+    std::array<unsigned int, 2> block;  ///< index into Blocks::blocks
+    std::array<unsigned int, 2> cell;   ///< under the shotcrete
+    unsigned int joint;                 ///< or `none`
+    double length;                      ///< [m]; in 2D 1 m, out of the plane
+
+    /** Unit normal of the section of the shotcrete there: in the face, across
+     * the trace. */
+    dealii::Tensor<1, dim> across;
+
+    /** The part of @p vector within the section. */
+    dealii::Tensor<1, dim>
+    in_section(const dealii::Tensor<1, dim> &vector) const
+    {
+      return vector - (vector * across) * across;
+    }
+  };
+
+  /** The part of the area under shotcrete that belongs to a vertex. */
+  struct LinerArea
+  {
+    unsigned int vertex, block, cell;
+    double area; ///< [m2]
+  };
+
+  /** Shotcrete on a mesh. */
+  template <int dim>
+  struct LaidLiner
+  {
+    std::vector<LinerTrace<dim>> traces;
+    std::vector<LinerArea> areas;
+  };
+} // namespace Keyblock
+
+#endif

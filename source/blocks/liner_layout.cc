@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/blocks/liner_layout.h>
+
+#include <keyblock/base/errors.h>
+#include <keyblock/base/expression.h>
+#include <keyblock/mesh/excavation_region.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+namespace Keyblock
+{
+  template <int dim>
+  std::vector<CellFace>
+  list_excavation_faces(const Ground<dim> &ground,
+                        const std::vector<std::string> &names)
+  {
+    const Mesh<dim> &mesh = ground.split.mesh;
+    std::vector<CellFace> found;
+    for (const CellFace &f : list_free_faces(ground))
+      {
+        if (mesh.boundary[f.cell][f.face] != none)
+          continue;
+        const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
+        const double depth = 1e-3 * std::pow(area.norm(), 1. / (dim - 1));
+        const Point<dim> outside =
+          mesh.face_center(f.cell, f.face) + depth / area.norm() * area;
+        const unsigned int across = mesh.neighbor[f.cell][f.face];
+        for (unsigned int e = 0; e < ground.scene.excavations.size(); ++e)
+          {
+            const auto &excavation = *ground.scene.excavations[e];
+            if (std::find(names.begin(), names.end(), excavation.name) ==
+                names.end())
+              continue;
+            if ((across != none && mesh.excavation_stage[across] > 0 &&
+                 mesh.excavation[across] == e) ||
+                (excavation.shape != ExcavationShape::formula &&
+                 depth_inside(excavation, outside) > 0.))
+              {
+                found.push_back(f);
+                break;
+              }
+          }
+      }
+    return found;
+  }
+
+
+
+  template <int dim>
+  bool
+  is_of_parts(const Tensor<1, dim> &inward,
+              const std::vector<std::string> &parts)
+  {
+    const double up        = inward[dim - 1];
+    const std::string part = std::abs(up) < std::sqrt(0.5) ? "walls"
+                             : up > 0.                     ? "roof"
+                                                           : "floor";
+    return std::find(parts.begin(), parts.end(), part) != parts.end();
+  }
+
+
+
+  namespace
+  {
+    /** Its faces: of its parts and its region. */
+    template <int dim>
+    std::vector<CellFace>
+    list_lined_faces(const Liner &liner, const Ground<dim> &ground)
+    {
+      const Mesh<dim> &mesh = ground.split.mesh;
+      std::unique_ptr<Expression<dim>> region;
+      if (!liner.region.empty())
+        region = std::make_unique<Expression<dim>>(
+          liner.region, 1, "Shotcrete/" + liner.name + "/Region");
+      std::vector<CellFace> faces =
+        list_excavation_faces(ground, liner.excavations);
+      faces.erase(
+        std::remove_if(faces.begin(),
+                       faces.end(),
+                       [&](const CellFace &f) {
+                         const Tensor<1, dim> area =
+                           mesh.face_area_vector(f.cell, f.face);
+                         return !is_of_parts<dim>(-area / area.norm(),
+                                                  liner.parts) ||
+                                (region &&
+                                 region->value(mesh.face_center(f.cell, f.face),
+                                               0.,
+                                               0) <= 0.);
+                       }),
+        faces.end());
+      AssertThrow(!faces.empty(),
+                  InputError("The shotcrete 'Shotcrete/" + liner.name +
+                             "' has no place: after stage '" + liner.stage +
+                             "' there is no free face of its excavations, "
+                             "'Parts' and 'Region'; correct these, or its "
+                             "'Stage'."));
+      return faces;
+    }
+
+    /** What was one vertex before the split, by vertex; `none` where there is
+     * no pair. */
+    template <int dim>
+    std::vector<unsigned int>
+    groups_of_vertices(const SplitMesh<dim> &split)
+    {
+      std::vector<unsigned int> group(split.mesh.vertices.size(), none);
+      for (unsigned int g = 0; g < split.interface.n_groups(); ++g)
+        for (unsigned int i = split.interface.group_begin[g];
+             i < split.interface.group_begin[g + 1];
+             ++i)
+          group[split.interface.group_vertices[i]] = g;
+      return group;
+    }
+
+    /** Rims of a face: its vertices in 2D, its edges in 3D. */
+    template <int dim>
+    std::vector<std::vector<unsigned int>>
+    rims_of(const typename Mesh<dim>::FaceVertices &v)
+    {
+      if constexpr (dim == 2)
+        return {{v[0]}, {v[1]}};
+      else
+        return {{v[0], v[1]}, {v[1], v[3]}, {v[3], v[2]}, {v[2], v[0]}};
+    }
+
+    /** A rim of a lined face and what it is of. */
+    template <int dim>
+    struct Rim
+    {
+      std::vector<unsigned int> vertices; ///< in the order of their groups
+      unsigned int block, cell;
+      Tensor<1, dim> outward; ///< unit normal of the face
+    };
+
+    /** Normal of the section along the rim of two faces. */
+    template <int dim>
+    Tensor<1, dim>
+    normal_of_section(const std::vector<Point<dim>> &places,
+                      const Rim<dim> &a,
+                      const Rim<dim> &b)
+    {
+      const Tensor<1, dim> out = a.outward + b.outward;
+      Tensor<1, dim> across;
+      if constexpr (dim == 2)
+        across = dealii::cross_product_2d(out);
+      else
+        across = dealii::cross_product_3d(out,
+                                          places[a.vertices.back()] -
+                                            places[a.vertices.front()]);
+      return across.norm() > 0. ? across / across.norm() : across;
+    }
+
+    /** Add the trace where the rims of two blocks lie on each other. */
+    template <int dim>
+    void
+    add_trace(const std::vector<Point<dim>> &places,
+              const Rim<dim> &a,
+              const Rim<dim> &b,
+              std::vector<LinerTrace<dim>> &traces)
+    {
+      const double share = dim == 2 ? 1.
+                                    : 0.5 * places[a.vertices.front()].distance(
+                                              places[a.vertices.back()]);
+      for (unsigned int i = 0; i < a.vertices.size(); ++i)
+        if (a.vertices[i] != b.vertices[i]) // not at the tip of a joint
+          traces.push_back({{{a.vertices[i], b.vertices[i]}},
+                            {{a.block, b.block}},
+                            {{a.cell, b.cell}},
+                            none,
+                            share,
+                            normal_of_section(places, a, b)});
+    }
+
+    /** Tell traces their joints. */
+    template <int dim>
+    void
+    find_joints(const std::vector<Pair<dim>> &pairs,
+                std::vector<LinerTrace<dim>> &traces)
+    {
+      std::map<std::pair<unsigned int, unsigned int>, unsigned int> joints;
+      for (const Pair<dim> &pair : pairs)
+        joints.emplace(std::minmax(pair.minus, pair.plus), pair.joint);
+      for (LinerTrace<dim> &trace : traces)
+        if (const auto found =
+              joints.find(std::minmax(trace.vertex[0], trace.vertex[1]));
+            found != joints.end())
+          trace.joint = found->second;
+    }
+
+    template <int dim>
+    std::vector<LinerTrace<dim>>
+    find_traces(const SplitMesh<dim> &split, const std::vector<CellFace> &faces)
+    {
+      const std::vector<unsigned int> group = groups_of_vertices(split);
+      std::map<std::vector<unsigned int>, std::vector<Rim<dim>>> rims;
+      for (const CellFace &f : faces)
+        for (std::vector<unsigned int> vertices :
+             rims_of<dim>(split.mesh.face_vertices(f.cell, f.face)))
+          {
+            std::sort(vertices.begin(),
+                      vertices.end(),
+                      [&](const unsigned int v, const unsigned int w) {
+                        return group[v] < group[w];
+                      });
+            std::vector<unsigned int> place;
+            for (const unsigned int v : vertices)
+              place.push_back(group[v]);
+            const Tensor<1, dim> area =
+              split.mesh.face_area_vector(f.cell, f.face);
+            if (std::find(place.begin(), place.end(), none) == place.end())
+              rims[place].push_back({vertices,
+                                     split.block_of_cell[f.cell],
+                                     f.cell,
+                                     area / area.norm()});
+          }
+      std::vector<LinerTrace<dim>> traces;
+      for (const auto &[place, here] : rims)
+        for (unsigned int i = 0; i < here.size(); ++i)
+          for (unsigned int j = 0; j < i; ++j)
+            if (here[i].block != here[j].block)
+              add_trace<dim>(split.mesh.vertices, here[j], here[i], traces);
+      find_joints(split.interface.pairs, traces);
+      return traces;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<LaidLiner<dim>>
+  lay_out_liners(const Scene<dim> &scene, const SplitMesh<dim> &split)
+  {
+    std::vector<LaidLiner<dim>> liners;
+    for (const auto &liner : scene.liners)
+      {
+        const Ground<dim> ground{scene,
+                                 split,
+                                 scene.stage_number(liner->stage)};
+        const std::vector<CellFace> faces = list_lined_faces(*liner, ground);
+        liners.push_back({find_traces(split, faces), {}});
+        for (const CellFace &f : faces)
+          for (const unsigned int v : split.mesh.face_vertices(f.cell, f.face))
+            liners.back().areas.push_back(
+              {v,
+               split.block_of_cell[f.cell],
+               f.cell,
+               split.mesh.face_area_vector(f.cell, f.face).norm() /
+                 Mesh<dim>::n_face_vertices});
+      }
+    return liners;
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template std::vector<CellFace> list_excavation_faces(                        \
+    const Ground<dim> &, const std::vector<std::string> &);                    \
+  template bool is_of_parts(const Tensor<1, dim> &,                            \
+                            const std::vector<std::string> &);                 \
+  template std::vector<LaidLiner<dim>> lay_out_liners(const Scene<dim> &,      \
+                                                      const SplitMesh<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Keyblock

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/step/free_field.h>
+
+#include <keyblock/base/errors.h>
+#include <keyblock/step/quiet_boundary.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Keyblock
+{
+  namespace
+  {
+    template <int dim>
+    bool
+    stands_on_bottom(const Support<dim> &support)
+    {
+      return std::any_of(support.boundaries.begin(),
+                         support.boundaries.end(),
+                         [](const std::string &name) {
+                           return name == "bottom" || name == "all";
+                         });
+    }
+
+    /** Call @p action(cell, face) for the faces of a boundary that are not of
+     * rigid bodies, nor empty from the start. */
+    template <int dim, typename Action>
+    void
+    for_each_side_face(const Scene<dim> &scene,
+                       const Mesh<dim> &mesh,
+                       const std::string &boundary,
+                       const Action &action)
+    {
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          if (mesh.is_on(c, f, boundary) && mesh.excavation_stage[c] != 1 &&
+              !scene.materials[mesh.material[c]]->is_rigid())
+            action(c, f);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  FreeField<dim>::FreeField(const Scene<dim> &scene,
+                            const SplitMesh<dim> &split,
+                            const Numbering<dim> &numbering)
+    : scene(scene)
+    , split(split)
+    , numbering(numbering)
+  {
+    for (unsigned int s = 0; s < scene.supports.size(); ++s)
+      if (scene.supports[s]->is_free_field())
+        for (const std::string &boundary : scene.supports[s]->boundaries)
+          sides.push_back(make_side(s, boundary));
+  }
+
+
+
+  template <int dim>
+  typename FreeField<dim>::Side
+  FreeField<dim>::make_side(const unsigned int support,
+                            const std::string &boundary) const
+  {
+    const Mesh<dim> &mesh = split.mesh;
+    std::vector<SideFace<dim>> faces;
+    Point<dim> foot;
+    foot[dim - 1] = std::numeric_limits<double>::max();
+    for_each_side_face(
+      scene, mesh, boundary, [&](const unsigned int c, const unsigned int f) {
+        SideFace<dim> face{std::numeric_limits<double>::max(),
+                           std::numeric_limits<double>::lowest(),
+                           scene.materials[mesh.material[c]].get()};
+        for (const unsigned int v : mesh.face_vertices(c, f))
+          {
+            const Point<dim> &p = mesh.vertices[v];
+            face.bottom         = std::min(face.bottom, p[dim - 1]);
+            face.top            = std::max(face.top, p[dim - 1]);
+            if (p[dim - 1] < foot[dim - 1])
+              foot = p;
+          }
+        const Tensor<1, dim> area = mesh.face_area_vector(c, f);
+        AssertThrow(std::abs(area[dim - 1]) < 1e-6 * area.norm(),
+                    InputError("The support '" + scene.supports[support]->name +
+                               "' is a free field on the boundary '" +
+                               boundary +
+                               "', which is not plumb; name side boundaries, "
+                               "or set 'Kind' to quiet."));
+        faces.push_back(face);
+      });
+    AssertThrow(!faces.empty(),
+                InputError("The support '" + scene.supports[support]->name +
+                           "' is a free field on the boundary '" + boundary +
+                           "', where there is no rock that deforms; name "
+                           "another one in 'Supports/" +
+                           scene.supports[support]->name + "/Boundaries'."));
+    Tensor<1, dim> down;
+    down[dim - 1] = -1.;
+    const SideFace<dim> &base =
+      *std::min_element(faces.begin(),
+                        faces.end(),
+                        [](const auto &a, const auto &b) {
+                          return a.bottom < b.bottom;
+                        });
+    return {support,
+            boundary,
+            FreeFieldColumn<dim>(faces, scene.time_stepping.least_step),
+            foot,
+            quiet_impedance(*base.material, down)};
+  }
+
+
+
+  template <int dim>
+  void
+  FreeField<dim>::find_sides(
+    const std::vector<bool> &acts,
+    const std::vector<bool> &is_excavated,
+    const std::function<unsigned int(unsigned int node)> &entry_of_node)
+  {
+    const Mesh<dim> &mesh = split.mesh;
+    shares.clear();
+    for (unsigned int i = 0; i < sides.size(); ++i)
+      if (acts[sides[i].support])
+        for_each_side_face(
+          scene,
+          mesh,
+          sides[i].boundary,
+          [&](const unsigned int c, const unsigned int f) {
+            if (is_excavated[c])
+              return;
+            const Tensor<1, dim> area =
+              mesh.face_area_vector(c, f) / Mesh<dim>::n_face_vertices;
+            const Tensor<2, dim> impedance =
+              area.norm() * quiet_impedance(*scene.materials[mesh.material[c]],
+                                            area / area.norm());
+            for (const unsigned int v : mesh.face_vertices(c, f))
+              split.for_each_carrier(
+                v, [&](const unsigned int carrier, const double weight) {
+                  if (numbering.is_owned(carrier))
+                    shares.push_back(
+                      {i,
+                       entry_of_node(numbering.local_node(carrier)),
+                       mesh.vertices[v][dim - 1],
+                       mesh.face_center(c, f)[dim - 1],
+                       weight * impedance,
+                       weight * area});
+                });
+          });
+  }
+
+
+
+  template <int dim>
+  FootMotion<dim>
+  FreeField<dim>::foot_motion(const Side &side,
+                              const std::vector<bool> &acts,
+                              const Motion &motion,
+                              const MotionOfStep<dim> &step) const
+  {
+    FootMotion<dim> foot;
+    for (unsigned int s = 0; s < scene.supports.size(); ++s)
+      {
+        const Support<dim> &support = *scene.supports[s];
+        if (support.is_free_field() || !stands_on_bottom(support))
+          continue;
+        if (support.is_quiet() && acts[s])
+          {
+            foot.impedance = side.foot_impedance;
+            foot.incoming  = motion(s, side.foot, step.time);
+          }
+        else
+          {
+            foot.velocity = motion(s, side.foot, step.time + 0.5 * step.kick);
+            for (unsigned int d = 0; d < dim; ++d)
+              foot.is_held[d] =
+                support.directions == SupportDirections::all ||
+                (support.directions == SupportDirections::normal &&
+                 d == dim - 1) ||
+                support.names_axis(d);
+          }
+      }
+    return foot;
+  }
+
+
+
+  template <int dim>
+  void
+  FreeField<dim>::advance(const MotionOfStep<dim> &step,
+                          const std::vector<bool> &acts,
+                          const Motion &motion)
+  {
+    for (Side &side : sides)
+      if (acts[side.support])
+        side.column.advance(
+          {step.step, step.kick, step.mass_damping, step.stiffness_damping},
+          foot_motion(side, acts, motion, step));
+  }
+
+
+
+  template <int dim>
+  void
+  FreeField<dim>::add_drive(std::vector<Tensor<1, dim>> &drive) const
+  {
+    for (const Share &share : shares)
+      {
+        const FreeFieldColumn<dim> &column = sides[share.side].column;
+        drive[share.entry] +=
+          share.impedance * column.velocity(share.elevation) +
+          column.stress(share.face_elevation) * share.area;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  FreeField<dim>::stop_motion()
+  {
+    for (Side &side : sides)
+      side.column.stop_motion();
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  FreeField<dim>::remember() const
+  {
+    std::vector<double> numbers;
+    for (const Side &side : sides)
+      {
+        const std::vector<double> of_side = side.column.remember();
+        numbers.insert(numbers.end(), of_side.begin(), of_side.end());
+      }
+    return numbers;
+  }
+
+
+
+  template <int dim>
+  void
+  FreeField<dim>::recall(const double *numbers)
+  {
+    for (Side &side : sides)
+      {
+        side.column.recall(numbers);
+        numbers += side.column.n_numbers();
+      }
+  }
+
+  template class FreeField<2>;
+  template class FreeField<3>;
+} // namespace Keyblock
