@@ -6,8 +6,9 @@ usage: xvfb-run -a contrib/pictures.py [SCENE ...] [--keyblock PROGRAM]
          [--outputs FOLDER] [--reuse]
 
 Writes doc/pictures/NAME.png for all scenes of prm/tutorial and
-prm/verification or for those named, and NAME_fit.png where measured stresses
-are inverted. Needs the packages python3-vtk9, python3-matplotlib (also for the
+prm/verification or for those named (tutorial_NAME if both folders have it), and
+NAME_fit.png where measured stresses are inverted. Needs the packages
+python3-vtk9, python3-matplotlib (also for the
 Python Imaging Library it brings), xvfb and xauth; runs take some two minutes.
 """
 import argparse
