@@ -120,10 +120,17 @@ def name_downloads(app, document):
         node.replace_self(nodes.inline("", node.astext(), classes=["file"]))
 
 
+def show_formulas_on_one_page(app):
+    """All pages in one (for the PDF) have formulas, though the index has none."""
+    if app.builder.name == "singlehtml":
+        app.set_html_assets_policy("always")
+
+
 def setup(app):
     """What Sphinx calls."""
     app.add_lexer("prm", SceneLexer)
     app.connect("doctree-read", keep_numbers)
     app.connect("doctree-read", name_downloads, priority=100)
     app.connect("missing-reference", name_what_is_outside)
+    app.connect("builder-inited", show_formulas_on_one_page)
     app.connect("build-finished", copy_mathjax)
