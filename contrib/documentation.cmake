@@ -17,7 +17,17 @@ if(DOXYGEN_FOUND)
   set(DOXYGEN_WARN_IF_INCOMPLETE_DOC NO)
   set(DOXYGEN_STRIP_FROM_INC_PATH ${CMAKE_SOURCE_DIR}/include)
   file(GLOB documents CONFIGURE_DEPENDS doc/*.md)
+  list(FILTER documents EXCLUDE REGEX "/index.md$") # of the manual
   doxygen_add_docs(documentation README.md CONTRIBUTING.md CHANGELOG.md
     LICENSE.md ${documents} include/keyblock source
     COMMENT "Pages from the comments of the source")
+endif()
+
+# The target `manual`: HTML from doc/, in manual of the build folder, if Sphinx and
+# MyST are there; see contrib/manual.sh.
+find_program(sphinx_build sphinx-build HINTS /usr/bin)
+if(sphinx_build)
+  add_custom_target(manual
+    COMMAND ${CMAKE_SOURCE_DIR}/contrib/manual.sh ${CMAKE_BINARY_DIR}/manual
+    COMMENT "The manual" VERBATIM)
 endif()

@@ -6,8 +6,9 @@ usage: xvfb-run -a contrib/pictures.py [SCENE ...] [--keyblock PROGRAM]
          [--outputs FOLDER] [--reuse]
 
 Writes doc/pictures/NAME.png for all scenes of prm/tutorial and
-prm/verification or for those named, and NAME_fit.png where measured stresses
-are inverted. Needs the packages python3-vtk9, python3-matplotlib (also for the
+prm/verification or for those named (tutorial_NAME if both folders have it), and
+NAME_fit.png where measured stresses are inverted. Needs the packages
+python3-vtk9, python3-matplotlib (also for the
 Python Imaging Library it brings), xvfb and xauth; runs take some two minutes.
 """
 import argparse
@@ -57,6 +58,13 @@ SCENES = {
                        "exaggeration": 0.},
     "friction_rod": {"exaggeration": 0., "stretch": 4.},
     "rotation": {"field": "velocity", "time_index": 1},
+    "first_tunnel": {"exaggeration": 0., "box": (-20., -10., 20., 25.),
+                     "mesh": "off"},
+    "joint_network": {"field": "block"},
+    "cavern_at_depth": {"field": "stress_yy", "mesh": "off"},
+    "slope_crack": {"field": "block"},
+    "tutorial_roof_wedge": {"exaggeration": 0., "eye": (-0.6, -1., 0.5),
+                            "mesh": "off"},
     "blocks_": {"field": "block"},
     "blocks_cube_": {"field": "block", "explode": 0.4},
     "blocks_planes_": {"field": "block", "explode": 0.8},
@@ -78,7 +86,9 @@ SCENES = {
 }
 # Entries of runs that are changed for the picture: here ten turns would end
 # where they began, so that the state after 300 degrees is written as well.
-CHANGES = {"rotation": ["Output/VTU count=12"]}
+CHANGES = {"rotation": ["Output/VTU count=12"],
+           "first_tunnel": ["Safety factor/Blocks=none"],
+           "road_wedge": ["Safety factor/Blocks=none"]}
 
 
 def read_arguments():
@@ -96,21 +106,25 @@ def read_arguments():
 
 
 def find_scenes(names):
-    """Files of the scenes called so, or of all of them."""
-    files = {path.stem: path for folder in ("tutorial", "verification")
-             for path in sorted((ROOT / "prm" / folder).glob("*.prm"))}
+    """Files by name of the scenes called so, or of all of them; of two scenes
+    with one name that of the tutorial is called tutorial_NAME."""
+    files = {}
+    for folder in ("verification", "tutorial"):
+        for path in sorted((ROOT / "prm" / folder).glob("*.prm")):
+            files[f"{folder}_{path.stem}" if path.stem in files
+                  else path.stem] = path
     for name in names:
         if name not in files:
             sys.exit(f"pictures.py: there is no scene '{name}' in "
                      "prm/tutorial and prm/verification; leave out folder and "
                      "'.prm'.")
-    return [files[name] for name in names or files]
+    return {name: files[name] for name in names or files}
 
 
-def run(program, scene, folder):
+def run(program, scene, folder, name):
     """Run a scene with pictures of its states written."""
     command = [program, str(scene), "--output", str(folder)]
-    for change in ["Output/Write VTU=true", *CHANGES.get(scene.stem, [])]:
+    for change in ["Output/Write VTU=true", *CHANGES.get(name, [])]:
         command += ["--set", change]
     try:
         done = subprocess.run(command, capture_output=True, text=True)
@@ -172,15 +186,15 @@ def main():
     pictures = ROOT / "doc" / "pictures"
     pictures.mkdir(exist_ok=True)
     sizes = {}
-    for scene in scenes:
-        folder, view = outputs / scene.stem, view_of(scene.stem)
+    for name, scene in scenes.items():
+        folder, view = outputs / name, view_of(name)
         if not (arguments.reuse and (folder / "solution.pvd").exists()):
-            run(arguments.keyblock, scene, folder)
-        picture = pictures / f"{scene.stem}.png"
+            run(arguments.keyblock, scene, folder, name)
+        picture = pictures / f"{name}.png"
         draw(folder / "solution.pvd", picture, view)
         sizes[picture] = reduce_colours(picture, view.field != "block")
         if (folder / "geostress.csv").exists():
-            picture = pictures / f"{scene.stem}_fit.png"
+            picture = pictures / f"{name}_fit.png"
             plot_fit(folder, picture)
             sizes[picture] = reduce_colours(picture, False)
     for picture, size in sizes.items():

@@ -4,7 +4,7 @@
 
 usage: documents.py ROOT
 
-Links of *.md and doc/*.md to files; files in backticks, as `contact/law.h` or
+Links of *.md, doc/*.md and doc/manual/*.md to files; files in backticks, as `contact/law.h` or
 `contrib/fuzz.py SCENE.prm`; functions named beside them, as `step/step.cc`,
 `advance`; bare names of documents, as doc/theory.md. In doc/theory.md every
 displayed equation has one number, from 1 on in order, and every number that the
@@ -20,7 +20,8 @@ THEORY = ROOT / "doc" / "theory.md"
 MAPS = (ROOT / "doc" / "main_page.md", ROOT / "doc" / "reading.md")
 # headers and sources are named without these
 SOURCE = (ROOT, ROOT / "source", ROOT / "include" / "keyblock")
-DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "doc").glob("*.md"))]
+DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "doc").glob("*.md")),
+             *sorted((ROOT / "doc" / "manual").glob("*.md"))]
 
 FILE = re.compile(r"`([\w/.-]+\.(?:h|cc|py|sh|prm|md|cmake))(?: [^`]*)?`"
                   r"(?:,\s+`(\w+)`)?")

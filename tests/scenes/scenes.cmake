@@ -1,5 +1,6 @@
 keyblock_scene(tutorial/sliding_block)
 keyblock_scene(tutorial/joint_network)
+keyblock_scene(tutorial/roof_wedge RANKS 1 REFERENCES tutorial_roof_wedge)
 keyblock_scene(tutorial/first_tunnel RANKS 1
   SET "Safety factor/Blocks=critical" "Safety factor/Stages=heading"
   "Safety factor/Bracket=0.02")
