@@ -29,6 +29,32 @@ def study(keyblock, scene, folder, *more, ranks=1):
     return table, json.loads((folder / "study.json").read_text(encoding="utf-8"))
 
 
+def faults_of_runs(keyblock, scene, folder):
+    """What is wrong where samples with critical blocks are run."""
+    more = ["Study/Level=full", "Study/Samples=8",
+            "Stages/rest/Kind=quasi-static", "Safety factor/Bracket=0.002",
+            "Safety factor/Critical factor=1.1"]
+    table, results = study(keyblock, scene, folder / "full", *more)
+    faults = []
+    for row in table.splitlines()[2:]:
+        values = row.split(",")
+        friction, found, rigid = (float(values[i]) for i in (1, 2, 8))
+        factor = math.tan(math.radians(friction)) / math.tan(math.radians(28))
+        is_run = (folder / "full" / "samples" / values[0]
+                  / "summary.json").exists()
+        if abs(rigid / factor - 1) > 1e-6:
+            faults.append(f"limit equilibrium of row '{row}' is wrong")
+        if is_run != (factor < 1.1) or (is_run and found == rigid):
+            faults.append(f"row '{row}' was {'' if is_run else 'not '}run")
+        if abs(found / factor - 1) > 2e-3:
+            faults.append(f"strength reduction of row '{row}' is wrong")
+    if results["level"] != "full" or results["rigid_probability"] is None:
+        faults.append("the level is not told")
+    if study(keyblock, scene, folder / "full_2", *more, ranks=2)[0] != table:
+        faults.append("runs on 2 ranks have other samples")
+    return faults
+
+
 def main():
     """Exit with 1 and a sentence for what is wrong."""
     keyblock, scene, folder = sys.argv[1:]
@@ -91,6 +117,7 @@ def main():
         if abs(float(values[2]) / factor - 1) > 1e-6:
             faults.append(f"row '{row}' does not have the weaker joint")
             break
+    faults += faults_of_runs(keyblock, scene, folder)
     if faults:
         sys.exit("; ".join(faults))
 

@@ -6,7 +6,6 @@
 #include <keyblock/blocks/bolt_layout.h>
 #include <keyblock/blocks/liner_layout.h>
 #include <keyblock/run/probability_study.h>
-#include <keyblock/safety/block_statics.h>
 #include <keyblock/scene/check_parts.h>
 #include <keyblock/scene/text.h>
 
@@ -24,6 +23,9 @@ namespace Keyblock
   {
     /** Samples per rank from one writing of samples.csv to the next. */
     constexpr unsigned int samples_per_batch = 16;
+
+    /** The same where samples are run. */
+    constexpr unsigned int runs_per_batch = 1;
 
     /** What follows the last slash of an entry. */
     std::string
@@ -180,91 +182,6 @@ namespace Keyblock
 
 
   template <int dim>
-  SampleResult
-  ProbabilityStudy<dim>::judge(const unsigned int index) const
-  {
-    Scene<dim> changed;
-    if (!joints.empty())
-      set_strengths(index);
-    else
-      changed.read(Communicator(MPI_COMM_SELF),
-                   scene_file,
-                   overrides_of(index));
-    const Scene<dim> &sample = joints.empty() ? changed : scene;
-    Geometry own;
-    if (!geometry)
-      own = make_geometry(sample);
-    const Geometry &g = geometry ? *geometry : own;
-    const auto &all   = g.blocks.blocks;
-
-    SampleResult result;
-    result.factor = std::numeric_limits<double>::infinity();
-    result.factors.assign(all.size(), result.factor);
-    std::vector<bool> is_exposed(all.size(), false);
-    for (unsigned int number = 1; number < sample.stages.size() + 2; ++number)
-      {
-        if (number > 1 && !is_changing(sample, number))
-          continue;
-        const Ground<dim> ground{sample, g.split, number, nullptr};
-        const FreeFaces<dim> free(ground);
-        for (unsigned int b = 0; b < all.size(); ++b)
-          {
-            const auto &classes = all[b].class_of_stage;
-            if (classes[std::min<std::size_t>(number, classes.size() - 1)] !=
-                BlockClass::exposed)
-              continue;
-            is_exposed[b] = true;
-            const double factor =
-              judge_block(ground, free, g.blocks, b, 0.).limit.factor;
-            result.factors[b] = std::min(result.factors[b], factor);
-            if (factor < result.factor)
-              {
-                result.factor = factor;
-                result.block  = all[b].id;
-                result.stage  = number;
-              }
-          }
-      }
-    for (unsigned int b = 0; b < all.size(); ++b)
-      {
-        result.n_exposed += is_exposed[b];
-        if (result.factors[b] < scene.study.threshold)
-          {
-            ++result.n_failed;
-            result.failed_volume += all[b].volume;
-          }
-      }
-    if (!geometry)
-      result.factors.clear();
-    return result;
-  }
-
-
-
-  template <int dim>
-  SampleResult
-  ProbabilityStudy<dim>::judge_named(const unsigned int index) const
-  {
-    try
-      {
-        return judge(index);
-      }
-    catch (const InputError &error)
-      {
-        std::string text =
-          "Sample " + std::to_string(index + 1) + " of the study (";
-        for (unsigned int v = 0; v < values.size(); ++v)
-          text += (v ? ", " : "") + scene.study_variables[v]->name + " = " +
-                  text_of(values[v][index]);
-        AssertThrow(false,
-                    InputError(text + ") cannot be judged: " + error.message));
-        throw;
-      }
-  }
-
-
-
-  template <int dim>
   void
   ProbabilityStudy<dim>::judge_batch(const unsigned int begin,
                                      const unsigned int end)
@@ -277,7 +194,7 @@ namespace Keyblock
       if (i % communicator.size() == communicator.rank())
         try
           {
-            const SampleResult r = judge_named(i);
+            const SampleResult r = judge_named(i, true);
             double *const row    = &figures[std::size_t(n) * (i - begin)];
             const std::array<double, n_sample_figures> head = {
               {r.factor,
@@ -285,7 +202,8 @@ namespace Keyblock
                double(r.stage),
                double(r.n_exposed),
                double(r.n_failed),
-               r.failed_volume}};
+               r.failed_volume,
+               r.rigid_factor}};
             std::copy(head.begin(), head.end(), row);
             std::copy(r.factors.begin(),
                       r.factors.end(),
@@ -295,6 +213,11 @@ namespace Keyblock
           {
             message = error.message;
           }
+        catch (const StopRequest &)
+          {
+            break; // all ranks stop together
+          }
+    stop_if_asked(communicator);
     message = communicator.any_text(message);
     AssertThrow(message.empty(), InputError(message));
     communicator.sum_lists(figures);
@@ -308,6 +231,7 @@ namespace Keyblock
            static_cast<unsigned int>(row[3]),
            static_cast<unsigned int>(row[4]),
            row[5],
+           row[6],
            std::vector<double>(row + n_sample_figures, row + n)});
       }
   }
@@ -347,7 +271,7 @@ namespace Keyblock
     read_samples();
     // what no sample can be made of is said before anything is written
     if (results.empty())
-      judge_named(0);
+      judge_named(0, false);
     communicator.on_root([&]() {
       std::error_code error;
       std::filesystem::create_directories(folder, error);
@@ -363,13 +287,16 @@ namespace Keyblock
                 << std::endl;
     // what cannot be used of the file is written anew
     write_samples(0);
+    const unsigned int per_rank = scene.study.level == StudyLevel::full
+                                    ? runs_per_batch
+                                    : samples_per_batch;
     while (results.size() < scene.study.samples)
       {
         stop_if_asked(communicator);
         const unsigned int begin = results.size();
         judge_batch(begin,
                     std::min(scene.study.samples,
-                             begin + samples_per_batch * communicator.size()));
+                             begin + per_rank * communicator.size()));
         write_samples(begin);
       }
     const StudyReport report(scene,

@@ -166,12 +166,13 @@ namespace Keyblock
                              model.scene,
                              model.split.mesh.vertices);
         }
+      if (model.geostress)
+        write_geostress(folder + "geostress.csv", *model.geostress);
+      if (!model.out.is_active())
+        return;
       print_head(model.out.get_stream());
       if (model.geostress)
-        {
-          write_geostress(folder + "geostress.csv", *model.geostress);
-          print_geostress(model.out.get_stream(), *model.geostress);
-        }
+        print_geostress(model.out.get_stream(), *model.geostress);
     });
   }
 

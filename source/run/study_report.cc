@@ -106,6 +106,21 @@ namespace Keyblock
 
   template <int dim>
   ProbabilityEstimate
+  StudyReport<dim>::rigid_probability() const
+  {
+    return estimate_probability(std::count_if(results.begin(),
+                                              results.end(),
+                                              [&](const SampleResult &r) {
+                                                return r.rigid_factor <
+                                                       scene.study.threshold;
+                                              }),
+                                results.size());
+  }
+
+
+
+  template <int dim>
+  ProbabilityEstimate
   StudyReport<dim>::probability_of_block(const unsigned int block) const
   {
     return estimate_probability(std::count_if(results.begin(),
@@ -151,7 +166,9 @@ namespace Keyblock
   {
     const unsigned int n_new = results.size() - n_resumed;
     out << std::setprecision(4) << "Study   " << results.size()
-        << " samples of limit equilibrium, "
+        << (scene.study.level == StudyLevel::full
+              ? " samples, those with critical blocks run, "
+              : " samples of limit equilibrium, ")
         << (scene.study.sampling == Sampling::random ? "random"
                                                      : "Latin hypercube")
         << ", seed " << scene.study.seed << "; " << seconds << " s";
@@ -174,6 +191,8 @@ namespace Keyblock
             << statistics.percentile(0.05) << ", 95 % below "
             << statistics.percentile(0.95);
       }
+    if (scene.study.level == StudyLevel::full)
+      out << "\n        by limit equilibrium alone: " << rigid_probability();
     if (factors.size() < results.size())
       out << "\n        in " << results.size() - factors.size()
           << " samples no block can move";
@@ -203,7 +222,9 @@ namespace Keyblock
                  {"threshold", scene.study.threshold},
                  {"seconds", seconds},
                  {"resumed_samples", n_resumed},
+                 {"level", name_of(scene.study.level)},
                  {"probability", as_json(probability_of(results.size()))},
+                 {"rigid_probability", as_json(rigid_probability())},
                  {"failed_blocks_per_sample", mean_failed},
                  {"failed_volume_per_sample", mean_volume}};
     if (length > 0.)

@@ -68,7 +68,9 @@ namespace Keyblock
       "# study " + digest_of(scene.used_entries()) + "\nsample";
     for (const auto &variable : scene.study_variables)
       text += "," + variable->name;
-    text += ",factor,block,stage,exposed_blocks,failed_blocks,failed_volume";
+    text +=
+      ",factor,block,stage,exposed_blocks,failed_blocks,failed_volume,rigid_"
+      "factor";
     if (geometry)
       for (const auto &block : geometry->blocks.blocks)
         text += ",factor_" + std::to_string(block.id);
@@ -125,6 +127,7 @@ namespace Keyblock
          static_cast<unsigned int>(rows[i + 3]),
          static_cast<unsigned int>(rows[i + 4]),
          rows[i + 5],
+         rows[i + 6],
          {rows.begin() + i + n_sample_figures, rows.begin() + i + n}});
   }
 
@@ -158,7 +161,7 @@ namespace Keyblock
             if (r.stage > 0)
               out << (r.stage == 1 ? "start" : scene.stages[r.stage - 2]->name);
             out << ',' << r.n_exposed << ',' << r.n_failed << ','
-                << exact_text(r.failed_volume);
+                << exact_text(r.failed_volume) << ',' << number(r.rigid_factor);
             for (const double factor : r.factors)
               out << ',' << number(factor);
             out << '\n';

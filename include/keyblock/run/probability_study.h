@@ -14,7 +14,9 @@ namespace Keyblock
   /**
    * Samples of a scene with the variables of `Study`, each judged by limit
    * equilibrium of rigid blocks after every stage that changes something; no
-   * step is taken. Ranks share the samples. Meshes are made anew only where a
+   * step is taken. At the level full those with a critical block are run, too,
+   * each by one rank, and their critical blocks judged by strength reduction.
+   * Ranks share the samples. Meshes are made anew only where a
    * variable changes more than strengths and loads. samples.csv grows as the
    * study goes, and a study of the same scene in the same folder goes on from
    * there; study.json has the results.
@@ -62,10 +64,27 @@ namespace Keyblock
     /** Overrides that make a sample of the scene. */
     std::vector<std::string> overrides_of(const unsigned int index) const;
 
-    SampleResult judge(const unsigned int index) const;
+    /** Factors of blocks by limit equilibrium, and the stages of the least. */
+    struct BlockFactors
+    {
+      std::vector<double> factor;      ///< by block; infinite: it cannot move
+      std::vector<unsigned int> stage; ///< Scene::stage_number, by block
+      std::vector<bool> is_exposed;    ///< in a stage, by block
+    };
+
+    BlockFactors judge_blocks(const Scene<dim> &sample,
+                              const Geometry &geometry) const;
+
+    /** Run a sample and put the factors by strength reduction in place of those
+     * by limit equilibrium. */
+    void run_sample(const unsigned int index, BlockFactors &factors) const;
+
+    /** @param may_run whether the level full is followed */
+    SampleResult judge(const unsigned int index, const bool may_run) const;
 
     /** The same; errors name the sample. */
-    SampleResult judge_named(const unsigned int index) const;
+    SampleResult judge_named(const unsigned int index,
+                             const bool may_run) const;
 
     /** Judge samples [begin, end) on all ranks (collective). */
     void judge_batch(const unsigned int begin, const unsigned int end);

@@ -35,6 +35,20 @@ namespace Keyblock
       return model;
     }
 
+    /** Say nothing on the screen from now on. */
+    void
+    be_silent()
+    {
+      model.out.set_condition(false);
+    }
+
+    /** Safety factors that run() has found. */
+    const std::vector<SafetyFactor> &
+    factors() const
+    {
+      return parts->record.safety_factors;
+    }
+
     /** What the monitors measured (rank 0). */
     const History &
     measured() const

@@ -11,7 +11,7 @@
 
 namespace Keyblock
 {
-  /** What limit equilibrium says of one sample. */
+  /** What a study says of one sample. */
   struct SampleResult
   {
     double factor      = 0.; ///< the least of all; infinite: nothing can move
@@ -20,13 +20,14 @@ namespace Keyblock
     unsigned int n_exposed = 0;  ///< finite blocks with a free face in a stage
     unsigned int n_failed  = 0;  ///< of those, below the threshold
     double failed_volume   = 0.; ///< [m^dim]
+    double rigid_factor    = 0.; ///< the least by limit equilibrium alone
 
     /** Least factor by block, where all samples have the same blocks. */
     std::vector<double> factors;
   };
 
   /** Numbers of a sample that do not belong to single blocks. */
-  constexpr unsigned int n_sample_figures = 6;
+  constexpr unsigned int n_sample_figures = 7;
 
   /** The results of a study, for people and as JSON. */
   template <int dim>
@@ -57,7 +58,10 @@ namespace Keyblock
      */
     ProbabilityEstimate probability_of(const std::size_t n) const;
 
-    /** The same of a block (by index), over all samples. */
+    /** Probability of the same by limit equilibrium alone, over all samples. */
+    ProbabilityEstimate rigid_probability() const;
+
+    /** Probability that a block (by index) fails, over all samples. */
     ProbabilityEstimate probability_of_block(const unsigned int block) const;
 
     /** Finite least factors of the samples. */

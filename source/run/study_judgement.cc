@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a study says of a sample: limit equilibrium, and strength reduction.
+#include <keyblock/base/number_text.h>
+#include <keyblock/run/probability_study.h>
+#include <keyblock/run/simulation.h>
+#include <keyblock/safety/block_statics.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Keyblock
+{
+  template <int dim>
+  typename ProbabilityStudy<dim>::BlockFactors
+  ProbabilityStudy<dim>::judge_blocks(const Scene<dim> &sample,
+                                      const Geometry &g) const
+  {
+    const auto &all = g.blocks.blocks;
+    BlockFactors found{
+      std::vector<double>(all.size(), std::numeric_limits<double>::infinity()),
+      std::vector<unsigned int>(all.size(), 0),
+      std::vector<bool>(all.size(), false)};
+    for (unsigned int number = 1; number < sample.stages.size() + 2; ++number)
+      {
+        if (number > 1 && !is_changing(sample, number))
+          continue;
+        const Ground<dim> ground{sample, g.split, number, nullptr};
+        const FreeFaces<dim> free(ground);
+        for (unsigned int b = 0; b < all.size(); ++b)
+          {
+            const auto &classes = all[b].class_of_stage;
+            if (classes[std::min<std::size_t>(number, classes.size() - 1)] !=
+                BlockClass::exposed)
+              continue;
+            found.is_exposed[b] = true;
+            const double factor =
+              judge_block(ground, free, g.blocks, b, 0.).limit.factor;
+            if (factor < found.factor[b])
+              {
+                found.factor[b] = factor;
+                found.stage[b]  = number;
+              }
+          }
+      }
+    return found;
+  }
+
+
+
+  template <int dim>
+  void
+  ProbabilityStudy<dim>::run_sample(const unsigned int index,
+                                    BlockFactors &factors) const
+  {
+    std::vector<std::string> list = overrides_of(index);
+    list.insert(list.end(),
+                {"Safety factor/Blocks=critical",
+                 "Safety factor/Rank groups=1",
+                 "Output/Write VTU=false",
+                 "Output/Checkpoint interval=0"});
+    Simulation<dim> simulation(Communicator(MPI_COMM_SELF),
+                               scene_file,
+                               list,
+                               folder + "samples/" + std::to_string(index + 1));
+    simulation.be_silent();
+    simulation.run();
+    // of several stages the least counts
+    std::vector<bool> is_new(factors.factor.size(), true);
+    for (const SafetyFactor &found : simulation.factors())
+      {
+        using Outcome      = SafetyFactor::Outcome;
+        const double value = found.outcome == Outcome::falls_freely ? 0.
+                             : found.outcome == Outcome::bracketed
+                               ? found.value()
+                               : found.lower;
+        if (is_new[found.block] || value < factors.factor[found.block])
+          {
+            factors.factor[found.block] = value;
+            factors.stage[found.block]  = scene.stage_number(found.stage);
+          }
+        is_new[found.block] = false;
+      }
+  }
+
+
+
+  template <int dim>
+  SampleResult
+  ProbabilityStudy<dim>::judge(const unsigned int index,
+                               const bool may_run) const
+  {
+    Scene<dim> changed;
+    if (!joints.empty())
+      set_strengths(index);
+    else
+      changed.read(Communicator(MPI_COMM_SELF),
+                   scene_file,
+                   overrides_of(index));
+    const Scene<dim> &sample = joints.empty() ? changed : scene;
+    Geometry own;
+    if (!geometry)
+      own = make_geometry(sample);
+    const Geometry &g = geometry ? *geometry : own;
+    const auto &all   = g.blocks.blocks;
+
+    BlockFactors found = judge_blocks(sample, g);
+    const auto least   = [&]() {
+      return std::min_element(found.factor.begin(), found.factor.end()) -
+             found.factor.begin();
+    };
+    SampleResult result;
+    result.factor = result.rigid_factor =
+      all.empty() ? std::numeric_limits<double>::infinity()
+                  : found.factor[least()];
+    if (may_run && scene.study.level == StudyLevel::full &&
+        result.rigid_factor < sample.safety.critical_factor)
+      run_sample(index, found);
+    if (!all.empty() && std::isfinite(found.factor[least()]))
+      {
+        result.factor = found.factor[least()];
+        result.block  = all[least()].id;
+        result.stage  = found.stage[least()];
+      }
+    for (unsigned int b = 0; b < all.size(); ++b)
+      {
+        result.n_exposed += found.is_exposed[b];
+        if (found.factor[b] < scene.study.threshold)
+          {
+            ++result.n_failed;
+            result.failed_volume += all[b].volume;
+          }
+      }
+    result.factors = found.factor;
+    if (!geometry)
+      result.factors.clear();
+    return result;
+  }
+
+
+
+  template <int dim>
+  SampleResult
+  ProbabilityStudy<dim>::judge_named(const unsigned int index,
+                                     const bool may_run) const
+  {
+    try
+      {
+        return judge(index, may_run);
+      }
+    catch (const InputError &error)
+      {
+        std::string text =
+          "Sample " + std::to_string(index + 1) + " of the study (";
+        for (unsigned int v = 0; v < values.size(); ++v)
+          text += (v ? ", " : "") + scene.study_variables[v]->name + " = " +
+                  text_of(values[v][index]);
+        AssertThrow(false,
+                    InputError(text + ") cannot be judged: " + error.message));
+        throw;
+      }
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template SampleResult ProbabilityStudy<dim>::judge(const unsigned int,       \
+                                                     const bool) const;        \
+  template SampleResult ProbabilityStudy<dim>::judge_named(const unsigned int, \
+                                                           const bool) const;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Keyblock
