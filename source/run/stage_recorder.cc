@@ -133,7 +133,10 @@ namespace Keyblock
   {
     output.write_vtu(model.step->time);
     model.communicator.on_root([&]() {
-      write_bolts(folder, output.records, model.conditions->report_bolts());
+      write_bolts(folder,
+                  output.records,
+                  model.conditions->report_bolts(),
+                  model.scene);
     });
   }
 
