@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/base/utilities.h>
-
 #include <keyblock/base/vtu_file.h>
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iomanip>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 namespace Keyblock
@@ -40,43 +40,63 @@ namespace Keyblock
 
 
 
-    /** Bytes as VTK's vtkZLibDataCompressor has them: a header of words of 32
-     * bits, then the compressed bytes, each in base64. Reals hardly shrink the
-     * more for more work; integers do. */
-    std::string
-    packed(const void *data, const std::size_t n_bytes, const int level)
+    /** The numbers of a file, which stand behind its elements as bytes. */
+    class AppendedData
     {
-      if (n_bytes > std::numeric_limits<std::uint32_t>::max())
-        throw std::length_error("An array of a VTU file is too long.");
-      std::vector<unsigned char> bytes(compressBound(n_bytes));
-      uLongf length = bytes.size();
-      if (compress2(bytes.data(),
-                    &length,
-                    static_cast<const Bytef *>(data),
-                    n_bytes,
-                    level) != Z_OK)
-        throw std::bad_alloc();
-      bytes.resize(length);
-      // one block: their number, its length, that of a last, shorter one
-      std::vector<std::uint32_t> header = {0, 0, 0};
-      if (n_bytes > 0)
-        header = {1, std::uint32_t(n_bytes), 0, std::uint32_t(length)};
-      std::vector<unsigned char> head(header.size() * sizeof(std::uint32_t));
-      std::memcpy(head.data(), header.data(), head.size());
-      const std::string code = dealii::Utilities::encode_base64(head);
-      return n_bytes == 0 ? code
-                          : code + dealii::Utilities::encode_base64(bytes);
-    }
+    public:
+      /** Add numbers; returns their place as the attributes of an element.
+       * Reals shrink hardly more for more work, integers do. */
+      template <typename Number>
+      std::string
+      add(const std::vector<Number> &list)
+      {
+        const std::string place =
+          "format=\"appended\" offset=\"" + std::to_string(bytes.size()) + "\"";
+        put(list.data(),
+            list.size() * sizeof(Number),
+            std::is_same<Number, float>::value ? Z_BEST_SPEED
+                                               : Z_DEFAULT_COMPRESSION);
+        return place;
+      }
 
-    template <typename Number>
-    std::string
-    packed(const std::vector<Number> &list)
-    {
-      return packed(list.data(),
-                    list.size() * sizeof(Number),
-                    std::is_same<Number, float>::value ? Z_BEST_SPEED
-                                                       : Z_DEFAULT_COMPRESSION);
-    }
+      void
+      write(std::ostream &out) const
+      {
+        out << "<AppendedData encoding=\"raw\">\n_" << bytes
+            << "\n</AppendedData>\n";
+      }
+
+    private:
+      /** As VTK's vtkZLibDataCompressor has them: a header of words of 32 bits,
+       * then the compressed bytes. */
+      void
+      put(const void *data, const std::size_t n_bytes, const int level)
+      {
+        using Word = std::uint32_t;
+        if (n_bytes == 0)
+          {
+            bytes.append(3 * sizeof(Word), 0);
+            return;
+          }
+        if (n_bytes > std::numeric_limits<Word>::max())
+          throw std::length_error("An array of a VTU file is too long.");
+        const std::size_t begin = bytes.size(), head = 4 * sizeof(Word);
+        uLongf length = compressBound(n_bytes);
+        bytes.resize(begin + head + length);
+        if (compress2(reinterpret_cast<Bytef *>(&bytes[begin + head]),
+                      &length,
+                      static_cast<const Bytef *>(data),
+                      n_bytes,
+                      level) != Z_OK)
+          throw std::bad_alloc();
+        bytes.resize(begin + head + length);
+        // one block: their number, its length, that of a last, shorter one
+        const Word header[] = {1, Word(n_bytes), 0, Word(length)};
+        std::memcpy(&bytes[begin], header, head);
+      }
+
+      std::string bytes;
+    };
 
     std::string
     type_of(const std::vector<float> &)
@@ -101,11 +121,12 @@ namespace Keyblock
     template <typename Number>
     void
     put_list(std::ostream &out,
+             AppendedData &data,
              const std::vector<Number> &list,
              const std::string &attributes)
     {
-      out << "<DataArray type=\"" << type_of(list) << "\" " << attributes
-          << " format=\"binary\">" << packed(list) << "</DataArray>\n";
+      out << "<DataArray type=\"" << type_of(list) << "\" " << attributes << " "
+          << data.add(list) << "/>\n";
     }
 
 
@@ -127,13 +148,16 @@ namespace Keyblock
 
     void
     put_arrays(std::ostream &out,
+               AppendedData &data,
                const std::vector<VtuArray> &arrays,
                const std::string &parent)
     {
       out << "<" << parent << ">\n";
       for (const VtuArray &array : arrays)
         std::visit(
-          [&](const auto &list) { put_list(out, list, attributes_of(array)); },
+          [&](const auto &list) {
+            put_list(out, data, list, attributes_of(array));
+          },
           array.values);
       out << "</" << parent << ">\n";
     }
@@ -161,7 +185,7 @@ namespace Keyblock
 
     /** Time and texts; VTK has texts as their bytes, a zero after each. */
     void
-    put_field_data(std::ostream &out, const VtuGrid &grid)
+    put_field_data(std::ostream &out, AppendedData &data, const VtuGrid &grid)
     {
       out << "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
              "NumberOfTuples=\"1\" format=\"ascii\">"
@@ -175,8 +199,8 @@ namespace Keyblock
               bytes.push_back(0);
             }
           out << "<Array type=\"String\" Name=" << quoted(name)
-              << " NumberOfTuples=\"" << list.size() << "\" format=\"binary\">"
-              << packed(bytes) << "</Array>\n";
+              << " NumberOfTuples=\"" << list.size() << "\" " << data.add(bytes)
+              << "/>\n";
         }
       out << "</FieldData>\n";
     }
@@ -201,9 +225,13 @@ namespace Keyblock
 
 
     void
-    put_end(std::ostream &out, const std::string &type)
+    put_end(std::ostream &out,
+            const AppendedData &data,
+            const std::string &type)
     {
-      out << "</" << type << ">\n</VTKFile>\n";
+      out << "</" << type << ">\n";
+      data.write(out);
+      out << "</VTKFile>\n";
     }
   } // namespace
 
@@ -269,32 +297,28 @@ namespace Keyblock
 
 
 
-  void
-  write_vtu(const VtuGrid &grid, std::ostream &out)
-  {
-    put_head(out, "UnstructuredGrid");
-    put_field_data(out, grid);
-    out << "<Piece NumberOfPoints=\"" << grid.n_points()
-        << "\" NumberOfCells=\"" << grid.n_cells() << "\">\n";
-    put_arrays(out, grid.point_data, "PointData");
-    put_arrays(out, grid.cell_data, "CellData");
-    out << "<Points>\n";
-    put_list(out, grid.points, "Name=\"Points\" NumberOfComponents=\"3\"");
-    out << "</Points>\n<Cells>\n";
-    put_list(out, grid.connectivity, "Name=\"connectivity\"");
-    put_list(out, grid.offsets, "Name=\"offsets\"");
-    put_list(out, grid.types, "Name=\"types\"");
-    out << "</Cells>\n</Piece>\n";
-    put_end(out, "UnstructuredGrid");
-  }
-
-
-
   bool
   write_vtu(const VtuGrid &grid, const std::string &file_name)
   {
-    std::ofstream out(file_name);
-    write_vtu(grid, out);
+    std::ofstream out(file_name, std::ios::binary);
+    AppendedData data;
+    put_head(out, "UnstructuredGrid");
+    put_field_data(out, data, grid);
+    out << "<Piece NumberOfPoints=\"" << grid.n_points()
+        << "\" NumberOfCells=\"" << grid.n_cells() << "\">\n";
+    put_arrays(out, data, grid.point_data, "PointData");
+    put_arrays(out, data, grid.cell_data, "CellData");
+    out << "<Points>\n";
+    put_list(out,
+             data,
+             grid.points,
+             "Name=\"Points\" NumberOfComponents=\"3\"");
+    out << "</Points>\n<Cells>\n";
+    put_list(out, data, grid.connectivity, "Name=\"connectivity\"");
+    put_list(out, data, grid.offsets, "Name=\"offsets\"");
+    put_list(out, data, grid.types, "Name=\"types\"");
+    out << "</Cells>\n</Piece>\n";
+    put_end(out, data, "UnstructuredGrid");
     return bool(out.flush());
   }
 
@@ -305,16 +329,17 @@ namespace Keyblock
              const std::vector<std::string> &pieces,
              const std::string &file_name)
   {
-    std::ofstream out(file_name);
+    std::ofstream out(file_name, std::ios::binary);
+    AppendedData data;
     put_head(out, "PUnstructuredGrid");
-    put_field_data(out, grid);
+    put_field_data(out, data, grid);
     put_kinds(out, grid.point_data, "PPointData");
     put_kinds(out, grid.cell_data, "PCellData");
     out << "<PPoints>\n<PDataArray type=\"Float32\" "
            "NumberOfComponents=\"3\"/>\n</PPoints>\n";
     for (const std::string &piece : pieces)
       out << "<Piece Source=" << quoted(piece) << "/>\n";
-    put_end(out, "PUnstructuredGrid");
+    put_end(out, data, "PUnstructuredGrid");
     return bool(out.flush());
   }
 
@@ -326,15 +351,21 @@ namespace Keyblock
     std::ofstream out(file_name);
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
            "version=\"0.1\">\n  <Collection>\n"
-        << std::setprecision(9);
+        << std::setprecision(10);
     unsigned int part = 0;
+    double time       = 0.;
     for (unsigned int i = 0; i < records.size(); ++i)
       {
         const VtuRecord &r = records[i];
         const bool is_first =
           i == 0 || r.name.empty() || r.name == records[0].name;
         part = is_first ? 0 : part + 1;
-        out << "    <DataSet timestep=\"" << r.time
+        // two states of one time, as before and after a static stage, would be
+        // shown as one
+        if (is_first)
+          time = i == 0 ? r.time
+                        : std::max(r.time, time + 2e-9 * std::max(1., time));
+        out << "    <DataSet timestep=\"" << time
             << "\" group=" << quoted(r.stage) << " part=\"" << part << "\"";
         if (!r.name.empty())
           out << " name=" << quoted(r.name);

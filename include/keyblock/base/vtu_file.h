@@ -3,7 +3,6 @@
 #define keyblock_base_vtu_file_h
 
 #include <cstdint>
-#include <iosfwd>
 #include <string>
 #include <utility>
 #include <variant>
@@ -117,10 +116,7 @@ namespace Keyblock
     void add_lattice_cell(const std::vector<unsigned int> &corners);
   };
 
-  /** Write a grid; whether that worked is what @p out says. */
-  void write_vtu(const VtuGrid &grid, std::ostream &out);
-
-  /** The same to a file; returns whether that worked. */
+  /** Write a grid; returns whether that worked. */
   bool write_vtu(const VtuGrid &grid, const std::string &file_name);
 
   /** Write the file that collects the grids in the files @p pieces, which have
@@ -129,7 +125,7 @@ namespace Keyblock
                   const std::vector<std::string> &pieces,
                   const std::string &file_name);
 
-  /** A file of a VtuCollection. */
+  /** A file of a PVD file. */
   struct VtuRecord
   {
     double time = 0.;  ///< [s]
@@ -139,7 +135,8 @@ namespace Keyblock
   };
 
   /** Write the PVD file that lists files by time; those of one time are its
-   * parts. Returns whether that worked. */
+   * parts. A state that is no later than the one before is put behind it by
+   * some nanoseconds. Returns whether that worked. */
   bool write_pvd(const std::vector<VtuRecord> &records,
                  const std::string &file_name);
 } // namespace Keyblock
