@@ -175,7 +175,15 @@ class Run:
         grid = read_grid(self.states[index][2])
         order = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
         points = vtk_to_numpy(grid.GetPoints().GetData())[order]
-        fields = {name: values_of(grid, name)[order].reshape(-1, 2)
+
+        def values(name):
+            """Values of a field, of a vector its length."""
+            found = values_of(grid, name)[order]
+            if found.ndim > 1:
+                found = numpy.linalg.norm(found, axis=1)
+            return found.reshape(-1, 2)
+
+        fields = {name: values(name)
                   for name in ("gap", "slip", "pressure", "shear", "joint")}
         return points.reshape(-1, 2, 3), fields
 

@@ -127,6 +127,30 @@ def find_rock(collection, index):
     return float(sets[index].get("timestep")), folder / sets[index].get("file")
 
 
+def unshare(grid):
+    """A grid each of whose cells has points of its own, with all fields at
+    them, named without units."""
+    order = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    result, places, cells = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    places.SetData(numpy_to_vtk(points[order], deep=True))
+    cells.SetData(grid.GetCells().GetOffsetsArray(), numpy_to_vtk(
+        numpy.arange(len(order), dtype=order.dtype), deep=True))
+    result.SetPoints(places)
+    result.SetCells(grid.GetCellTypesArray(), cells)
+    of_cell = numpy.repeat(numpy.arange(len(offsets) - 1),
+                           numpy.diff(offsets))
+    for data, place in ((grid.GetPointData(), order),
+                        (grid.GetCellData(), of_cell)):
+        for i in range(data.GetNumberOfArrays()):
+            array = numpy_to_vtk(vtk_to_numpy(data.GetArray(i))[place],
+                                 deep=True)
+            array.SetName(data.GetArrayName(i).split(" (")[0])
+            result.GetPointData().AddArray(array)
+    return result
+
+
 def read_grid(path):
     """The cells of a .vtu or .pvtu file; the program ends if it has none."""
     if not path.exists():
@@ -139,7 +163,7 @@ def read_grid(path):
     if grid.GetNumberOfCells() == 0:
         sys.exit(f"render.py: the file '{path}' has no cells; it is empty, "
                  "damaged, or pieces of it are missing.")
-    return grid
+    return unshare(grid)
 
 
 def values_of(grid, field):
@@ -149,11 +173,15 @@ def values_of(grid, field):
     if field in names:
         return vtk_to_numpy(data.GetArray(field))
     name, _, component = field.rpartition("_")
-    if (name not in names or component not in ("x", "y", "z") or
-            data.GetArray(name).GetNumberOfComponents() != 3):
+    components = []
+    if name in names:
+        components = {3: ["x", "y", "z"],
+                      9: [a + b for a in "xyz" for b in "xyz"]}.get(
+                          data.GetArray(name).GetNumberOfComponents(), [])
+    if component not in components:
         sys.exit(f"render.py: there is no field '{field}'; the file has "
                  f"{', '.join(names)}.")
-    return vtk_to_numpy(data.GetArray(name))[:, "xyz".index(component)]
+    return vtk_to_numpy(data.GetArray(name))[:, components.index(component)]
 
 
 def shown_values(grid, field):
@@ -161,7 +189,7 @@ def shown_values(grid, field):
     values = values_of(grid, field).astype(float)
     if values.ndim > 1:
         values = numpy.linalg.norm(values, axis=1)
-    if field.startswith("stress"):
+    if "stress" in field:
         largest = abs(values).max()
         for unit, factor in (("MPa", 1e6), ("kPa", 1e3), ("Pa", 1.)):
             if largest >= factor:

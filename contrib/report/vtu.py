@@ -14,9 +14,36 @@ TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1",
          "Int64": "<i8", "UInt32": "<u4", "UInt64": "<u8", "Int8": "i1"}
 
 
-def decode(element, is_compressed, header):
+def parse(path):
+    """The root of a VTK file and the bytes appended to it, from _ on."""
+    head, mark, rest = path.read_bytes().partition(b"<AppendedData")
+    if mark:
+        head += b"</VTKFile>"
+    return (xml.etree.ElementTree.fromstring(head),
+            memoryview(rest)[rest.find(b"_") + 1:])
+
+
+def decode_appended(element, kind, is_compressed, header, appended):
+    """The numbers of a DataArray that stand at the end of the file."""
+    data = appended[int(element.get("offset")):]
+    header = numpy.dtype(header)
+    first = int(numpy.frombuffer(data, header, 1)[0])
+    if not is_compressed:
+        return numpy.frombuffer(
+            data[header.itemsize:header.itemsize + first], kind)
+    sizes = numpy.frombuffer(data, header, 3 + first)[3:].astype(int)
+    begin, raw = (3 + first) * header.itemsize, []
+    for length in sizes:
+        raw.append(zlib.decompress(data[begin:begin + length]))
+        begin += length
+    return numpy.frombuffer(b"".join(raw), kind)
+
+
+def decode(element, is_compressed, header, appended=b""):
     """The numbers of a DataArray."""
     kind = numpy.dtype(TYPES[element.get("type")])
+    if element.get("format") == "appended":
+        return decode_appended(element, kind, is_compressed, header, appended)
     text = element.text or ""
     if element.get("format") == "ascii":
         return numpy.array(text.split(), dtype=float).astype(kind)
@@ -41,30 +68,37 @@ def decode(element, is_compressed, header):
     return numpy.frombuffer(b"".join(raw), kind)
 
 
-def arrays_of(piece, names, is_compressed, header):
-    """Points, connectivity, offsets and the named fields of a piece."""
-    found = {}
+def plain_name(element):
+    """The name of an array without its unit."""
+    return (element.get("Name") or "").split(" (")[0]
+
+
+def arrays_of(piece, names, *how):
+    """Points, connectivity, offsets and the named fields of a piece; `at_cells`
+    are the names of those at cells."""
+    found, at_cells = {}, set()
     for parent in piece:
         for element in parent.iter("DataArray"):
-            name = ("points" if parent.tag == "Points" else
-                    element.get("Name"))
+            name = "points" if parent.tag == "Points" else plain_name(element)
             if name in names or name in ("points", "connectivity", "offsets"):
-                values = decode(element, is_compressed, header)
+                values = decode(element, *how)
                 n = int(element.get("NumberOfComponents") or 1)
                 found[name] = values.reshape(-1, n) if n > 1 else values
-    return found
+                if parent.tag == "CellData":
+                    at_cells.add(name)
+    return {**found, "at_cells": at_cells}
 
 
 def read_pieces(path, names):
     """The pieces of a .vtu file, or of those that a .pvtu collects."""
     try:
-        root = xml.etree.ElementTree.parse(path).getroot()
+        root, appended = parse(path)
         if path.suffix == ".pvtu":
             return [part for piece in root.iter("Piece") for part in
                     read_pieces(path.parent / piece.get("Source"), names)]
         header = TYPES[root.get("header_type", "UInt32")]
-        return [arrays_of(piece, names, bool(root.get("compressor")), header)
-                for piece in root.iter("Piece")]
+        return [arrays_of(piece, names, bool(root.get("compressor")), header,
+                          appended) for piece in root.iter("Piece")]
     except (OSError, ValueError, KeyError, TypeError, zlib.error,
             xml.etree.ElementTree.ParseError) as error:
         why = getattr(error, "strerror", None) or error
@@ -82,7 +116,10 @@ def read_cells(path, names):
             order = piece["connectivity"].reshape(n_cells, -1)
             corners.append(piece["points"].reshape(-1, 3)[order] + 0.)
             for name in names:
-                fields[name].append(piece[name][order])
+                values = piece[name]
+                fields[name].append(
+                    numpy.stack([values] * order.shape[1], axis=1)
+                    if name in piece["at_cells"] else values[order])
     except (KeyError, IndexError, ValueError) as error:
         raise ReportError(f"'{path}' is damaged ({error}).") from None
     if not corners:

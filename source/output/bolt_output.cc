@@ -3,6 +3,7 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/output/bolt_output.h>
+#include <keyblock/scene/network_output.h>
 
 #include <nlohmann/json.hpp>
 
@@ -50,10 +51,7 @@ namespace Keyblock
         }
       lines.point_data = {slip};
       lines.cell_data  = {axial, dowel, bolt, set};
-      std::vector<std::string> names;
-      for (const auto &one : scene.bolts)
-        names.push_back(one->name);
-      lines.texts.emplace_back("bolt set names", names);
+      lines.texts.emplace_back("bolt set names", names_of(scene.bolts));
       return lines;
     }
   } // namespace

@@ -4,6 +4,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <keyblock/output/output.h>
+#include <keyblock/scene/network_output.h>
 
 #include <map>
 
@@ -149,26 +150,6 @@ namespace Keyblock
       const double kick; ///< [s]
       std::map<std::array<unsigned int, 3>, unsigned int> place;
     };
-
-
-
-    /** Numbers of the sets of joints in the order in which they come, 0 for
-     * joints without one. */
-    template <int dim>
-    std::vector<std::string>
-    list_sets(const Scene<dim> &scene, std::vector<unsigned int> &set_of_joint)
-    {
-      std::vector<std::string> names = {""};
-      for (const auto &joint : scene.joints)
-        {
-          auto found = std::find(names.begin(), names.end(), joint->set);
-          if (found == names.end())
-            found = names.insert(found, joint->set);
-          set_of_joint.push_back(found - names.begin());
-        }
-      names[0] = "none";
-      return names;
-    }
   } // namespace
 
 
@@ -179,8 +160,8 @@ namespace Keyblock
   {
     VtuGrid grid = make_grid(time);
     grid.texts.emplace_back("state names", state_names);
-    std::vector<unsigned int> set_of_joint;
-    grid.texts.emplace_back("joint set names", list_sets(scene, set_of_joint));
+    const JointSetNumbers sets = number_joint_sets(scene);
+    grid.texts.emplace_back("joint set names", sets.names);
     PointArrays points;
     VtuArray joint = VtuArray::ids("joint"), set = VtuArray::ids("joint set"),
              minus_block = VtuArray::ids("block on minus side"),
@@ -242,7 +223,7 @@ namespace Keyblock
           }
         grid.add_lattice_cell(corners);
         joint.add_id(face.joint);
-        set.add_id(set_of_joint[face.joint]);
+        set.add_id(sets.of_joint[face.joint]);
         minus_block.add_id(id_of(face.minus_cell));
         plus_block.add_id(id_of(face.plus_cell));
         is_there.add_id(has_rock);

@@ -2,6 +2,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <keyblock/output/output.h>
+#include <keyblock/scene/network_output.h>
 
 namespace Keyblock
 {
@@ -41,12 +42,6 @@ namespace Keyblock
   VtuGrid
   Output<dim>::make_grid(const double time) const
   {
-    const auto names_of = [](const auto &things) {
-      std::vector<std::string> names;
-      for (const auto &thing : things)
-        names.push_back(thing->name);
-      return names;
-    };
     std::vector<std::string> stages = {"none", "start"};
     for (const std::string &name : names_of(scene.stages))
       stages.push_back(name);
