@@ -10,6 +10,7 @@ install(PROGRAMS contrib/keyblock-report DESTINATION ${CMAKE_INSTALL_BINDIR}
 install(DIRECTORY contrib/report DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock
   COMPONENT program PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md LICENSE.md CHANGELOG.md doc/parameters.md doc/theory.md
+  doc/vtu.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 # the library, for programs that find_package(keyblock) and link Keyblock::keyblock
