@@ -8,7 +8,7 @@ set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${1:-$root/build}
 packages="libdeal.ii-dev libgmsh-dev libboost-program-options-dev
-  nlohmann-json3-dev cmake g++ make
+  nlohmann-json3-dev zlib1g-dev cmake g++ make
   clang-format python3 python3-matplotlib openmpi-bin"
 
 missing=
