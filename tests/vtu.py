@@ -23,7 +23,7 @@ from vtu_reader import Grid
 
 KEYBLOCK, PRM, FOLDER, CASE = sys.argv[1:5]
 PRM, FOLDER = pathlib.Path(PRM), pathlib.Path(FOLDER)
-QUADRILATERAL, HEXAHEDRON = 9, 12
+LINE, POLYGON, QUADRILATERAL, HEXAHEDRON = 3, 7, 9, 12
 
 
 def run(scene, folder, *settings, ranks=1, options=()):
@@ -142,6 +142,11 @@ def assert_wedge():
         assert outcome == ("value" if block == 1 else "none")
         assert abs(value - factor) < 1e-6 if block == 1 else math.isnan(value)
     assert_faces(scene, Grid(FOLDER / name.replace("rock", "interface")))
+    planes = Grid(FOLDER / "joints.vtu")
+    assert planes.called("joint") == ["A", "B"]
+    assert set(planes.cell_types) == {POLYGON}
+    assert near(planes.at_cells["dip (deg)"], (40., 60.), 1e-4)
+    assert near(planes.at_cells["dip direction (deg)"], (130., 220.), 1e-4)
 
 
 def assert_faces(scene, joints):
@@ -219,7 +224,8 @@ def assert_bolts():
     entry = list(root.iter("DataSet"))[-1]
     assert entry.get("group") == "rest" and entry.get("part") == "0"
     lines = Grid(FOLDER / entry.get("file"))
-    assert lines.n_points == lines.n_cells + 1 and set(lines.cell_types) == {3}
+    assert lines.n_points == lines.n_cells + 1 and set(
+        lines.cell_types) == {LINE}
     assert set(lines.called("bolt set")) == {"anchor"}
     assert set(lines.at_cells["bolt"]) == {1}
     assert max(lines.at_cells["axial force (N)"]) > 0.

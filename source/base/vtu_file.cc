@@ -50,7 +50,7 @@ namespace Keyblock
       std::string
       add(const std::vector<Number> &list)
       {
-        const std::string place =
+        std::string place =
           "format=\"appended\" offset=\"" + std::to_string(bytes.size()) + "\"";
         put(list.data(),
             list.size() * sizeof(Number),

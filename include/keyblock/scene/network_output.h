@@ -43,6 +43,7 @@ namespace Keyblock
   names_of(const List &things)
   {
     std::vector<std::string> names;
+    names.reserve(things.size());
     for (const auto &thing : things)
       names.push_back(thing->name);
     return names;
