@@ -248,7 +248,8 @@ namespace Keyblock
                     if (is_joint)
                       height =
                         std::max(height, std::abs(surface.distance(before)));
-                    if (way.norm() < (is_joint ? least_sine : 1e-6))
+                    if (way.norm() <
+                        (is_joint ? least_sine : surface.least_sine()))
                       continue;
                     if (is_joint)
                       mesh.vertices[v] -=
