@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Surfaces of triangles, and how deep a point is inside them.
-#include <deal.II/base/bounding_box.h>
+// How deep a point is inside a surface of triangles.
 #include <deal.II/base/tensor.h>
-#include <deal.II/numerics/rtree.h>
 
-#include <keyblock/base/disjoint_sets.h>
 #include <keyblock/scene/solid.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
+#include <numeric>
 #include <utility>
 
 namespace Keyblock
@@ -20,203 +17,43 @@ namespace Keyblock
 
   namespace
   {
-    using Edge     = std::pair<unsigned int, unsigned int>;
+    using Edge     = TriangleSurface::Edge;
     using Triangle = TriangleSurface::Triangle;
 
-    Edge
-    edge_of(const Triangle &t, const unsigned int i)
+    /** Triangles of a leaf of the tree at most. */
+    constexpr unsigned int most_in_leaf = 4;
+
+    struct Box
     {
-      return std::minmax(t[i], t[(i + 1) % 3]);
-    }
+      Point<3> low, high;
 
-    /** The triangles at each edge. */
-    std::map<Edge, std::vector<unsigned int>>
-    list_edges(const std::vector<Triangle> &triangles)
-    {
-      std::map<Edge, std::vector<unsigned int>> at_edge;
-      for (unsigned int t = 0; t < triangles.size(); ++t)
-        for (unsigned int i = 0; i < 3; ++i)
-          at_edge[edge_of(triangles[t], i)].push_back(t);
-      return at_edge;
-    }
-
-    /** Whether a triangle goes along an edge from its lesser vertex. */
-    bool
-    goes_along(const Triangle &t, const Edge &edge)
-    {
-      for (unsigned int i = 0; i < 3; ++i)
-        if (t[i] == edge.first)
-          return t[(i + 1) % 3] == edge.second;
-      return false;
-    }
-
-    /** Turn @p triangles as the first of each connected part; whether that can
-     * be. */
-    bool
-    turn_alike(std::vector<Triangle> &triangles,
-               const std::map<Edge, std::vector<unsigned int>> &at_edge)
-    {
-      std::vector<bool> is_turned(triangles.size(), false);
-      std::vector<unsigned int> front;
-      for (unsigned int seed = 0; seed < triangles.size(); ++seed)
-        {
-          if (is_turned[seed])
-            continue;
-          is_turned[seed] = true;
-          front           = {seed};
-          while (!front.empty())
-            {
-              const unsigned int t = front.back();
-              front.pop_back();
-              for (unsigned int i = 0; i < 3; ++i)
-                {
-                  const Edge edge     = edge_of(triangles[t], i);
-                  const auto &two     = at_edge.at(edge);
-                  const auto other    = two[0] == t ? two[1] : two[0];
-                  const bool is_alike = goes_along(triangles[t], edge) !=
-                                        goes_along(triangles[other], edge);
-                  if (is_turned[other] && !is_alike)
-                    return false;
-                  if (is_turned[other])
-                    continue;
-                  if (!is_alike)
-                    std::swap(triangles[other][0], triangles[other][1]);
-                  is_turned[other] = true;
-                  front.push_back(other);
-                }
-            }
-        }
-      return true;
-    }
-  } // namespace
-
-
-
-  void
-  TriangleSurface::weld(const double tolerance)
-  {
-    namespace bgi = boost::geometry::index;
-    std::vector<unsigned int> number(vertices.size());
-    std::vector<Point<3>> kept;
-    bgi::rtree<std::pair<Point<3>, unsigned int>, bgi::quadratic<16>> tree;
-    for (unsigned int v = 0; v < vertices.size(); ++v)
+      double
+      distance(const Point<3> &p) const
       {
-        const auto nearest = tree.qbegin(bgi::nearest(vertices[v], 1));
-        if (nearest != tree.qend() &&
-            nearest->first.distance(vertices[v]) <= tolerance)
+        double sum = 0.;
+        for (unsigned int d = 0; d < 3; ++d)
           {
-            number[v] = nearest->second;
-            continue;
+            const double outside =
+              std::max({low[d] - p[d], 0., p[d] - high[d]});
+            sum += outside * outside;
           }
-        number[v] = kept.size();
-        tree.insert({vertices[v], number[v]});
-        kept.push_back(vertices[v]);
+        return std::sqrt(sum);
       }
-    vertices = std::move(kept);
-    std::vector<Triangle> rest;
-    for (Triangle t : triangles)
-      {
-        for (unsigned int &v : t)
-          v = number[v];
-        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-          rest.push_back(t);
-      }
-    triangles = std::move(rest);
-  }
+    };
 
-
-
-  std::string
-  TriangleSurface::orient()
-  {
-    if (triangles.empty())
-      return "has no triangles";
-    const auto at_edge = list_edges(triangles);
-    for (const auto &[edge, list] : at_edge)
-      if (list.size() != 2)
-        {
-          std::ostringstream text;
-          text << (list.size() == 1 ? "is open" : "branches")
-               << " at the edge from (" << vertices[edge.first] << ") to ("
-               << vertices[edge.second] << ") m, where it has " << list.size()
-               << (list.size() == 1 ? " triangle" : " triangles");
-          return text.str();
-        }
-    if (!turn_alike(triangles, at_edge))
-      return "has one side only, like a Moebius strip";
-    if (volume() < 0.)
-      for (Triangle &t : triangles)
-        std::swap(t[0], t[1]);
-    return volume() > 0. ? "" : "encloses nothing";
-  }
-
-
-
-  std::vector<TriangleSurface>
-  TriangleSurface::components() const
-  {
-    DisjointSets parts(triangles.size());
-    for (const auto &[edge, list] : list_edges(triangles))
-      for (const unsigned int t : list)
-        parts.join(list[0], t);
-    std::map<unsigned int, TriangleSurface> part_of;
-    std::map<std::pair<unsigned int, unsigned int>, unsigned int> number;
-    for (unsigned int t = 0; t < triangles.size(); ++t)
-      {
-        const unsigned int root = parts.root(t);
-        TriangleSurface &part   = part_of[root];
-        Triangle own;
-        for (unsigned int i = 0; i < 3; ++i)
+    Box
+    box_around(const std::vector<Point<3>> &points)
+    {
+      Box box{points[0], points[0]};
+      for (const Point<3> &p : points)
+        for (unsigned int d = 0; d < 3; ++d)
           {
-            const unsigned int v = triangles[t][i];
-            const auto [entry, is_new] =
-              number.try_emplace({root, v}, part.vertices.size());
-            if (is_new)
-              part.vertices.push_back(vertices[v]);
-            own[i] = entry->second;
+            box.low[d]  = std::min(box.low[d], p[d]);
+            box.high[d] = std::max(box.high[d], p[d]);
           }
-        part.triangles.push_back(own);
-      }
-    std::vector<TriangleSurface> result;
-    for (auto &[root, part] : part_of)
-      result.push_back(std::move(part));
-    return result;
-  }
+      return box;
+    }
 
-
-
-  double
-  TriangleSurface::volume() const
-  {
-    double sum = 0.;
-    for (const Triangle &t : triangles)
-      {
-        const Tensor<1, 3> a = vertices[t[0]] - vertices[0],
-                           b = vertices[t[1]] - vertices[0],
-                           c = vertices[t[2]] - vertices[0];
-        sum += a * cross_product_3d(b, c) / 6.;
-      }
-    return sum;
-  }
-
-
-
-  /** Triangles by place, and the normals that tell inside from outside: at a
-   * vertex the sum of those of its triangles times their angles, on an edge
-   * that of its two triangles (Baerentzen and Aanaes, 2005). */
-  struct Solid::Search
-  {
-    using Box = dealii::BoundingBox<3>;
-
-    dealii::RTree<std::pair<Box, unsigned int>> tree;
-    std::vector<Tensor<1, 3>> of_triangle, of_vertex;
-    std::vector<std::array<Tensor<1, 3>, 3>> of_edge; ///< of each triangle
-  };
-
-
-
-  namespace
-  {
     /** Where a triangle is nearest to a point. */
     struct Foot
     {
@@ -234,7 +71,7 @@ namespace Keyblock
             const Point<3> &p)
     {
       Foot foot{std::numeric_limits<double>::max(), p, 6};
-      bool is_above = true;
+      bool is_above = normal.norm_square() > 0.; // not if it is flat
       for (unsigned int i = 0; i < 3; ++i)
         {
           const Point<3> &a = corners[i], &b = corners[(i + 1) % 3];
@@ -259,26 +96,118 @@ namespace Keyblock
 
 
 
+  /** A tree of boxes around triangles, and the normals that tell inside from
+   * outside: at a vertex the sum of those of its triangles times their angles,
+   * on an edge that of its two triangles (Baerentzen and Aanaes, 2005). */
+  struct Solid::Search
+  {
+    struct Node
+    {
+      Box box;
+      unsigned int begin, end; ///< of its triangles in `order`
+      unsigned int child = 0;  ///< the first of two; 0: a leaf
+    };
+
+    std::vector<Node> nodes;
+    std::vector<unsigned int> order;
+    std::vector<Tensor<1, 3>> of_triangle, of_vertex;
+    std::vector<std::array<Tensor<1, 3>, 3>> of_edge; ///< of each triangle
+
+    /** Halve the triangles of a node along its longest side, and so on. */
+    void
+    split(const unsigned int node, const TriangleSurface &surface)
+    {
+      const auto first = order.begin() + nodes[node].begin,
+                 last  = order.begin() + nodes[node].end;
+      std::vector<Point<3>> points;
+      for (auto t = first; t != last; ++t)
+        for (const unsigned int v : surface.triangles[*t])
+          points.push_back(surface.vertices[v]);
+      const Box box   = box_around(points);
+      nodes[node].box = box;
+      if (last - first <= most_in_leaf)
+        return;
+      unsigned int axis = 0;
+      for (unsigned int d = 1; d < 3; ++d)
+        if (box.high[d] - box.low[d] > box.high[axis] - box.low[axis])
+          axis = d;
+      const auto middle = first + (last - first) / 2;
+      const auto place  = [&](const unsigned int t) {
+        double sum = 0.;
+        for (const unsigned int v : surface.triangles[t])
+          sum += surface.vertices[v][axis];
+        return sum;
+      };
+      std::nth_element(first,
+                       middle,
+                       last,
+                       [&](const unsigned int a, const unsigned int b) {
+                         return place(a) < place(b);
+                       });
+      const unsigned int begin = nodes[node].begin, end = nodes[node].end,
+                         between = middle - order.begin(), child = nodes.size();
+      nodes[node].child = child;
+      nodes.push_back({{}, begin, between});
+      nodes.push_back({{}, between, end});
+      split(child, surface);
+      split(child + 1, surface);
+    }
+
+    /** Make @p nearest the foot on a triangle of a node, if one is nearer. */
+    void
+    find_nearest(const unsigned int node,
+                 const TriangleSurface &surface,
+                 const Point<3> &p,
+                 Foot &nearest,
+                 Tensor<1, 3> &normal) const
+    {
+      if (nodes[node].box.distance(p) >= nearest.distance)
+        return;
+      if (nodes[node].child > 0)
+        {
+          unsigned int first = nodes[node].child, second = first + 1;
+          if (nodes[second].box.distance(p) < nodes[first].box.distance(p))
+            std::swap(first, second);
+          find_nearest(first, surface, p, nearest, normal);
+          find_nearest(second, surface, p, nearest, normal);
+          return;
+        }
+      for (unsigned int i = nodes[node].begin; i < nodes[node].end; ++i)
+        {
+          const unsigned int n = order[i];
+          const Triangle &t    = surface.triangles[n];
+          const Foot foot      = foot_on({{surface.vertices[t[0]],
+                                           surface.vertices[t[1]],
+                                           surface.vertices[t[2]]}},
+                                    of_triangle[n],
+                                    p);
+          if (foot.distance >= nearest.distance)
+            continue;
+          nearest = foot;
+          normal  = foot.feature == 6  ? of_triangle[n]
+                    : foot.feature > 2 ? of_edge[n][foot.feature - 3]
+                                       : of_vertex[t[foot.feature]];
+        }
+    }
+  };
+
+
+
   Solid::Solid(TriangleSurface given)
     : surface(std::move(given))
   {
-    auto made = std::make_unique<Search>();
-    low = high = surface.vertices.at(0);
+    auto made     = std::make_unique<Search>();
+    const Box box = box_around(surface.vertices);
+    low           = box.low;
+    high          = box.high;
     made->of_vertex.resize(surface.vertices.size());
     std::map<Edge, Tensor<1, 3>> of_edge;
-    std::vector<std::pair<Search::Box, unsigned int>> boxes;
     for (unsigned int n = 0; n < surface.triangles.size(); ++n)
       {
         const Triangle &t = surface.triangles[n];
         std::array<Point<3>, 3> x;
         for (unsigned int i = 0; i < 3; ++i)
           x[i] = surface.vertices[t[i]];
-        boxes.emplace_back(Search::Box(x), n);
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            low[d]  = std::min(low[d], boxes.back().first.lower_bound(d));
-            high[d] = std::max(high[d], boxes.back().first.upper_bound(d));
-          }
         Tensor<1, 3> normal = cross_product_3d(x[1] - x[0], x[2] - x[0]);
         // (a flat triangle has none)
         normal /= std::max(normal.norm(), 1e-300);
@@ -289,15 +218,19 @@ namespace Keyblock
                                v = x[(i + 2) % 3] - x[i];
             made->of_vertex[t[i]] +=
               std::atan2(cross_product_3d(u, v).norm(), u * v) * normal;
-            of_edge[edge_of(t, i)] += normal;
+            of_edge[TriangleSurface::edge_of(t, i)] += normal;
           }
       }
     for (const Triangle &t : surface.triangles)
-      made->of_edge.push_back({{of_edge[edge_of(t, 0)],
-                                of_edge[edge_of(t, 1)],
-                                of_edge[edge_of(t, 2)]}});
-    made->tree = dealii::pack_rtree(boxes);
-    search     = std::move(made);
+      made->of_edge.push_back({{of_edge[TriangleSurface::edge_of(t, 0)],
+                                of_edge[TriangleSurface::edge_of(t, 1)],
+                                of_edge[TriangleSurface::edge_of(t, 2)]}});
+    made->order.resize(surface.triangles.size());
+    std::iota(made->order.begin(), made->order.end(), 0);
+    const unsigned int n = made->order.size();
+    made->nodes.push_back({{}, 0, n});
+    made->split(0, surface);
+    search = std::move(made);
   }
 
   Solid::~Solid() = default;
@@ -307,30 +240,9 @@ namespace Keyblock
   double
   Solid::depth_inside(const Point<3> &p) const
   {
-    namespace bgi = boost::geometry::index;
     Foot nearest{std::numeric_limits<double>::max(), p, 6};
     Tensor<1, 3> normal;
-    for (auto entry =
-           search->tree.qbegin(bgi::nearest(p, surface.triangles.size()));
-         entry != search->tree.qend();
-         ++entry)
-      {
-        if (boost::geometry::distance(p, entry->first) > nearest.distance)
-          break;
-        const unsigned int n = entry->second;
-        const Triangle &t    = surface.triangles[n];
-        const Foot foot      = foot_on({{surface.vertices[t[0]],
-                                         surface.vertices[t[1]],
-                                         surface.vertices[t[2]]}},
-                                  search->of_triangle[n],
-                                  p);
-        if (foot.distance >= nearest.distance)
-          continue;
-        nearest = foot;
-        normal  = foot.feature == 6  ? search->of_triangle[n]
-                  : foot.feature > 2 ? search->of_edge[n][foot.feature - 3]
-                                     : search->of_vertex[t[foot.feature]];
-      }
+    search->find_nearest(0, surface, p, nearest, normal);
     return (p - nearest.place) * normal > 0. ? -nearest.distance
                                              : nearest.distance;
   }

@@ -4,9 +4,11 @@
 
 #include <deal.II/base/point.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Keyblock
@@ -17,6 +19,14 @@ namespace Keyblock
   struct TriangleSurface
   {
     using Triangle = std::array<unsigned int, 3>;
+    using Edge     = std::pair<unsigned int, unsigned int>; ///< lesser first
+
+    /** The edge of a triangle from its vertex @p i. */
+    static Edge
+    edge_of(const Triangle &t, const unsigned int i)
+    {
+      return std::minmax(t[i], t[(i + 1) % 3]);
+    }
 
     std::vector<Point<3>> vertices;
     std::vector<Triangle> triangles;
