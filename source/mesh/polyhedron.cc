@@ -5,12 +5,14 @@
 #include <gmsh.h>
 #include <keyblock/base/disjoint_sets.h>
 #include <keyblock/base/gmsh_session.h>
+#include <keyblock/base/number_text.h>
 #include <keyblock/mesh/polyhedron.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <stdexcept>
 
 namespace Keyblock
 {
@@ -291,6 +293,14 @@ namespace Keyblock
     std::vector<int> surfaces;
     for (const PolyhedronFace &face : list_faces(surface))
       maker.add(face, surfaces);
-    return occ::addVolume({occ::addSurfaceLoop(surfaces, -1, true)});
+    const int solid = occ::addVolume({occ::addSurfaceLoop(surfaces, -1, true)});
+    double volume   = 0.;
+    occ::getMass(3, solid, volume);
+    if (!(std::abs(volume - surface.volume()) < 1e-6 * surface.volume()))
+      throw std::runtime_error("an excavation of triangles has a volume of " +
+                               text_of(surface.volume()) + " m3 and becomes " +
+                               text_of(volume) +
+                               " m3, as if its surface crossed itself");
+    return solid;
   }
 } // namespace Keyblock

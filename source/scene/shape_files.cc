@@ -17,6 +17,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 
 namespace Keyblock
 {
@@ -25,6 +26,10 @@ namespace Keyblock
     /** Longest side of a shape over that of the domain, below which its unit
      * is doubted [-]. */
     constexpr double least_part = 1e-3;
+
+    /** Cells follow each triangle: more of them take long, and no excavation
+     * asks for them. */
+    constexpr unsigned int most_triangles = 20000;
 
     template <int dim>
     class ShapeFileReader
@@ -157,6 +162,11 @@ namespace Keyblock
         else if (is_stl(suffix))
           {
             TriangleSurface surface = read_stl(text);
+            if (surface.triangles.size() > most_triangles)
+              throw std::runtime_error(
+                "it has " + std::to_string(surface.triangles.size()) +
+                " triangles, more than " + std::to_string(most_triangles) +
+                ", each of which cells would follow: make them larger");
             for (Point<3> &p : surface.vertices)
               p = Point<3>(excavation.scale * p - origin);
             surfaces = surface.components();

@@ -14,11 +14,13 @@
 #include <keyblock/scene/dxf.h>
 #include <keyblock/scene/solid_file.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 
 using namespace Keyblock;
 
@@ -366,6 +368,40 @@ BOOST_AUTO_TEST_CASE(cylinder_from_step)
                                   << " of its volume");
   BOOST_TEST(measured < volume);
   BOOST_TEST(measured > volume * (1. - 2. * largest));
+}
+
+
+
+BOOST_AUTO_TEST_CASE(solids_of_brep)
+{
+  const std::string name =
+    own(std::to_string(world.rank()) + "_two.brep"); // each rank reads its own
+  {
+    const GmshSession session;
+    gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3);
+    gmsh::model::occ::addBox(5, 0, 0, 1, 1, 1);
+    gmsh::model::occ::synchronize();
+    gmsh::write(name);
+  }
+  std::vector<TriangleSurface> surfaces =
+    triangulate_solids(name, 2., Point<3>(1., 0., 0.));
+  BOOST_REQUIRE(surfaces.size() == 2u);
+  std::vector<double> volumes;
+  for (TriangleSurface &surface : surfaces)
+    {
+      BOOST_TEST(surface.orient() == "");
+      volumes.push_back(surface.volume());
+    }
+  std::sort(volumes.begin(), volumes.end());
+  BOOST_TEST(std::abs(volumes[0] - 8.) < 1e-9);
+  BOOST_TEST(std::abs(volumes[1] - 48.) < 1e-9);
+  const Solid first(surfaces[0]), second(surfaces[1]);
+  BOOST_TEST(std::abs(std::min(first.low[0], second.low[0]) + 1.) < 1e-9);
+  BOOST_TEST(std::abs(std::max(first.high[0], second.high[0]) - 11.) < 1e-9);
+
+  std::ofstream(name) << "no shape";
+  BOOST_CHECK_THROW(triangulate_solids(name, 1., Point<3>()),
+                    std::runtime_error);
 }
 
 
