@@ -155,7 +155,7 @@ namespace Keyblock
       receive(from_child);
     });
     const int status          = wait_for(child);
-    if (WIFSIGNALED(status))
+    if (WIFSIGNALED(status) || WEXITSTATUS(status) != 0)
       throw std::runtime_error("Gmsh breaks down over it, as it does over "
                                "files that are damaged");
     if (!failure.empty())

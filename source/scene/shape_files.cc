@@ -222,9 +222,12 @@ namespace Keyblock
             sides += (d > 0 ? ", " : "") + std::string(1, "xyz"[d]) + " from " +
                      text_of(low[d]) + " to " + text_of(high[d]);
           }
+        const bool has_unit = suffix == ".step" || suffix == ".stp";
         const std::string remedy =
-          "; check its unit ('" + section +
-          "/Scale') and its coordinates ('Domain/Origin') against 'Domain'.";
+          "; check its unit " +
+          (has_unit ? std::string("in the file")
+                    : "('" + section + "/Scale')") +
+          " and its coordinates ('Domain/Origin') against 'Domain'.";
         require(!is_larger,
                 subject + " has a shape of " + sides +
                   " m, larger than the domain" + remedy);
