@@ -148,7 +148,12 @@ namespace Keyblock
   bool
   MeshImprovement<dim>::smooth(const unsigned int vertex)
   {
-    if (mesh.is_fixed[vertex])
+    // moves along chords of a curved surface would add up
+    const auto &bound = mesh.bound_to[vertex];
+    if (mesh.is_fixed[vertex] ||
+        std::any_of(bound.begin(), bound.end(), [this](const unsigned int s) {
+          return mesh.surfaces[s].is_curved;
+        }))
       return false;
     const auto locked = mesh.locked_directions(vertex, may_leave_joints);
     if (locked.size() >= dim)
