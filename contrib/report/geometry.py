@@ -52,6 +52,8 @@ class Geometry:
         """Corners, blocks and displacements of the cells of all states."""
         names = ["displacement", "block", "material"]
         states = [read_cells(rock, names) for _, _, rock, _ in self.run.states]
+        states = [(corners.astype(numpy.float32), fields)
+                  for corners, fields in states]  # as those of the joints
         states = [state for state in states if len(state[0])]
         if not states:
             raise ReportError("There are no pictures, as the files of the "
@@ -168,11 +170,13 @@ class Geometry:
             corners, fields = read_cells(path, ["joint"])
             if not len(corners):
                 continue
+            corners = corners.astype(numpy.float32)
             vertices = numpy.array([known.get(point.tobytes(), 0) for point in
                                     corners.reshape(-1, 3)])
             vertices = vertices.reshape(corners.shape[:2])
             keys = keys_of(numpy.sort(vertices, axis=1).astype(numpy.uint32))
-            joint = fields["joint"][:, 0].astype(int)
+            # at the tips of joints, where sides are one, 0 is written
+            joint = fields["joint"].max(axis=1).astype(int)
             order = numpy.argsort(keys)
             at = numpy.searchsorted(keys[order], self.face_key)
             at = numpy.minimum(at, len(keys) - 1)
