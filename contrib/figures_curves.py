@@ -13,7 +13,8 @@ from figures_style import (DASHES, NOTHING, block_colour, block_label,
 TERMS = {"external": "#1f77b4", "elastic": "#2f9e44", "friction": "#c0392b",
          "local_damping": "#e8820e", "kinetic": "#7e57c2",
          "plastic": "#8c564b", "supports": "#0b9ba8",
-         "contact_closure": "#d6336c", "penetration": "#6d4c41", "dilation": "#0b7285",
+         "contact_closure": "#d6336c", "penetration": "#6d4c41",
+         "dilation": "#0b7285",
          "stiffness_damping": "#a9841b", "mass_damping": "#7f8c8d"}
 # of the ledger: what flows in; the rest is stored or dissipated
 INFLOWS = {"external", "supports"}

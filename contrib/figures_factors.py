@@ -153,7 +153,8 @@ def plot_factors(axes, run, number, method, points, ends, dashes):
     _, own_dashes, marker = METHODS[method]
     colour = block_colour(run, number)
     blocks = factors_of(run)
-    shift = min(0.09, 0.8 / len(blocks)) * (blocks.index(number) - 0.5 * (len(blocks) - 1))
+    shift = min(0.09, 0.8 / len(blocks)) * (
+        blocks.index(number) - 0.5 * (len(blocks) - 1))
     is_found = method == "safety_factor"
     fill = {"markerfacecolor": colour if is_found else "white",
             "color": colour, "clip_on": False, "zorder": 4 if is_found else 3}

@@ -198,7 +198,7 @@ def draw_block_map(run, box=()):
     finite = run.finite_blocks()
     shown = ([(n, block_label(run, n)) for n in finite]
              if len(finite) <= 12 else
-             [(n, f"{len(finite) - len(named)} blocks without a number")
+             [(n, f"{len(finite) - len(named)} others")
               for n in set(finite) - set(named)][:1])
     blocks = [axes.fill([], [], facecolor=pale(block_colour(run, n)),
                         edgecolor=block_colour(run, n), label=label)[0]

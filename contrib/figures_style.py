@@ -28,7 +28,7 @@ JOINT_COLOURS = ["#222222", "#1565c0", "#2e7d32", "#00909e", "#827717",
                  "#5c6bc0", "#78909c", "#26a69a"]
 DASHES = ["-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))]
 HIDDEN = "#9a9a92"  # of many blocks those that are hidden
-LARGEST = 80000  # bytes of a picture
+LARGEST = 250000  # bytes of a picture; larger ones get fewer colours
 NOTHING = 1e-12  # displacements below are rounding errors [m]
 UNITS = {"m": (("m", 1.), ("mm", 1e-3), ("\N{MICRO SIGN}m", 1e-6)),
          "N": (("GN", 1e9), ("MN", 1e6), ("kN", 1e3), ("N", 1.)),
@@ -164,15 +164,15 @@ def use_logarithm(axes, values, name):
 
 
 def reduce_colours(path):
-    """Write a picture again with as many colours as its size permits."""
+    """Write a large picture again with as many colours as its size permits."""
     with Image.open(path) as image:
         rgb = image.convert("RGB")
     for n_colours in (256, 128, 64, 32):
+        if path.stat().st_size <= LARGEST:
+            break
         # an octree keeps the colours of thin lines, the default loses them
         rgb.quantize(n_colours, Image.Quantize.FASTOCTREE,
                      dither=Image.Dither.NONE).save(path, optimize=True)
-        if path.stat().st_size <= LARGEST:
-            break
     print(f"{path}  {path.stat().st_size / 1000:.0f} kB")
 
 

@@ -49,6 +49,8 @@ def describe(time, grid, view):
         lines.append(f"bed at {view.tilt:g} degrees")
     if view.explode > 0.:
         lines.append("drawn apart")
+    if view.field in ("stress_major", "stress_minor"):
+        lines.append("pressed: +")
     text = "; ".join(lines)
     if view.field in ("block", "joint_state") or view.has_depth():
         return text

@@ -2,6 +2,7 @@
 """Files of the pictures of render.py: PNG, PDF and SVG."""
 import base64
 import ctypes
+import functools
 import pathlib
 import zlib
 
@@ -11,19 +12,22 @@ from vtkmodules.vtkRenderingCore import (vtkRenderWindow,
                                          vtkWindowToImageFilter)
 
 
+@functools.lru_cache
 def need_display():
-    """End with a sentence where VTK would abort, as it finds no display."""
+    """End with a sentence where VTK would abort, as it finds no display.
+
+    The connection stays: when its last one ends, Xvfb starts anew, and takes no
+    other for a while."""
     try:
         library = ctypes.CDLL("libX11.so.6")
     except OSError:
-        return  # not a system on which VTK asks for it
+        return None  # not a system on which VTK asks for it
     library.XOpenDisplay.restype = ctypes.c_void_p
-    library.XCloseDisplay.argtypes = [ctypes.c_void_p]
     display = library.XOpenDisplay(None)
     if not display:
         fail("there is no display to draw on; put xvfb-run -a before the "
              "command, which the packages xvfb and xauth bring.")
-    library.XCloseDisplay(display)
+    return display
 
 
 def save(renderers, size, path, dpi):
