@@ -125,7 +125,13 @@ class Run:
             return []
 
     def down(self):
-        """Unit vector of gravity, or None if it is zero or a formula."""
+        """Unit vector of gravity, or None if it is zero or a formula.
+
+        Left out, it follows from the section Ground."""
+        if (self.numbers("Ground/Depth") or [0.])[0] > 0. and not (
+                self.entries.get("Initial state/Gravity")):
+            return numpy.array([0., -1., 0.] if self.is_plane else
+                               [0., 0., -1.])
         gravity = numpy.array((self.numbers("Initial state/Gravity")
                                + [0., 0.])[:3])
         size = numpy.linalg.norm(gravity)

@@ -12,8 +12,9 @@ import numpy
 from .geometry import FREE, unique_rows
 from .html import escape
 from .pictures import exaggeration
-from .tables import STATES, in_words, limit_in_words, number
 from .style import GROUP_COLOURS
+from .tables import STATES, in_words, limit_in_words
+from .words import demand_in_words, mode_in_words, number
 
 SHARP = 0.9  # faces at an edge that is drawn differ by more, as a cosine
 
@@ -164,7 +165,10 @@ def describe(run, row):
             f"{number(row['volume'])} m³"
             + (" per m" if run.is_plane else ""),
             f"{number(row['weight'] / 1e3)} kN" if row["weight"] else "",
-            row["mode"] or "",
+            mode_in_words(row["mode"]) or "",
+            {True: "held by clamping", None: "", False: ""}[row["clamped"]],
+            f"needs {demand_in_words(row['demand'], run.is_plane)}"
+            if row["demand"] else "",
             f"limit equilibrium {limit_in_words(row['limit'])}"
             if row["limit"] else "",
             f"strength reduction {in_words(factor)} after {factor['stage']}"
