@@ -147,10 +147,12 @@ def put_legend(axes, **options):
 
 
 def put_text(axes, place, text, **options):
-    """A short text with a white rim, readable on any ground."""
+    """A short text with a white rim, readable on any ground.
+
+    In SVG, where its letters are paths, it is the group label_TEXT."""
     rim = [patheffects.withStroke(linewidth=2.5, foreground="white")]
     axes.text(*place, text, ha="center", va="center", path_effects=rim,
-              clip_on=True, **options)
+              clip_on=True, gid=f"label_{text}", **options)
 
 
 def use_logarithm(axes, values, name):

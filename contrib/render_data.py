@@ -8,6 +8,11 @@ import xml.etree.ElementTree
 
 try:
     import numpy
+except ImportError as error:
+    sys.exit(f"{pathlib.Path(sys.argv[0]).name}: numpy cannot be loaded "
+             f"({error}); install the package python3-numpy and use the "
+             "system's Python, /usr/bin/python3.")
+try:
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkDataObject,
