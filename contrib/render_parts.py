@@ -17,6 +17,7 @@ from render_data import (corners_of_cells, fail, find_joints, find_rock,
                          make_grid, merge_points, outline_of, read_grid,
                          values_of)
 from report.geometry import FACES
+from report.polygons import clip_polygon
 from report.reading import ReportError
 from report.run_files import groups_of
 from report.vtu import read_cells, read_polygons
@@ -134,28 +135,6 @@ def clip_lines(lines, function, is_inside=False):
     clip.SetInsideOut(is_inside)
     clip.Update()
     return clip.GetOutput()
-
-
-def clip_polygon(polygon, low, high):
-    """The part of a plane polygon, or of a line, within a box."""
-    points = [numpy.array(p, float) for p in polygon]
-    is_line = len(points) == 2
-    for k in range(3):
-        for bound, sign in ((low[k], 1.), (high[k], -1.)):
-            kept, n = [], len(points)
-            for a in range(1 if is_line and n == 2 else n):
-                p, q = points[a], points[(a + 1) % n]
-                u, v = sign * (p[k] - bound), sign * (q[k] - bound)
-                if u >= 0.:
-                    kept.append(p)
-                if u * v < 0.:
-                    kept.append(p + u / (u - v) * (q - p))
-                if is_line and v >= 0.:
-                    kept.append(q)
-            points = kept
-            if len(points) < 2:
-                return []
-    return points
 
 
 def key_of(points):

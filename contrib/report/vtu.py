@@ -108,19 +108,24 @@ def names_of(piece):
     return [*piece["PointData"], *piece["CellData"]]
 
 
-def read_cells(path, names=None):
+def read_cells(path, names=None, optional=()):
     """Corners (cells, n, 3) and fields at them (cells, n, ...) of a grid.
 
-    Without names all fields; of those asked for every one has to be there."""
+    Without names all fields; of those asked for every one has to be there but
+    those that are optional."""
     corners, fields = [], {}
+    wanted = None if names is None else [*names, *optional]
     try:
-        for piece in read_pieces(path, names):
+        for piece in read_pieces(path, wanted):
             n_cells = len(piece.get("offsets", ()))
             if not n_cells:
                 continue
             order = piece["connectivity"].reshape(n_cells, -1)
             corners.append(piece["points"].reshape(-1, 3)[order] + 0.)
-            for name in names or names_of(piece):
+            shown = names_of(piece)
+            if names is not None:
+                shown = [*names, *(n for n in optional if n in shown)]
+            for name in shown:
                 fields.setdefault(name, []).append(
                     at_corners(piece, name, order))
     except (KeyError, IndexError, ValueError) as error:
@@ -157,6 +162,16 @@ def stress_of(fields):
         if f"stress_{name}" in fields:
             stress[..., a, b] = stress[..., b, a] = fields[f"stress_{name}"]
     return stress
+
+
+STRESS = ("stress", *(f"stress_{name}" for name in COMPONENTS))
+
+
+def largest_pressure(fields):
+    """Major principal stress of cells, pressed: +, or None without stress."""
+    stress = stress_of({name: values[:, 0] for name, values in fields.items()
+                        if name in STRESS})
+    return None if stress is None else -numpy.linalg.eigvalsh(stress)[:, 0]
 
 
 def read_polygons(path, names):
