@@ -119,10 +119,15 @@ def draw_plastic(run, name=None, box=()):
     grid, _, title = state_of(run, name)
     if not grid.GetPointData().HasArray("plastic_strain"):
         return "no plastic material"
-    box = choose_box(run, stage_of_cells(run), box)
     order, corners = cells_of(grid)
     strain = magnitudes_of(grid, "plastic_strain")[order].mean(axis=1)
-    inside, yielded = inside_of(corners, box), strain > 0.
+    yielded, is_free = strain > 0., not box
+    box = choose_box(run, stage_of_cells(run), box)
+    if is_free and yielded.any():  # all that has yielded is to be seen
+        places = corners[yielded][:, :, :2]
+        box = numpy.array([numpy.minimum(box[0], places.min(axis=(0, 1))),
+                           numpy.maximum(box[1], places.max(axis=(0, 1)))])
+    inside = inside_of(corners, box)
     figure, ((axes,),) = new_figure(size=sheet_size(box, 1, 1.4))
     set_up(axes, box)
     axes.add_collection(PolyCollection(
