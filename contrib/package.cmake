@@ -5,6 +5,8 @@ install(FILES doc/keyblock.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
   COMPONENT program)
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock
   COMPONENT program)
+install(FILES doc/summary.schema.json doc/study.schema.json
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock COMPONENT program)
 install(PROGRAMS contrib/keyblock-report DESTINATION ${CMAKE_INSTALL_BINDIR}
   COMPONENT program)
 install(DIRECTORY contrib/report DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock

@@ -9,7 +9,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 build=${1:-$root/build}
 packages="libdeal.ii-dev libgmsh-dev libboost-program-options-dev
   nlohmann-json3-dev cmake g++ make
-  clang-format python3 python3-matplotlib openmpi-bin"
+  clang-format python3 python3-jsonschema python3-matplotlib openmpi-bin"
 
 missing=
 for package in $packages; do
