@@ -3,6 +3,9 @@ install(TARGETS keyblock RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
   COMPONENT program)
 install(FILES doc/keyblock.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
   COMPONENT program)
+install(FILES contrib/completion/keyblock
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  COMPONENT program)
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock
   COMPONENT program)
 install(FILES doc/summary.schema.json doc/study.schema.json
