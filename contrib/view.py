@@ -7,9 +7,9 @@ usage: contrib/view.py OUTPUT [--open] [--picture FILE.png]
 Writes OUTPUT/view.py, a script that shows rock, joints and bolts in ParaView
 (also elsewhere: paraview --script=OUTPUT/view.py), and starts it if there are
 ParaView and a display. With --picture pvpython draws a picture instead. Without
-ParaView the report of contrib/keyblock-report is written, and --open shows it in
-a browser (xdg-open). Exits with 1 and one sentence if OUTPUT is not that of a
-run.
+ParaView the report of contrib/keyblock-report is written; --open shows it in a
+browser (xdg-open), in any case. Exits with 1 and one sentence if OUTPUT is not
+that of a run.
 """
 import argparse
 import json

@@ -29,14 +29,19 @@ OPTIONAL = FREE - {"monitors", "checks", "seeds"} | {
     "governed_by", "group", "largest_volumes", "mesh", "open_ends", "remark",
     "removable", "removed_in_stage"}
 
+# statistics of a study, where no sample has a value
+NULL_IF_NONE = {"least_factor", "failed_volume", "factor"}
+
 # scene, arguments, and what it shows of a summary
 SCENES = (
     ("verification/factor_group.prm", ["--set", "Safety factor/Bracket=0.05"],
      "blocks/0/safety_factor/0/group/value"),
     ("verification/geostress.prm", [], "geostress/r_squared"),
-    ("verification/blocks_sets_3d.prm",
-     ["--set", "Block theory/Report=true",
-      "--set", "Block theory/Roof span=2"], "block_theory/faces/0"),
+    ("verification/bolted_incline.prm", ["--set", "Safety factor/Blocks=none"],
+     "bolts/0/governed_by"),
+    ("verification/blocks_cube_4.prm",
+     ["--set", "Block theory/Report=true", "--set", "Block theory/Roof span=5"],
+     "block_theory/faces/0/largest_volumes/0"),
     ("tutorial/joint_network.prm", [], "mesh/way"))
 
 
@@ -134,14 +139,18 @@ def damages(results):
     yield "has a key too many", with_value(results, ("surplus",), 0.)
     for path, value in paths_of(results):
         name, key = "/".join(map(str, path)), path[-1]
-        owner_is_free = len(path) > 1 and path[-2] in FREE
-        if not isinstance(key, int) and key not in OPTIONAL and not owner_is_free:
+        may_be_absent = (isinstance(key, int) or key in OPTIONAL
+                         or len(path) > 1 and path[-2] in FREE)
+        if not may_be_absent:
             yield f"lacks {name}", with_value(results, path)
-        if isinstance(value, dict) and key not in FREE:
+        if isinstance(value, dict) and key not in FREE - {"monitors"}:
             yield (f"has a key too many in {name}",
                    with_value(results, path + ("surplus",), 0.))
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             for bad in (str(value), None, 1e100, -1e100):
+                yield f"has {bad!r} as {name}", with_value(results, path, bad)
+        elif value is not None:
+            for bad in (17,) if key in NULL_IF_NONE else (17, None):
                 yield f"has {bad!r} as {name}", with_value(results, path, bad)
 
 
