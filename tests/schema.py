@@ -32,6 +32,14 @@ OPTIONAL = FREE - {"monitors", "checks", "seeds"} | {
 # statistics of a study, where no sample has a value
 NULL_IF_NONE = {"least_factor", "failed_volume", "factor"}
 
+# of these damages_of_one() has more
+POINTS = {"centroid", "head", "end", "largest_overlap_at"}
+WORDS = {"build_type", "digest", "distribution", "entry", "failure_mode",
+         "governed_by", "mode", "outcome", "sampling", "version", "way"}
+NOT_EMPTY = {"blocks", "bolts", "class", "faces", "joint_pyramids",
+             "largest_volumes", "limit_equilibrium", "removable",
+             "safety_factor", "stress_ratio"}
+
 # scene, arguments, and what it shows of a summary
 SCENES = (
     ("verification/factor_group.prm", ["--set", "Safety factor/Bracket=0.05"],
@@ -134,6 +142,18 @@ def with_value(results, path, *value):
     return results
 
 
+def damages_of_one(key, value):
+    """Values that a key must not have, as it has another one."""
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return str(value), None, 1e100, -1e100
+    bad = [17] if value is None or key in NULL_IF_NONE else [17, None]
+    if key in POINTS:
+        bad += [value[:-1], [*value, 0.]]
+    if key in WORDS:
+        bad += ["", "?"] if key != "failure_mode" else ["?"]
+    return bad + [[]] if key in NOT_EMPTY else bad
+
+
 def damages(results):
     """What is wrong, and a copy with that, for every key."""
     yield "has a key too many", with_value(results, ("surplus",), 0.)
@@ -146,16 +166,12 @@ def damages(results):
         if isinstance(value, dict) and key not in FREE - {"monitors"}:
             yield (f"has a key too many in {name}",
                    with_value(results, path + ("surplus",), 0.))
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
-            for bad in (str(value), None, 1e100, -1e100):
-                yield f"has {bad!r} as {name}", with_value(results, path, bad)
-        elif value is not None:
-            for bad in (17,) if key in NULL_IF_NONE else (17, None):
-                yield f"has {bad!r} as {name}", with_value(results, path, bad)
+        for bad in damages_of_one(key, value):
+            yield f"has {bad!r} as {name}", with_value(results, path, bad)
 
 
-def damaged_factors(summary):
-    """Brackets that are not what their outcome says."""
+def contradictions(summary):
+    """Brackets that are not what their outcome says, and stages."""
     for b, block in enumerate(summary["blocks"]):
         for f, factor in enumerate(block.get("safety_factor", [])):
             place = ("blocks", b, "safety_factor", f)
@@ -168,6 +184,16 @@ def damaged_factors(summary):
             for key in ("value", "upper", "lower"):
                 yield (f"has a factor of 0 as {key}",
                        with_value(summary, place + (key,), 0.))
+    for number in range(len(summary["stages"])):
+        place = ("stages", number)
+        stage = dict(look_up(summary, place), converged=False)
+        stage.pop("remark", None)
+        yield ("has a stage that did not converge, and no remark",
+               with_value(summary, place, stage))
+        stage = dict(look_up(summary, place), largest_overlap=1.)
+        stage.pop("largest_overlap_at", None)
+        yield ("has an overlap without a place",
+               with_value(summary, place, stage))
 
 
 def faults_of_open_bracket(summary):
@@ -208,9 +234,9 @@ def faults_of_scenes(keyblock, prm, folder):
         look_up(summary, [int(key) if key.isdigit() else key
                           for key in shown.split("/")])
         yield from faults_of(summary, "summary")
-        more = list(damaged_factors(summary))
+        more = list(contradictions(summary))
         yield from faults_of_damages(summary, "summary", more)
-        if more:
+        if "safety_factor" in summary["blocks"][0]:
             yield from faults_of_open_bracket(summary)
     run([keyblock, str(prm / "verification" / "study_incline.prm"), "--study",
          "--set", "Study/Samples=100"], folder / "study")
