@@ -346,7 +346,8 @@ def factors(keyblock):
                      sum(len(f["trials"]) for b in found
                          for f in b["safety_factor"]),
                      "; ".join(f"{b['id']}: " + ", ".join(
-                         f"{f['value']:.3g}" for f in b["safety_factor"])
+                         f"{f['value']:.3g}" if "value" in f else f["outcome"]
+                         for f in b["safety_factor"])
                                for b in found)))
     write_table("factors", ("mesh size over the study's", "cells",
                             "wall time [s]", "factors", "trials",

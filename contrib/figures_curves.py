@@ -7,13 +7,14 @@ import numpy
 
 from figures_joints import block_face_stresses
 from figures_style import (DASHES, NOTHING, block_colour, block_label,
-                           fitting_unit, joint_style, key_of_runs, new_figure,
-                           put_legend, put_stages)
+                           fitting_unit, joint_style, key_of_joints,
+                           key_of_runs, new_figure, put_legend, put_stages)
 
 TERMS = {"external": "#1f77b4", "elastic": "#2f9e44", "friction": "#c0392b",
          "local_damping": "#e8820e", "kinetic": "#7e57c2",
          "plastic": "#8c564b", "supports": "#0b9ba8",
-         "contact_closure": "#d6336c", "penetration": "#6d4c41", "dilation": "#0b7285",
+         "contact_closure": "#d6336c", "penetration": "#6d4c41",
+         "dilation": "#0b7285",
          "stiffness_damping": "#a9841b", "mass_damping": "#7f8c8d"}
 # of the ledger: what flows in; the rest is stored or dissipated
 INFLOWS = {"external", "supports"}
@@ -112,7 +113,9 @@ def draw_joint_stresses(runs):
     """Mean stresses on the faces of each finite block by stage."""
     first = runs[0]
     found = [(run, block_face_stresses(run)) for run in runs]
-    blocks = [n for n in first.finite_blocks() if found[0][1].get(n)]
+    order = first.exposed_blocks()
+    order += [n for n in first.finite_blocks() if n not in order]
+    blocks = [n for n in order if found[0][1].get(n)]
     if not blocks:
         return "no joint faces of finite blocks with stresses"
     kind = first.axis_kind()
@@ -135,12 +138,9 @@ def draw_joint_stresses(runs):
                       color=block_colour(first, number))
         one.set_xlabel("")
     joints = {name for n in shown for name in found[0][1][n]}
-    for name in first.names("Joints"):
-        if name in joints:
-            style = joint_style(first, name)
-            if len(runs) > 1:
-                style["linestyle"] = "-"
-            axes[0, -1].plot([], [], label=name, **style)
+    key_of_joints(axes[0, -1], first, [
+        name for name in first.names("Joints") if name in joints],
+        **({"linestyle": "-"} if len(runs) > 1 else {}))
     key_of_runs(axes[0, -1], runs)
     put_legend(axes[0, -1])
     return figure

@@ -8,14 +8,16 @@ import math
 from figures_style import (DASHES, block_colour, block_label, fitting_unit,
                            key_of_runs, new_figure, put_legend, use_logarithm)
 
+MOST = 12  # blocks in a figure
 METHODS = {"safety_factor": ("strength reduction", "-", "o"),
            "limit_equilibrium": ("limit equilibrium", (0, (5, 2)), "s"),
            "stress_ratio": ("stress ratio", (0, (1.5, 1.5)), "D")}
 
 
 def factors_of(run):
-    """Numbers of the blocks whose factors were looked for."""
-    return [n for n in run.finite_blocks()
+    """Numbers of the blocks whose factors were looked for, of many the most
+    dangerous."""
+    return [n for n in run.named_blocks(MOST)
             if run.blocks[n].get("safety_factor")]
 
 
@@ -33,7 +35,7 @@ def title_of(run, number, result):
     if outcome == "value":
         outcome = f"{result['value']:.3g}, {result['failure_mode']}"
     elif outcome == "immovable":
-        outcome = f"immovable: holds at {result['value']:.3g}"
+        outcome = f"immovable: holds at {result['lower']:.3g}"
     elif outcome == "falls freely":
         outcome = f"falls freely: fails at {result['upper']:.3g}"
     return f"{block_label(run, number)}\n{outcome}"
@@ -103,8 +105,9 @@ def factor_points(run, number, method):
     points = []
     for result in run.blocks[number].get(method, []):
         value = result.get("value")
-        value = math.inf if value is None else value
         outcome = result.get("outcome", "value")
+        if value is None:
+            value = 0. if outcome == "falls freely" else math.inf
         if outcome.startswith("above "):
             outcome = "immovable"  # as far as trials go: the same symbol
         if outcome == "value" and not 0. < value < math.inf:
@@ -121,7 +124,7 @@ def draw_factors(runs):
         return "no safety factors"
     methods = METHODS if len(runs) == 1 else ["safety_factor"]
     curves = [(run, n, m, factor_points(run, n, m)) for run in runs
-              for n in first.finite_blocks() for m in methods]
+              for n in factors_of(first) for m in methods]
     values = [v for *_, points in curves for _, v, o in points if o == "value"]
     low, high = (min(values), max(values)) if values else (0.5, 2.)
     is_wide = high > 8. * low
@@ -150,8 +153,9 @@ def plot_factors(axes, run, number, method, points, ends, dashes):
     """The factors of one block by one method; triangles at the rims."""
     _, own_dashes, marker = METHODS[method]
     colour = block_colour(run, number)
-    blocks = run.finite_blocks()
-    shift = 0.09 * (blocks.index(number) - 0.5 * (len(blocks) - 1))
+    blocks = factors_of(run)
+    shift = min(0.09, 0.8 / len(blocks)) * (
+        blocks.index(number) - 0.5 * (len(blocks) - 1))
     is_found = method == "safety_factor"
     fill = {"markerfacecolor": colour if is_found else "white",
             "color": colour, "clip_on": False, "zorder": 4 if is_found else 3}
@@ -169,7 +173,7 @@ def plot_factors(axes, run, number, method, points, ends, dashes):
 
 def key_of_factors(axes, run, runs, curves):
     """Legend of blocks, methods or runs, and symbols."""
-    for number in run.finite_blocks():
+    for number in factors_of(run):
         if any(n == number and points for _, n, _, points in curves):
             axes.plot([], [], color=block_colour(run, number), linewidth=3,
                       label=block_label(run, number))

@@ -8,11 +8,14 @@ from matplotlib.colors import LinearSegmentedColormap, to_rgb
 
 from figures_joints import cells_of
 from figures_style import (NOTHING, ROCK_COLOURS, block_colour, block_label,
-                           fitting_unit, joint_style, new_figure, pale,
+                           fitting_unit, joint_style, key_of_joints,
+                           new_figure, pale,
                            put_legend, put_text, pyplot)
-from render import (COLOURS, RED, View, merge_points, move_points,
-                    numpy_to_vtk, outline_of, round_factor, values_of,
-                    vtk_to_numpy, vtkUnstructuredGrid)
+from render_data import (merge_points, move_points, numpy_to_vtk, outline_of,
+                         round_factor, values_of, vtk_to_numpy,
+                         vtkUnstructuredGrid)
+from render_options import RED, View
+from render_scene import COLOURS
 
 
 def block_of_cells(grid):
@@ -69,7 +72,7 @@ def choose_box(run, stage, box):
         return numpy.array(box).reshape(2, 2)
     grid = run.rock(0)
     corners = cells_of(grid)[1][:, :, :2]
-    of_interest = numpy.isin(block_of_cells(grid), run.finite_blocks())
+    of_interest = numpy.isin(block_of_cells(grid), run.named_blocks())
     of_interest |= stage > 0
     whole = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     if not of_interest.any():
@@ -82,18 +85,21 @@ def choose_box(run, stage, box):
                         numpy.minimum(high + margin, whole[1] + rim)])
 
 
-def number_places(corners, block, box):
-    """A place for the number of each block, far from others and the rim."""
+def number_places(corners, block, box, wanted):
+    """A place for the numbers of blocks, far from others and the rim."""
     centres = corners.mean(axis=1)[:, :2]
     inside = ((centres > box[0]) & (centres < box[1])).all(axis=1)
     centres, block = centres[inside], block[inside]
     places = {}
-    for number in numpy.unique(block[block > 0]):
+    for number in numpy.intersect1d(numpy.unique(block), list(wanted)):
         mine = centres[block == number]
         mine = mine[::max(1, len(mine) // 400)]
         far = numpy.minimum(mine - box[0], box[1] - mine).min(axis=1)
-        for other in centres[block != number]:
-            far = numpy.minimum(far, numpy.hypot(*(mine - other).T))
+        for part in numpy.array_split(centres[block != number],
+                                      len(centres) // 500 + 1):
+            if len(part):
+                apart = numpy.linalg.norm(mine[:, None] - part, axis=2)
+                far = numpy.minimum(far, apart.min(axis=1))
         # of places about as good the one in the middle
         far -= 0.1 * numpy.hypot(*(mine - mine.mean(axis=0)).T)
         if far.max() > 0.005 * (box[1] - box[0]).max():
@@ -171,24 +177,33 @@ def draw_block_map(run, box=()):
         axes.add_collection(PolyCollection(
             corners[cells][:, :, :2], facecolors=colours[cells],
             edgecolors=colours[cells], linewidths=0.3, zorder=zorder))
-    for name in run.names("Joints"):
+    names = run.names("Joints")
+    for name in names:
         ends = joint_ends(run, name, box)
         if ends is not None:
-            axes.plot(*ends.T, zorder=2, linewidth=1.6, scalex=False,
-                      scaley=False, label=name, **joint_style(run, name))
+            axes.plot(*ends.T, zorder=2, scalex=False, scaley=False,
+                      linewidth=1.6 if len(names) < 30 else 0.8,
+                      **joint_style(run, name))
     put_excavations(axes, run, grid, stage)
-    for number, place in number_places(corners, block, box).items():
-        is_finite = number in run.finite_blocks()
+    named = run.named_blocks()
+    others = set(run.blocks) - set(run.finite_blocks())
+    others = others if len(run.blocks) <= 30 else set()
+    for number, place in number_places(corners, block, box,
+                                       {*named, *others}).items():
+        is_finite = number in named
         put_text(axes, place, str(number), zorder=5,
                  fontsize=11 if is_finite else 9,
                  weight="bold" if is_finite else "normal",
                  color=block_colour(run, number) if is_finite else "0.4")
+    finite = run.finite_blocks()
+    shown = ([(n, block_label(run, n)) for n in finite]
+             if len(finite) <= 12 else
+             [(n, f"{len(finite) - len(named)} others")
+              for n in set(finite) - set(named)][:1])
     blocks = [axes.fill([], [], facecolor=pale(block_colour(run, n)),
-                        edgecolor=block_colour(run, n),
-                        label=block_label(run, n))[0]
-              for n in run.finite_blocks()[:12]]
-    put_legend(axes, handles=[*blocks, *(
-        line for line in axes.get_lines() if line.get_label()[0] != "_")])
+                        edgecolor=block_colour(run, n), label=label)[0]
+              for n, label in shown]
+    put_legend(axes, handles=[*blocks, *key_of_joints(axes, run, names)])
     return figure
 
 
@@ -228,7 +243,7 @@ def choose_factor(runs, stages, box):
 
 def widen(box, run, grid, factor):
     """A box that holds the finite blocks where they are drawn, too."""
-    chosen = numpy.isin(block_of_cells(grid), run.finite_blocks())
+    chosen = numpy.isin(block_of_cells(grid), run.named_blocks())
     if not chosen.any():
         return box
     places = cells_of(move_points(grid, factor, View()))[1][chosen][:, :, :2]
@@ -281,14 +296,15 @@ def plot_rock(axes, run, grid, factor, colours):
     axes.add_collection(PolyCollection(
         corners[:, :, :2], array=displacements(grid) / size, cmap=shades,
         norm=norm, edgecolors=(0.3, 0.3, 0.3, 0.35), linewidths=0.25))
+    named = run.named_blocks()
     for number, lines in outlines(moved).items():
-        is_finite = number in run.finite_blocks()
+        is_finite = number in named
         axes.add_collection(LineCollection(
             lines, linewidths=2. if is_finite else 0.9, zorder=3 + is_finite,
             colors=block_colour(run, number) if is_finite else "0.2"))
     box = numpy.array([axes.get_xlim(), axes.get_ylim()]).T
-    places = number_places(corners, block_of_cells(grid), box)
-    for number in run.finite_blocks():
+    places = number_places(corners, block_of_cells(grid), box, named)
+    for number in named:
         if number in places:
             put_text(axes, places[number], str(number), zorder=5, fontsize=11,
                      weight="bold", color=block_colour(run, number))

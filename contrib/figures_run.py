@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What figures.py needs to know of a run: its files, read and arranged."""
 import json
+import math
 import pathlib
 import sys
 
 import numpy
 
-from render import read_grid, values_of, vtk_to_numpy
-from report.run_files import states_of
+from render_data import (magnitudes_of, read_grid, values_of,
+                         vtk_to_numpy)
+from report.reading import read_joints
+from report.run_files import groups_of, states_of
+from report.tables import least, size_of
 
 
 def fail(sentence):
@@ -102,6 +106,8 @@ class Run:
         self.label = label or self.folder.resolve().name
         self.stages = [stage["name"] for stage in self.summary["stages"]]
         self.blocks = {b["id"]: b for b in self.summary["blocks"]}
+        self.joint_rows = read_joints(self.folder)
+        self.groups, self.group = groups_of(self.joint_rows)
         self.is_plane = self.summary["scene"].get("dimension") == 2
 
     def names(self, section):
@@ -121,6 +127,37 @@ class Run:
         """The numbers of the blocks that could move, in order."""
         return [number for number, block in sorted(self.blocks.items())
                 if not {"infinite", "rigid"} & set(block.get("class", []))]
+
+    def exposed_blocks(self):
+        """The finite blocks that are exposed or taken away, the most dangerous
+        first: those taken away, then by the least factor, then by size."""
+        def danger(number):
+            block = self.blocks[number]
+            worst = least(block.get("safety_factor", [])) or least(
+                block.get("limit_equilibrium", []))
+            return ("removed_in_stage" not in block,
+                    size_of(worst) if worst else math.inf,
+                    -block.get("volume", 0.))
+
+        return sorted((n for n in self.finite_blocks()
+                       if {"exposed_stage", "removed_in_stage"} & set(
+                           self.blocks[n])), key=danger)
+
+    def named_blocks(self, most=30):
+        """The finite blocks that have numbers and colours of their own.
+
+        Of many those that are exposed, the most dangerous first."""
+        finite = self.finite_blocks()
+        return finite if len(finite) <= 12 else self.exposed_blocks()[:most]
+
+    def group_of(self, name):
+        """The number of the group of a joint, by its set or name."""
+        names = [row.get("name") for row in self.joint_rows]
+        return self.group[names.index(name)] if name in names else 0
+
+    def group_name(self, name):
+        """The name of the group of a joint; its own without joints.csv."""
+        return self.groups[self.group_of(name)] if self.groups else name
 
     def removal_stage(self, number):
         """Index of the stage in which a block was taken away, or None."""
@@ -175,8 +212,10 @@ class Run:
         grid = read_grid(self.states[index][2])
         order = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
         points = vtk_to_numpy(grid.GetPoints().GetData())[order]
-        fields = {name: values_of(grid, name)[order].reshape(-1, 2)
-                  for name in ("gap", "slip", "pressure", "shear", "joint")}
+        fields = {name: magnitudes_of(grid, name)[order].reshape(-1, 2)
+                  for name in ("state", "slip", "shear", "joint")}
+        for name in ("gap", "pressure"):
+            fields[name] = values_of(grid, name)[order].reshape(-1, 2)
         return points.reshape(-1, 2, 3), fields
 
     def block_at(self, monitor):

@@ -27,7 +27,8 @@ ROCK_COLOURS = ["#f1eee6", "#dcd5c3", "#e3e7e0", "#cfd6d8"]  # by material
 JOINT_COLOURS = ["#222222", "#1565c0", "#2e7d32", "#00909e", "#827717",
                  "#5c6bc0", "#78909c", "#26a69a"]
 DASHES = ["-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))]
-LARGEST = 80000  # bytes of a picture
+HIDDEN = "#9a9a92"  # of many blocks those that are hidden
+LARGEST = 250000  # bytes of a picture; larger ones get fewer colours
 NOTHING = 1e-12  # displacements below are rounding errors [m]
 UNITS = {"m": (("m", 1.), ("mm", 1e-3), ("\N{MICRO SIGN}m", 1e-6)),
          "N": (("GN", 1e9), ("MN", 1e6), ("kN", 1e3), ("N", 1.)),
@@ -37,9 +38,13 @@ UNITS = {"m": (("m", 1.), ("mm", 1e-3), ("\N{MICRO SIGN}m", 1e-6)),
 
 
 def block_colour(run, number):
-    """The colour of a finite block, the same in all figures."""
-    place = run.finite_blocks().index(number)
-    return BLOCK_COLOURS[place % len(BLOCK_COLOURS)]
+    """The colour of a finite block, the same in all figures.
+
+    Of many blocks those that are hidden are grey."""
+    named = sorted(run.named_blocks())
+    if number not in named:
+        return HIDDEN
+    return BLOCK_COLOURS[named.index(number) % len(BLOCK_COLOURS)]
 
 
 def pale(colour):
@@ -55,11 +60,22 @@ def block_label(run, number):
 
 
 def joint_style(run, name):
-    """Colour and dashes of a joint, the same in all figures."""
-    names = run.names("Joints")
-    place = names.index(name) if name in names else len(names)
+    """Colour and dashes of the set of a joint, the same in all figures."""
+    place = run.group_of(name)
     return {"color": JOINT_COLOURS[place % len(JOINT_COLOURS)],
             "linestyle": DASHES[place % len(DASHES)]}
+
+
+def key_of_joints(axes, run, names, **style):
+    """Lines of the legend for joints, one for each set; as handles."""
+    handles = {}
+    for name in names:
+        group = run.group_name(name)
+        if group not in handles:
+            line, = axes.plot([], [], label=group, **{
+                **joint_style(run, name), **style})
+            handles[group] = line
+    return list(handles.values())
 
 
 def fitting_unit(kind, values):
@@ -131,10 +147,12 @@ def put_legend(axes, **options):
 
 
 def put_text(axes, place, text, **options):
-    """A short text with a white rim, readable on any ground."""
+    """A short text with a white rim, readable on any ground.
+
+    In SVG, where its letters are paths, it is the group label_TEXT."""
     rim = [patheffects.withStroke(linewidth=2.5, foreground="white")]
     axes.text(*place, text, ha="center", va="center", path_effects=rim,
-              clip_on=True, **options)
+              clip_on=True, gid=f"label_{text}", **options)
 
 
 def use_logarithm(axes, values, name):
@@ -148,23 +166,27 @@ def use_logarithm(axes, values, name):
 
 
 def reduce_colours(path):
-    """Write a picture again with as many colours as its size permits."""
+    """Write a large picture again with as many colours as its size permits."""
     with Image.open(path) as image:
         rgb = image.convert("RGB")
     for n_colours in (256, 128, 64, 32):
+        if path.stat().st_size <= LARGEST:
+            break
         # an octree keeps the colours of thin lines, the default loses them
         rgb.quantize(n_colours, Image.Quantize.FASTOCTREE,
                      dither=Image.Dither.NONE).save(path, optimize=True)
-        if path.stat().st_size <= LARGEST:
-            break
     print(f"{path}  {path.stat().st_size / 1000:.0f} kB")
 
 
-def save(figure, path):
-    """Write a figure with few colours; say what was written."""
+def save(figure, path, dpi=100):
+    """Write a figure as its ending says, PNG with few colours; say it."""
     try:
-        figure.savefig(path)
-        reduce_colours(path)
+        with pyplot.rc_context({"svg.fonttype": "none", "pdf.fonttype": 42}):
+            figure.savefig(path, dpi=dpi)
+        if path.suffix == ".png" and dpi <= 100:
+            reduce_colours(path)
+        else:
+            print(f"{path}  {path.stat().st_size / 1000:.0f} kB")
     except OSError as error:
         fail(f"'{path}' cannot be written: {error.strerror or error}.")
     pyplot.close(figure)

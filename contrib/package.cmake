@@ -3,13 +3,19 @@ install(TARGETS keyblock RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
   COMPONENT program)
 install(FILES doc/keyblock.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
   COMPONENT program)
+install(FILES contrib/completion/keyblock
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  COMPONENT program)
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock
   COMPONENT program)
+install(FILES doc/summary.schema.json doc/study.schema.json
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock COMPONENT program)
 install(PROGRAMS contrib/keyblock-report DESTINATION ${CMAKE_INSTALL_BINDIR}
   COMPONENT program)
 install(DIRECTORY contrib/report DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock
   COMPONENT program PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md LICENSE.md CHANGELOG.md doc/parameters.md doc/theory.md
+  doc/vtu.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 # the library, for programs that find_package(keyblock) and link Keyblock::keyblock

@@ -2,495 +2,35 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Picture of the rock at one time of a run.
 
-usage: xvfb-run -a contrib/render.py solution.pvd OUT.png [--time-index I]
-         [--field displacement] [--exaggeration F] [--size WIDTH,HEIGHT]
-         [--box X0,Y0,X1,Y1] [--tilt DEGREES] [--stretch F] [--explode F]
-         [--eye X,Y,Z] [--mesh on]
+usage: xvfb-run -a contrib/render.py solution.pvd OUT.png|pdf|svg
+         [--time-index I] [--field displacement] [--exaggeration F]
+         [--size WIDTH,HEIGHT] [--dpi N] [--box X0,Y0,X1,Y1] [--tilt DEGREES]
+         [--stretch F] [--explode F] [--eye X,Y,Z] [--mesh on]
+         [--parts rock,blocks,tunnel,joints] [--cut x=0,y] [--inside]
 
 Warped by the displacement, coloured by the magnitude of a field, one component
-of it (velocity_x, stress_xx), or by block; red lines show where the blocks
-were at first. Needs the packages python3-vtk9, xvfb and xauth; with a display,
-leave xvfb-run out.
+of it (velocity_x, stress_xx), the largest or least principal stress, pressed: +
+(stress_major, stress_minor), by block, or joints by their state (joint_state);
+red lines show where the blocks were at first. In 3D the rock can be cut open,
+finite blocks, the surface of what is dug and joints (as in the scene, by set) be
+shown without it, and all from inside what is dug. Needs the packages
+python3-vtk9, xvfb and xauth; with a display, leave xvfb-run out.
 """
-import argparse
 import dataclasses
-import math
-import pathlib
-import sys
-import xml.etree.ElementTree
 
-try:
-    import numpy
-    from vtkmodules import vtkRenderingFreeType  # noqa: F401, draws the text
-    from vtkmodules import vtkRenderingOpenGL2  # noqa: F401, draws the rest
-    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkDataObject,
-                                               vtkUnstructuredGrid)
-    from vtkmodules.vtkFiltersCore import (vtkDecimatePolylineFilter,
-                                           vtkFeatureEdges, vtkStripper,
-                                           vtkThreshold)
-    from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
-    from vtkmodules.vtkIOImage import vtkPNGWriter
-    from vtkmodules.vtkIOXML import (vtkXMLPUnstructuredGridReader,
-                                     vtkXMLUnstructuredGridReader)
-    from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-    from vtkmodules.vtkRenderingCore import (
-        vtkActor, vtkBillboardTextActor3D, vtkColorTransferFunction,
-        vtkDataSetMapper, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
-        vtkTextActor, vtkWindowToImageFilter)
-except ImportError as error:
-    sys.exit(f"render.py: VTK cannot be loaded ({error}); install the package "
-             "python3-vtk9 and use the system's Python, /usr/bin/python3.")
+import render_data  # first: says it if VTK cannot be loaded
+import numpy
+import render_parts as parts_of
+from render_data import (choose_exaggeration, find_rock, magnitudes_of,
+                         move_points, read_grid, unit_of, values_of,
+                         vtk_to_numpy)
+from render_options import DARK, RED, View, read_arguments
+from render_scene import (COLOURS, corners_of, make_bar, make_caption,
+                          make_colours, make_faces, make_legend, make_lines,
+                          make_numbers, make_outlines, make_rock,
+                          numbers_in_space, write_picture)
 
-COLOURS = [(0.96, 0.96, 0.90), (0.74, 0.87, 0.75), (0.35, 0.71, 0.77),
-           (0.20, 0.50, 0.74), (0.16, 0.36, 0.66)]
-BLOCK_COLOURS = [(0.90, 0.89, 0.84), (0.55, 0.74, 0.86), (0.96, 0.74, 0.47),
-                 (0.64, 0.80, 0.55), (0.90, 0.58, 0.55), (0.77, 0.69, 0.87),
-                 (0.97, 0.89, 0.52), (0.55, 0.80, 0.76), (0.80, 0.66, 0.53),
-                 (0.94, 0.72, 0.83), (0.72, 0.75, 0.78)]
-RED, DARK = (0.75, 0.15, 0.1), (0.15, 0.15, 0.15)
-BAR = 0.2  # share of the width for the colour bar
-
-
-@dataclasses.dataclass
-class View:
-    """What a picture shows and how; the options of the command line."""
-
-    time_index: int = -1
-    field: str = "displacement"
-    exaggeration: float = 1.  # 0: automatic
-    size: tuple = (1000, 800)
-    box: tuple = ()
-    tilt: float = 0.
-    stretch: float = 1.
-    explode: float = 0.
-    mesh: str = "auto"
-    eye: tuple = (-1., -1.6, 1.)  # direction in which the viewer is (3D)
-    block_colours: tuple = tuple(BLOCK_COLOURS)  # of block 1, 2, ...
-
-
-def numbers(text):
-    """The numbers of an option such as 480,400."""
-    return tuple(float(word) for word in text.split(","))
-
-
-def read_arguments():
-    """The command line: collection, picture and view."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("collection", help="solution.pvd of a run")
-    parser.add_argument("picture", help="PNG file to write")
-    parser.add_argument("--time-index", type=int, default=-1,
-                        help="0: first; -1: last (default)")
-    parser.add_argument("--field", default="displacement",
-                        help="a field of the output, or its component x, y or "
-                        "z, as in velocity_x; block: one colour for each")
-    parser.add_argument("--exaggeration", type=float, default=1.,
-                        help="factor of the displacement (default 1; 0: such "
-                        "that the largest is 6 %% of the picture's size)")
-    parser.add_argument("--size", type=numbers, default=(1000, 800),
-                        help="greatest width and height in pixels")
-    parser.add_argument("--box", type=numbers, default=(),
-                        help="least, then greatest coordinates to show")
-    parser.add_argument("--tilt", type=float, default=0.,
-                        help="turn the picture clockwise [degrees]")
-    parser.add_argument("--stretch", type=float, default=1.,
-                        help="factor of all heights (y)")
-    parser.add_argument("--explode", type=float, default=0.,
-                        help="move each block away from the middle by this "
-                        "share of its distance")
-    parser.add_argument("--mesh", default="auto",
-                        choices=("auto", "on", "off"), help="edges of cells "
-                        "(auto: if ten pixels long, and not of blocks)")
-    parser.add_argument("--eye", type=numbers, default=View.eye,
-                        help="direction in which the viewer is (3D)")
-    options = vars(parser.parse_args())
-    for name, counts in (("size", (2,)), ("box", (0, 4, 6)), ("eye", (3,))):
-        if len(options[name]) not in counts:
-            parser.error(f"--{name} takes {' or '.join(map(str, counts[-2:]))}"
-                         f" numbers, not {len(options[name])}.")
-    collection, picture = options.pop("collection"), options.pop("picture")
-    return collection, picture, View(**options)
-
-
-def find_rock(collection, index):
-    """Time and file of the rock piece number `index` of a PVD file."""
-    try:
-        root = xml.etree.ElementTree.parse(collection).getroot()
-    except (OSError, xml.etree.ElementTree.ParseError) as error:
-        sys.exit(f"render.py: '{collection}' cannot be read: {error}.")
-    sets = [s for s in root.iter("DataSet") if s.get("name", "rock") == "rock"]
-    if not -len(sets) <= index < len(sets):
-        sys.exit(f"render.py: '{collection}' holds {len(sets)} times; there "
-                 f"is no time index {index}.")
-    folder = pathlib.Path(collection).parent
-    return float(sets[index].get("timestep")), folder / sets[index].get("file")
-
-
-def read_grid(path):
-    """The cells of a .vtu or .pvtu file; the program ends if it has none."""
-    if not path.exists():
-        sys.exit(f"render.py: the file '{path}' does not exist.")
-    reader = (vtkXMLPUnstructuredGridReader() if path.suffix == ".pvtu" else
-              vtkXMLUnstructuredGridReader())
-    reader.SetFileName(str(path))
-    reader.Update()
-    grid = reader.GetOutput()
-    if grid.GetNumberOfCells() == 0:
-        sys.exit(f"render.py: the file '{path}' has no cells; it is empty, "
-                 "damaged, or pieces of it are missing.")
-    return grid
-
-
-def values_of(grid, field):
-    """Values of a field or of one component of it at the points."""
-    data = grid.GetPointData()
-    names = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
-    if field in names:
-        return vtk_to_numpy(data.GetArray(field))
-    name, _, component = field.rpartition("_")
-    if (name not in names or component not in ("x", "y", "z") or
-            data.GetArray(name).GetNumberOfComponents() != 3):
-        sys.exit(f"render.py: there is no field '{field}'; the file has "
-                 f"{', '.join(names)}.")
-    return vtk_to_numpy(data.GetArray(name))[:, "xyz".index(component)]
-
-
-def shown_values(grid, field):
-    """Magnitudes or values of a field in a fitting unit, and that unit."""
-    values = values_of(grid, field).astype(float)
-    if values.ndim > 1:
-        values = numpy.linalg.norm(values, axis=1)
-    if field.startswith("stress"):
-        largest = abs(values).max()
-        for unit, factor in (("MPa", 1e6), ("kPa", 1e3), ("Pa", 1.)):
-            if largest >= factor:
-                return values / factor, unit
-        return values, "Pa"
-    unit = {"displacement": "m", "velocity": "m/s"}.get(field.split("_")[0])
-    return values, unit or "-"
-
-
-def round_factor(value):
-    """The nearest of 1, 2, 5, 10, 20, ...; at least 1."""
-    choices = [m * 10**k for k in range(12) for m in (1, 2, 5)]
-    return min(choices, key=lambda c: abs(math.log(c / max(value, 1.))))
-
-
-def choose_exaggeration(grid, view):
-    """The factor asked for, or one that makes the displacement visible."""
-    if view.exaggeration > 0.:
-        return view.exaggeration
-    points = vtk_to_numpy(grid.GetPoints().GetData())
-    lengths = numpy.ptp(points, axis=0)
-    if view.box:
-        n = len(view.box) // 2
-        lengths = numpy.subtract(view.box[n:], view.box[:n])
-    largest = abs(values_of(grid, "displacement")).max()
-    return round_factor(0.06 * max(lengths) / largest) if largest > 0. else 1.
-
-
-def move_points(grid, factor, view):
-    """Copy of the grid with its points displaced, drawn apart, stretched."""
-    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
-    moved = points + factor * values_of(grid, "displacement")
-    if view.explode > 0.:
-        block = values_of(grid, "block")
-        for number in numpy.unique(block):
-            mine = block == number
-            centre = points[mine].mean(axis=0)
-            moved[mine] += view.explode * (centre - points.mean(axis=0))
-    moved[:, 1] *= view.stretch
-    result, places = vtkUnstructuredGrid(), vtkPoints()
-    result.DeepCopy(grid)
-    places.SetData(numpy_to_vtk(moved, deep=True))
-    result.SetPoints(places)
-    return result
-
-
-def make_colours(values, is_magnitude, view):
-    """Colours from the least to the greatest value; of magnitudes from 0."""
-    colours = vtkColorTransferFunction()
-    if view.field == "block":
-        for number in range(1, int(values.max()) + 1):
-            colour = view.block_colours[(number - 1) % len(view.block_colours)]
-            colours.AddRGBPoint(number - 0.4, *colour)
-            colours.AddRGBPoint(number + 0.4, *colour)
-        return colours
-    low, high = 0. if is_magnitude else values.min(), values.max()
-    high = high if high > low else low + 1.
-    for i, colour in enumerate(COLOURS):
-        share = i / (len(COLOURS) - 1)
-        colours.AddRGBPoint(low + (high - low) * share, *colour)
-    return colours
-
-
-def make_rock(grid, values, colours, view):
-    """Actor of the cells; their edges are shown later if there is room."""
-    array = numpy_to_vtk(values, deep=True)
-    array.SetName("shown")
-    grid.GetPointData().AddArray(array)
-    mapper = vtkDataSetMapper()
-    mapper.SetInputData(grid)
-    mapper.SetScalarModeToUsePointFieldData()
-    mapper.SelectColorArray("shown")
-    mapper.SetLookupTable(colours)
-    rock = vtkActor()
-    rock.SetMapper(mapper)
-    rock.GetProperty().SetEdgeColor(0.35, 0.35, 0.35)
-    rock.GetProperty().SetEdgeVisibility(view.mesh == "on")
-    rock.GetProperty().SetAmbient(0.5)
-    rock.GetProperty().SetDiffuse(0.55)
-    is_flat = grid.GetBounds()[4] == grid.GetBounds()[5]
-    rock.GetProperty().SetLighting(view.field == "block" and not is_flat)
-    return rock
-
-
-def make_bar(colours, title, size):
-    """Colour bar on the right and its title."""
-    line = type_size(size)
-    bar = vtkScalarBarActor()
-    bar.SetLookupTable(colours)
-    bar.SetNumberOfLabels(5)
-    bar.SetLabelFormat("%.3g")
-    bar.UnconstrainedFontSizeOn()
-    bar.SetPosition(1. - 0.9 * BAR, 2. * line / size[1])
-    bar.SetWidth(0.08)
-    bar.SetHeight(1. - 6.5 * line / size[1])
-    style(bar.GetLabelTextProperty(), line)
-    name = vtkTextActor()
-    name.SetInput(title.replace(" [", "\n["))
-    name.SetPosition((1. - 0.95 * BAR) * size[0], size[1] - 3.2 * line)
-    style(name.GetTextProperty(), line)
-    return [bar, name]
-
-
-def make_caption(caption, size):
-    """The caption below the picture."""
-    text = vtkTextActor()
-    text.SetInput(caption)
-    text.SetPosition(0.02 * size[0], 0.5 * type_size(size))
-    style(text.GetTextProperty(), type_size(size))
-    return text
-
-
-def merge_points(grid):
-    """Copy of the grid in which cells of the same block share their points."""
-    points = vtk_to_numpy(grid.GetPoints().GetData())
-    block = values_of(grid, "block")
-    tolerance = 1e-6 * numpy.ptp(points, axis=0).max()
-    keys = numpy.column_stack([numpy.round(points / tolerance), block])
-    _, kept, place = numpy.unique(keys, axis=0, return_index=True,
-                                  return_inverse=True)
-    result, places, cells = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
-    places.SetData(numpy_to_vtk(points[kept], deep=True))
-    connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-    place = place[connectivity].astype(connectivity.dtype)
-    cells.SetData(grid.GetCells().GetOffsetsArray(),
-                  numpy_to_vtk(place, deep=True))
-    result.SetPoints(places)
-    result.SetCells(grid.GetCellTypesArray(), cells)
-    array = numpy_to_vtk(block[kept], deep=True)
-    array.SetName("block")
-    result.GetPointData().AddArray(array)
-    return result
-
-
-def drop_hanging(edges):
-    """The edges of a plane mesh without those along which nodes hang."""
-    points = vtk_to_numpy(edges.GetPoints().GetData()).astype(float)
-    lines = vtk_to_numpy(edges.GetLines().GetConnectivityArray())
-    lines = lines.reshape(-1, 2)
-    unit = 1e-5 * numpy.ptp(points, axis=0).max()
-    keys = [tuple(k) for k in numpy.round(points / unit).astype(int)]
-    # of a long edge the middle is itself a point, joined to both its ends
-    middles = points[lines].mean(axis=1)
-    middle_keys = [tuple(k) for k in numpy.round(middles / unit).astype(int)]
-    known = {frozenset((keys[a], keys[b])) for a, b in lines}
-    dropped = set()
-    for (a, b), middle in zip(lines, middle_keys):
-        halves = [frozenset((keys[a], middle)), frozenset((middle, keys[b]))]
-        if all(half in known for half in halves):
-            dropped.update(halves, [frozenset((keys[a], keys[b]))])
-    kept = vtkCellArray()
-    for a, b in lines:
-        if frozenset((keys[a], keys[b])) not in dropped:
-            kept.InsertNextCell(2)
-            kept.InsertCellPoint(a)
-            kept.InsertCellPoint(b)
-    edges.SetLines(kept)
-    return edges
-
-
-def outline_of(merged, number):
-    """Edges of the outline of a block of a grid with shared points."""
-    part, surface, edges = (vtkThreshold(), vtkGeometryFilter(),
-                            vtkFeatureEdges())
-    part.SetInputData(merged)
-    part.SetInputArrayToProcess(
-        0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "block")
-    part.SetLowerThreshold(number)
-    part.SetUpperThreshold(number)
-    surface.SetInputConnection(part.GetOutputPort())
-    edges.SetInputConnection(surface.GetOutputPort())
-    edges.ColoringOff()
-    edges.Update()
-    return drop_hanging(edges.GetOutput())
-
-
-def make_outlines(grid, colour):
-    """Actors of the outline of each block."""
-    merged = merge_points(grid)
-    for number in numpy.unique(values_of(merged, "block")):
-        lines, straight = vtkStripper(), vtkDecimatePolylineFilter()
-        lines.SetInputData(outline_of(merged, number))
-        lines.JoinContiguousSegmentsOn()
-        lines.SetMaximumLength(100000)
-        straight.SetInputConnection(lines.GetOutputPort())
-        straight.SetTargetReduction(1.)
-        straight.SetMaximumError(1e-8)
-        mapper, actor = vtkPolyDataMapper(), vtkActor()
-        mapper.SetInputConnection(straight.GetOutputPort())
-        mapper.ScalarVisibilityOff()
-        mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        actor.SetMapper(mapper)
-        actor.GetProperty().SetColor(*colour)
-        actor.GetProperty().SetLineWidth(1.5)
-        actor.GetProperty().LightingOff()
-        yield actor
-
-
-def make_numbers(grid, view):
-    """The number of each block on the cell farthest from its outline (2D).
-
-    Blocks whose cells come no farther than a line of type have none."""
-    corners = vtk_to_numpy(grid.GetPoints().GetData()).reshape(-1, 4, 3)
-    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
-    if view.box:
-        low[:2], high[:2] = view.box[:2], view.box[2:]
-    line = type_size(view.size) * max(high - low) / min(view.size)
-    merged = merge_points(grid)
-    centres, block = corners.mean(axis=1), values_of(grid, "block")[::4]
-    for number in numpy.unique(block):
-        mine = centres[block == number]
-        outline = outline_of(merged, number)
-        ends = vtk_to_numpy(outline.GetPoints().GetData())
-        far = numpy.minimum((mine - low)[:, :2].min(axis=1),
-                            (high - mine)[:, :2].min(axis=1))
-        for end in ends:
-            far = numpy.minimum(far, numpy.linalg.norm(mine - end, axis=1))
-        if far.max() < 0.6 * line:
-            continue
-        text = vtkBillboardTextActor3D()
-        text.SetInput(str(int(number)))
-        text.SetPosition(*mine[far.argmax()])
-        style(text.GetTextProperty(), type_size(view.size))
-        text.GetTextProperty().SetJustificationToCentered()
-        text.GetTextProperty().SetVerticalJustificationToCentered()
-        yield text
-
-
-def type_size(size):
-    """Type in points for a picture of a size."""
-    return max(11, round(0.02 * size[0]))
-
-
-def style(text, size):
-    """Plain black type of a size in points."""
-    text.SetColor(0., 0., 0.)
-    text.SetFontFamilyToArial()
-    text.SetFontSize(size)
-    text.ItalicOff()
-    text.BoldOff()
-    text.ShadowOff()
-
-
-def extents(places, view, is_flat):
-    """Middle, width and height of places as the camera sees them; its axes."""
-    back = numpy.array((0., 0., 1.) if is_flat else view.eye)
-    angle = math.radians(view.tilt)
-    up = numpy.array((-math.sin(angle), math.cos(angle), 0.) if is_flat else
-                     (0., 0., 1.))
-    back /= numpy.linalg.norm(back)
-    right = numpy.cross(up, back)
-    right /= numpy.linalg.norm(right)
-    axes = numpy.array((right, numpy.cross(back, right), back))
-    low, high = (places @ axes.T).min(axis=0), (places @ axes.T).max(axis=0)
-    return axes.T @ (0.5 * (low + high)), *(high - low)[:2], axes
-
-
-def corners_of(box, stretch):
-    """The corners of a box given by its least and greatest coordinates."""
-    n = len(box) // 2
-    low, high = ((*box[:n], 0.)[:3], (*box[n:], 0.)[:3])
-    return numpy.array([[x, y * stretch, z] for x in (low[0], high[0])
-                        for y in (low[1], high[1]) for z in (low[2], high[2])])
-
-
-def aim(camera, centre, axes, extent, half_height):
-    """Look at a centre along the third axis, with the second upwards."""
-    camera.ParallelProjectionOn()
-    camera.SetFocalPoint(*centre)
-    camera.SetPosition(*(centre + axes[2] * 2. * extent))
-    camera.SetViewUp(*axes[1])
-    camera.SetParallelScale(half_height)
-
-
-def write_picture(actors, make_texts, places, view, path):
-    """Draw actors, all places in view, and texts on white; write a PNG file.
-
-    The height shrinks to what flat places need."""
-    width, height = (int(n) for n in view.size)
-    foot = 3.6 * type_size(view.size)
-    is_flat = numpy.ptp(places[:, 2]) == 0.
-    centre, wide, high, axes = extents(places, view, is_flat)
-    across = width * (1. if view.field == "block" else 1. - BAR)
-    scale = 0.95 * min(across / wide, (height - foot) / max(high, 1e-9 * wide))
-    height = int(min(height, max(foot + scale * high / 0.95, 0.4 * width)))
-    sheet, renderer = vtkRenderer(), vtkRenderer()
-    sheet.SetBackground(1., 1., 1.)
-    renderer.SetViewport(0., foot / height, across / width, 1.)
-    renderer.SetLayer(1)
-    aim(renderer.GetActiveCamera(), centre, axes, wide + high,
-        0.5 * (height - foot) / scale)
-    for actor in actors:
-        renderer.AddActor(actor)
-    if view.mesh == "auto" and view.field != "block":
-        show_edges(actors[0], scale)
-    for text in make_texts((width, height)):
-        sheet.AddActor2D(text)
-    renderer.ResetCameraClippingRange()
-    save([sheet, renderer], (width, height), path)
-
-
-def save(renderers, size, path):
-    """Draw layers one upon the other and write them to a PNG file."""
-    window = vtkRenderWindow()
-    window.SetOffScreenRendering(True)
-    window.SetMultiSamples(4)
-    window.SetNumberOfLayers(len(renderers))
-    window.SetSize(*size)
-    for renderer in renderers:
-        window.AddRenderer(renderer)
-    window.Render()
-    image, writer = vtkWindowToImageFilter(), vtkPNGWriter()
-    image.SetInput(window)
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.SetFileName(str(path))
-    writer.SetCompressionLevel(9)
-    writer.Write()
-    if writer.GetErrorCode() != 0:
-        sys.exit(f"render.py: the picture '{path}' cannot be written; check "
-                 "its folder and free space.")
-
-
-def show_edges(rock, scale):
-    """Show the edges of cells that are at least ten pixels long."""
-    points = vtk_to_numpy(rock.GetMapper().GetInput().GetPoints().GetData())
-    n = 4 if numpy.ptp(points[:, 2]) == 0. else 8
-    length = numpy.linalg.norm(points[1::n] - points[::n], axis=1)
-    is_coarse = numpy.median(length) * scale >= 10.
-    rock.GetProperty().SetEdgeVisibility(bool(is_coarse))
+__all__ = ["COLOURS", "RED", "View", "draw"]
 
 
 def describe(time, grid, view):
@@ -509,42 +49,134 @@ def describe(time, grid, view):
         lines.append(f"bed at {view.tilt:g} degrees")
     if view.explode > 0.:
         lines.append("drawn apart")
+    if view.field in ("stress_major", "stress_minor"):
+        lines.append("pressed: +")
     text = "; ".join(lines)
-    return text + ("" if view.field == "block" else
-                   "\nred: first position of the blocks")
+    if view.field in ("block", "joint_state") or view.has_depth():
+        return text
+    return text + "\nred: first position of the blocks"
+
+
+def solid_parts(collection, grid, moved, view):
+    """The parts of a scene in 3D as grids, and how opaque each is."""
+    if "rock" in view.parts:
+        for part in (parts_of.cut_open(moved, view.cut, view.eye) if view.cut
+                     else [moved]):
+            yield part, 1.
+    if "tunnel" in view.parts:
+        first = read_grid(find_rock(collection, 0)[1])
+        surface = parts_of.tunnel_surface(grid, first)
+        if surface is not None:
+            is_alone = view.parts == ("tunnel",) or view.inside
+            factor = choose_exaggeration(grid, view)
+            yield move_points(surface, factor, view), 1. if is_alone else 0.3
+    if "blocks" in view.parts:
+        finite, _ = render_data.read_classes(collection)
+        if finite is None:
+            render_data.fail("there is no summary.json beside the collection, "
+                             "which says which blocks are finite.")
+        blocks = parts_of.keep_blocks(moved, finite)
+        if blocks.GetNumberOfCells():  # faces of joints would lie on them
+            yield blocks, 0. if view.field == "joint_state" else 1.
+
+
+def paint(grids, view, scale):
+    """Actors of grids by the field, and its colours."""
+    if view.field == "joint_state":
+        values = [numpy.zeros(grid.GetNumberOfPoints()) for grid, _ in grids]
+        is_magnitude = True
+    else:
+        values = [magnitudes_of(grid, view.field) / scale for grid, _ in grids]
+        is_magnitude = values_of(grids[0][0], view.field).ndim > 1
+    colours = make_colours(numpy.concatenate(values), is_magnitude, view)
+    actors = []
+    for (grid, opacity), shown in zip(grids, values):
+        actors.append(make_rock(grid, shown, colours, view))
+        actors[-1].GetProperty().SetOpacity(opacity)
+    return actors, colours
+
+
+def draw_joints(collection, time, view, places):
+    """Actors of joints, by their state or by set, and what colours mean."""
+    actors, legend, width = [], [], 2.5 * view.dpi / 100.
+    if view.field == "joint_state":
+        corners, state = parts_of.joint_faces(collection, time)
+        for k, name in enumerate(parts_of.JOINT_STATES):
+            if (state == k).any():
+                colour = parts_of.STATE_COLOURS[k]
+                actors.append(make_faces(corners[state == k], colour,
+                                         width=width))
+                legend.append((colour, name))
+    if "joints" in view.parts:
+        low, high = places.min(axis=0), places.max(axis=0)
+        margin = 0. if "rock" in view.parts else 0.1 * (high - low).max()
+        for k, (name, polygons) in enumerate(parts_of.joint_planes(
+                collection, low - margin, high + margin).items()):
+            colour = parts_of.SET_COLOURS[k % 8]
+            actors.append(make_faces(polygons, colour, 0.25, width))
+            legend.append((colour, name))
+    return actors, legend
 
 
 def draw(collection, picture, view):
     """Picture of one time of a collection; `view` says what it shows."""
     time, path = find_rock(collection, view.time_index)
+    view = view.in_pixels()
     grid = read_grid(path)
-    caption = describe(time, grid, view)
     is_flat = grid.GetBounds()[4] == grid.GetBounds()[5]
-    is_block = view.field == "block"
-    values, unit = shown_values(grid, view.field)
+    if is_flat and (view.cut or view.inside or set(view.parts) - {
+            "rock", "joints"}):
+        render_data.fail("parts other than rock and joints, cuts and the view "
+                         "from inside are of scenes in 3D.")
+    caption = describe(time, grid, view)
+    is_block, is_state = view.field == "block", view.field == "joint_state"
     factor = choose_exaggeration(grid, view)
     moved = move_points(grid, factor, view)
     first = moved if is_block else move_points(grid, 0., view)
-    is_magnitude = values_of(grid, view.field).ndim > 1
-    colours = make_colours(values, is_magnitude, view)
-    actors = [make_rock(moved, values, colours, view),
-              *make_outlines(first, DARK if is_block else RED)]
-    if not is_block and not is_flat:
-        actors += make_outlines(moved, DARK)
+    grids = [(moved, 1.)] if is_flat else list(solid_parts(
+        collection, grid, moved, view))
+    unit, scale = ("", 1.) if is_state else unit_of(grid, view.field)
+    actors, colours = paint(grids, view, scale) if grids else ([], None)
+    width = 1.5 * view.dpi / 100.
+    if is_flat or not view.has_depth():
+        actors += make_outlines(first, DARK if is_block or is_state else RED,
+                                width)
+    if view.cut and "rock" in view.parts:
+        actors += [make_lines(lines, DARK, width) for lines in
+                   parts_of.section_lines(moved, view.cut, view.eye)
+                   if lines.GetNumberOfCells()]
+    elif not is_flat and (view.has_depth() or not is_block):
+        for one, _ in grids:
+            actors += make_outlines(one, DARK, width)
+    _, exposed = render_data.read_classes(collection)
     if is_block and is_flat:
-        actors += make_numbers(moved, view)
-    places = numpy.vstack([vtk_to_numpy(g.GetPoints().GetData())
-                           for g in (moved, first)])
+        actors += make_numbers(moved, view, exposed)
+    elif "blocks" in view.parts and not view.inside and exposed:
+        actors += numbers_in_space(moved, view, exposed,
+                                   numpy.array(view.eye))
+    places = numpy.vstack([vtk_to_numpy(g.GetPoints().GetData()) for g in (
+        [moved, first] if is_flat or not view.has_depth() else
+        [g for g, _ in grids] or [moved])])
     if view.box:
         places = corners_of(view.box, view.stretch)
+    faces, legend = draw_joints(collection, time, view, places)
+    actors += faces
 
     def make_texts(size):
-        """Caption and colour bar for a size of the picture."""
-        bar = make_bar(colours, f"{view.field} [{unit}]", size)
-        return [make_caption(caption, size), *([] if is_block else bar)]
+        """Caption, and colour bar or legend for a size of the picture."""
+        texts = [make_caption(caption, size)]
+        if legend:
+            texts += make_legend(legend, size)
+        elif not is_block and not is_state and colours is not None:
+            texts += make_bar(colours, f"{view.field} [{unit}]", size)
+        return texts
 
-    write_picture(actors, make_texts, places, view, picture)
+    if not actors:
+        render_data.fail("there is nothing to show of these parts at this "
+                         "time.")
+    inside = parts_of.place_inside(collection, grid) if view.inside else None
+    write_picture(actors, make_texts, places, view, picture, inside)
 
 
 if __name__ == "__main__":
-    draw(*read_arguments())
+    draw(*read_arguments(__doc__.splitlines()[0]))

@@ -8,13 +8,14 @@ The name is a key of `checks` in summary.json, a path such as
 energy/relative_residual or blocks/0/volume, or slope/STAGE/COLUMN/FROM/TO: the
 slope against time of the straight line that fits a column of history.csv best,
 least squares, between two times after the begin of a stage. The test passes if
-|found - value| <= abs_tolerance + rel_tolerance * |value| on every line. In
-words an underscore stands for a blank.
+|found - value| <= abs_tolerance + rel_tolerance * |value| on every line, and if
+summary.json is as its schema says. In words an underscore stands for a blank.
 """
 import csv
-import json
 import subprocess
 import sys
+
+import schema
 
 
 def fit_slope(summary, folder, stage, column, begin, end):
@@ -63,9 +64,11 @@ def main():
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode != 0:
         sys.exit(f"exit code {run.returncode}\n{run.stdout}\n{run.stderr}")
-    with open(f"{folder}/summary.json", encoding="utf-8") as file:
-        summary = json.load(file)
-    failures = n_lines = 0
+    summary = schema.read(f"{folder}/summary.json")
+    faults = schema.faults_of(summary, "summary")
+    for fault in faults:
+        print(f"FAIL {fault}")
+    failures, n_lines = len(faults), 0
     with open(references, encoding="utf-8") as file:
         for line in file:
             if not line.strip() or line.startswith("#"):

@@ -20,7 +20,6 @@ from the last checkpoint of one that ended.
 """
 import argparse
 import csv
-import json
 import math
 import os
 import random
@@ -30,6 +29,8 @@ import signal
 import subprocess
 import sys
 import time
+
+import schema
 
 parser = argparse.ArgumentParser()
 parser.add_argument("keyblock")
@@ -111,9 +112,10 @@ def rows_of(folder):
 
 def compare(folder, reference):
     """Largest difference in history.csv, relative to its unit."""
-    with open(folder + "/summary.json") as one, \
-            open(reference + "/summary.json") as other:
-        assert_equal(json.load(one), json.load(other), "summary")
+    summary = schema.read(folder + "/summary.json")
+    faults = schema.faults_of(summary, "summary")
+    assert not faults, faults
+    assert_equal(summary, schema.read(reference + "/summary.json"), "summary")
     if options.tolerance == 0.:
         with open(folder + "/history.csv", "rb") as one, \
                 open(reference + "/history.csv", "rb") as other:

@@ -4,12 +4,13 @@
 
 usage: study.py KEYBLOCK SCENE FOLDER
 """
-import json
 import math
 import pathlib
 import shutil
 import subprocess
 import sys
+
+import schema
 
 # of a normal friction angle, 30 +- 2 degrees, below 28 degrees
 PROBABILITY = 0.15865525393145707
@@ -26,7 +27,11 @@ def study(keyblock, scene, folder, *more, ranks=1):
                    str(ranks), *command]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     table = (folder / "samples.csv").read_text(encoding="utf-8")
-    return table, json.loads((folder / "study.json").read_text(encoding="utf-8"))
+    results = schema.read(folder / "study.json")
+    faults = schema.faults_of(results, "study")
+    if faults:
+        sys.exit("; ".join(faults))
+    return table, results
 
 
 def faults_of_runs(keyblock, scene, folder):

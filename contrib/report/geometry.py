@@ -7,7 +7,7 @@ displacements stand beside them."""
 import numpy
 
 from .reading import ReportError
-from .vtu import read_cells, read_polygons
+from .vtu import STRESS, largest_pressure, read_cells, read_polygons
 
 # corners of the faces of a quadrilateral and of a hexahedron, seen from outside
 FACES = {4: ((0, 1), (1, 2), (2, 3), (3, 0)),
@@ -51,7 +51,10 @@ class Geometry:
     def read_states(self):
         """Corners, blocks and displacements of the cells of all states."""
         names = ["displacement", "block", "material"]
-        states = [read_cells(rock, names) for _, _, rock, _ in self.run.states]
+        states = [read_cells(rock, names, STRESS)
+                  for _, _, rock, _ in self.run.states]
+        states = [(corners.astype(numpy.float32), fields)
+                  for corners, fields in states]  # as those of the joints
         states = [state for state in states if len(state[0])]
         if not states:
             raise ReportError("There are no pictures, as the files of the "
@@ -65,12 +68,19 @@ class Geometry:
         self.block = block[first].astype(int)
         self.material = numpy.concatenate(
             [f["material"][:, 0] for _, f in states])[first].astype(int)
+        pressures = [largest_pressure(f) for _, f in states]
+        self.pressure = None  # major principal stress (states, cells)
+        if not any(p is None for p in pressures):
+            self.pressure = numpy.full((len(states), len(self.corners)),
+                                       numpy.nan, numpy.float32)
         shape = len(states), *self.corners.shape
         self.moved = numpy.full(shape, numpy.nan, numpy.float32)
         begin = 0
         for k, (corners, fields) in enumerate(states):
             mine = number.ravel()[begin:begin + len(corners)]
             self.moved[k, mine] = fields["displacement"]
+            if self.pressure is not None:
+                self.pressure[k, mine] = pressures[k]
             begin += len(corners)
         self.is_there = ~numpy.isnan(self.moved[:, :, 0, 0])
         finite = self.run.finite_blocks()
@@ -168,11 +178,13 @@ class Geometry:
             corners, fields = read_cells(path, ["joint"])
             if not len(corners):
                 continue
+            corners = corners.astype(numpy.float32)
             vertices = numpy.array([known.get(point.tobytes(), 0) for point in
                                     corners.reshape(-1, 3)])
             vertices = vertices.reshape(corners.shape[:2])
             keys = keys_of(numpy.sort(vertices, axis=1).astype(numpy.uint32))
-            joint = fields["joint"][:, 0].astype(int)
+            # at the tips of joints, where sides are one, 0 is written
+            joint = fields["joint"].max(axis=1).astype(int)
             order = numpy.argsort(keys)
             at = numpy.searchsorted(keys[order], self.face_key)
             at = numpy.minimum(at, len(keys) - 1)

@@ -4,7 +4,7 @@ import base64
 import html
 import pathlib
 
-from .tables import number
+from .words import number
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 

@@ -8,7 +8,8 @@ from .page_blocks import blocks_section, factors_section
 from .page_stages import energy_section, joints_section, stages_section
 from .page_support import bolts_section
 from .page_view import view_section
-from .tables import number, warnings_of
+from .tables import warnings_of
+from .words import number
 
 
 def head(run, rows):

@@ -3,8 +3,9 @@
 import math
 
 from .html import clamped_text, escape, group_text
-from .tables import (STATES, in_words, is_held_by_clamping, limit_in_words,
-                     number, of_stage)
+from .tables import (STATES, few, in_words, is_held_by_clamping,
+                     limit_in_words, of_stage)
+from .words import demand_in_words, mode_in_words, number
 
 MOST_ROWS = 60  # rows of blocks before the rest is folded away
 
@@ -27,9 +28,10 @@ def block_columns(run):
          lambda r: "–" if r["weight"] is None else number(
              r["weight"] / 1e3)),
         ("cells across", True, lambda r: number(r["cells_across"], 2)),
-        ("joint faces", False, lambda r: escape(" ".join(r["faces"])) or "–"),
-        ("mode of failure", False, lambda r: escape(
-            r["mode"] or (r["limit"] or {}).get("mode") or "–")),
+        ("joint faces", False, lambda r: escape(few(list(r["faces"]), 8))
+         or "–"),
+        ("how it fails", False, lambda r: escape(mode_in_words(
+            r["mode"] or (r["limit"] or {}).get("mode")) or "–")),
         ("limit equilibrium", False, lambda r: escape(
             limit_in_words(r["limit"]))),
         ("strength reduction", False, lambda r: escape(
@@ -39,6 +41,8 @@ def block_columns(run):
         ("with its group", False, lambda r: escape(group_text(
             r["group"])).replace(", ", ",&nbsp;").replace(" [", "&nbsp;[")),
         ("held by clamping", False, lambda r: clamped_text(r["clamped"])),
+        ("support it needs", False, lambda r: escape(demand_in_words(
+            r["demand"], run.is_plane) or "–")),
         ("moved [mm]", True, lambda r: mm(r["displacement"])),
         ("failed in", False, lambda r: escape(
             f"{r['removed']}, taken away" if r["removed"] else
@@ -115,6 +119,10 @@ def blocks_section(run, rows, has_view, files):
         notes.append("Where: roof, wall or floor by the mean outward normal "
                      "of the block's free faces, within 45° of the direction "
                      "of gravity, or of the opposite one.")
+    if "support it needs" not in empty:
+        notes.append("Support it needs: the least force against its free faces "
+                     "with which limit equilibrium, without in-situ stress, "
+                     "has the wanted factor; also as bolts of each set.")
     if any(not r["is_exact"] for r in rows):
         notes.append("* of the mesh, not exact.")
     if gravity_note(run):
@@ -149,7 +157,7 @@ def factors_section(run, rows, figure, sentence):
             limit = of_stage(block.get("limit_equilibrium"), found["stage"])
             ratio = of_stage(block.get("stress_ratio"), found["stage"]) or {}
             cells = [row["block"], found["stage"], in_words(found),
-                     found.get("failure_mode") or "–", limit_in_words(limit),
+                     mode_in_words(found.get("failure_mode")) or "–", limit_in_words(limit),
                      number(ratio.get("value")),
                      group_text(found.get("group")),
                      clamped_text(is_held_by_clamping(found, limit))]

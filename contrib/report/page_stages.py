@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Sections of the page on stages, joints and energies."""
 from .html import escape, facts
-from .tables import number
+from .words import number
 
 
 def stage_facts(stage):

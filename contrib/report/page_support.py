@@ -3,7 +3,7 @@
 import collections
 
 from .html import escape
-from .tables import number
+from .words import number
 
 N_SHOWN = 40
 

@@ -59,6 +59,7 @@ def view_controls(is_plane):
 <fieldset><legend>Colours</legend><select id="colouring">
 <option value="state">of blocks by factor</option>
 <option value="displacement">by displacement</option>
+<option value="stress">by major principal stress</option>
 <option value="joint">by joint</option></select>
 <div id="states"></div><div id="largest"></div></fieldset>
 <fieldset><legend>Joints as in the scene</legend><div id="groups"></div></fieldset>"""

@@ -9,7 +9,7 @@ import time
 
 import numpy
 
-from .run_files import entries_of, states_of
+from .run_files import entries_of, groups_of, states_of
 
 MOST_STATES = 30  # a face says in one number in which of them it is seen
 
@@ -125,7 +125,13 @@ class Run:
             return []
 
     def down(self):
-        """Unit vector of gravity, or None if it is zero or a formula."""
+        """Unit vector of gravity, or None if it is zero or a formula.
+
+        Left out, it follows from the section Ground."""
+        if (self.numbers("Ground/Depth") or [0.])[0] > 0. and not (
+                self.entries.get("Initial state/Gravity")):
+            return numpy.array([0., -1., 0.] if self.is_plane else
+                               [0., 0., -1.])
         gravity = numpy.array((self.numbers("Initial state/Gravity")
                                + [0., 0.])[:3])
         size = numpy.linalg.norm(gravity)
@@ -193,25 +199,8 @@ class Run:
         return found
 
     def joint_groups(self):
-        """Names of sets, or of what joints share, and the group of each joint.
-
-        Few joints stand for themselves, more by their set or, without one, by
-        their name up to its digits; of more than eight the least are others."""
-        keys = [row.get("set") or row.get("name", "") for row in self.joints]
-        if len(set(keys)) > 8:
-            keys = [row.get("set") or re.sub(r"[\d_.-]+$", "",
-                                             row.get("name", ""))
-                    or "joints" for row in self.joints]
-            keys = [key if keys.count(key) > 1 else row.get("name", key)
-                    for key, row in zip(keys, self.joints)]
-        counts = {key: keys.count(key) for key in dict.fromkeys(keys)}
-        if len(counts) > 8:
-            most = sorted(counts, key=counts.get, reverse=True)[:7]
-            keys = [key if key in most else "others" for key in keys]
-        names = list(dict.fromkeys(keys))
-        if "others" in names:
-            names.append(names.pop(names.index("others")))
-        return names, [names.index(key) for key in keys]
+        """Names of sets, or of what joints share, and the group of each joint."""
+        return groups_of(self.joints)
 
     def orientation(self, row):
         """Dip and dip direction of a joint in degrees, or None."""

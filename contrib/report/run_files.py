@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Files of an output folder that need no library to be read."""
+import re
 import xml.etree.ElementTree
 
 
@@ -34,3 +35,26 @@ def states_of(path):
     return [(when, path.parent / name,
              path.parent / joints[when] if when in joints else None)
             for when, kind, name in sets if kind == "rock"]
+
+
+def groups_of(joints):
+    """Names of sets, or of what joints share, and the group of each joint.
+
+    `joints` are rows of joints.csv. Few joints stand for themselves, more by
+    their set or, without one, by their name up to its digits; of more than
+    eight the least are others."""
+    keys = [row.get("set") or row.get("name", "") for row in joints]
+    if len(set(keys)) > 8:
+        keys = [row.get("set") or re.sub(r"[\d_.-]+$", "",
+                                         row.get("name", ""))
+                or "joints" for row in joints]
+        keys = [key if keys.count(key) > 1 else row.get("name", key)
+                for key, row in zip(keys, joints)]
+    counts = {key: keys.count(key) for key in dict.fromkeys(keys)}
+    if len(counts) > 8:
+        most = sorted(counts, key=counts.get, reverse=True)[:7]
+        keys = [key if key in most else "others" for key in keys]
+    names = list(dict.fromkeys(keys))
+    if "others" in names:
+        names.append(names.pop(names.index("others")))
+    return names, [names.index(key) for key in keys]

@@ -4,6 +4,8 @@ import csv
 import io
 import math
 
+from .words import demand_of, number
+
 # What a block is like, for colours: name, colour (of Okabe and Ito, which
 # colour-blind people tell apart), what the legend says
 STATES = {
@@ -13,18 +15,6 @@ STATES = {
     "firm": ("#009e73", "immovable, or above the highest factor tried"),
     "undecided": ("#cc79a7", "undecided"),
     "unknown": ("#999999", "no factor looked for")}
-
-
-def number(value, digits=4):
-    """A number as people read it, or a dash."""
-    if value is None:
-        return "–"
-    if math.isinf(value):
-        return "∞"
-    if value and not 1e-4 <= abs(value) < 1e6:
-        return f"{value:.3g}"
-    text = f"{value:.{digits}g}"
-    return f"{float(text):g}" if "e" in text else text
 
 
 def in_words(result):
@@ -147,6 +137,7 @@ def row_of(run, geometry, n, moved_off):
                                      worst["stage"]) if worst else
                             None) or {},
            "group": (worst or {}).get("group"),
+           "demand": demand_of(limit),
            "clamped": is_held_by_clamping(worst, limit),
            "removed": block.get("removed_in_stage"),
            "moved_off": moved_off.get(n),
@@ -216,7 +207,8 @@ def blocks_csv(run, rows):
              "limit equilibrium mode", "remark", "factor", "factor lower",
              "factor upper", "outcome", "factor after", "stress ratio",
              "group", "group factor", "held by clamping",
-             "largest displacement (m)", "moved off in", "removed in"]
+             "support for factor", "support (kN)" if not run.is_plane else
+             "support (kN per m)", "support pressure (kPa)", "largest displacement (m)", "moved off in", "removed in"]
     table = []
     for row in rows:
         limit, factor = row["limit"] or {}, row["factor"] or {}
@@ -233,6 +225,8 @@ def blocks_csv(run, rows):
             row["stress_ratio"].get("value"),
             " ".join(map(str, group.get("blocks", []))), group.get("value"),
             {True: "yes", False: "no", None: None}[row["clamped"]],
+            *((row["demand"] or {}).get(key) for key in (
+                "factor", "force", "pressure")),
             row["displacement"], row["moved_off"], row["removed"]])
     return as_csv(names, table)
 
@@ -312,7 +306,8 @@ def warnings_of(run):
                                                       []))
         found.append(f"{mesh['lost_blocks']} blocks too small for the mesh "
                      "went to their neighbours, the largest of "
-                     f"{number(mesh['largest_lost_volume'])} m³"
+                     f"{number(mesh['largest_lost_volume'])} "
+                     + ("m²" if run.is_plane else "m³")
                      + (f" at ({place})." if place else "."))
     for key, text in (("joints_lost", "Joints too small for the mesh"),
                       ("joints_outside", "Joints outside of the domain")):
@@ -321,7 +316,8 @@ def warnings_of(run):
     if mesh.get("merged_areas"):
         shared = sorted(mesh["merged_areas"].items(), key=lambda m: -m[1])
         found.append("Joints share faces, which the weaker rules: "
-                     + few([f"{names} ({number(area)} m²)"
+                     + few([f"{names} ({number(area)} "
+                            f"{'m' if run.is_plane else 'm²'})"
                             for names, area in shared]) + ".")
     if mesh.get("open_ends"):
         found.append("Joints that end just before another: "

@@ -210,11 +210,14 @@ class View {
     this.joints.forEach((joint, k) => {
       joint.visible = this.shows.groups.has(k);
     });
-    const is_moved = this.colouring === 'displacement';
     element('states').hidden = this.colouring !== 'state';
-    element('largest').innerHTML = is_moved ? `<div style="height:12px;
-      background:linear-gradient(90deg,${SHADES})"></div>0 to
-      ${(1e3 * this.largest).toPrecision(3)} mm` : '';
+    const range = this.colouring === 'displacement'
+      ? `0 to ${(1e3 * this.largest).toPrecision(3)} mm`
+      : this.colouring === 'stress' && this.meta.stress
+      ? this.meta.stress.map((s) => (1e-6 * s).toPrecision(3)).join(' to ')
+        + ' MPa, pressed: +' : '';
+    element('largest').innerHTML = range && `<div style="height:12px;
+      background:linear-gradient(90deg,${SHADES})"></div>${range}`;
     this.render();
   }
 
@@ -234,7 +237,7 @@ class View {
           for (let d = 0; d < 3; ++d) sum[d] += this.positions[3 * v + d];
           ++sum[3];
         }
-        this.colour_of(paint, white, number, group[t], v);
+        this.colour_of(paint, white, number, group[t], v, t);
         paint.toArray(colour, 9 * n + 3 * c);
       }
     });
@@ -245,10 +248,13 @@ class View {
     mesh.geometry.setAttribute('color', new THREE.BufferAttribute(colour, 3));
   }
 
-  colour_of(paint, white, number, group, vertex) {
-    const {meta} = this;
-    if (this.colouring === 'displacement') {
-      const share = this.largest ? this.lengths[vertex] / this.largest : 0;
+  colour_of(paint, white, number, group, vertex, triangle) {
+    const {meta} = this, stress = this.data[`stress_${this.state}`];
+    const is_stress = this.colouring === 'stress' && stress;
+    if (this.colouring === 'displacement' || is_stress) {
+      // of each quadrilateral the two triangles are half the list apart
+      const share = is_stress ? stress[triangle % stress.length] / 255
+        : this.largest ? this.lengths[vertex] / this.largest : 0;
       const at = Math.min(share, 0.9999) * 3;
       paint.set(SHADES[Math.floor(at)]).lerp(
         new THREE.Color(SHADES[Math.floor(at) + 1]), at % 1);
@@ -504,6 +510,7 @@ class View {
         this.update();
       });
     }
+    if (!meta.stress) element('colouring').options[2].remove();
     on('colouring', 'change', (select) => {
       this.colouring = select.value;
       this.update();

@@ -12,8 +12,10 @@ import numpy
 from .geometry import FREE, unique_rows
 from .html import escape
 from .pictures import exaggeration
-from .tables import STATES, in_words, limit_in_words, number
+from .polygons import clip_polygon
 from .style import GROUP_COLOURS
+from .tables import STATES, in_words, limit_in_words
+from .words import demand_in_words, mode_in_words, number
 
 SHARP = 0.9  # faces at an edge that is drawn differ by more, as a cosine
 
@@ -124,13 +126,31 @@ def group_of(run, joint):
     return group[numpy.where(joint + 1 < len(group), joint + 1, 0)]
 
 
-def put_joints(geometry, packer):
-    """Planes (2D: lines) of the joints as they are in the scene."""
+def put_stress(geometry, cell, packer):
+    """Major principal stress behind each quadrilateral by state, in shares.
+
+    Returns the range in Pa that 0 to 255 stand for, without the few cells
+    beyond it; None without stress."""
+    if geometry.pressure is None or not len(cell):
+        return None
+    values = geometry.pressure[:, cell]
+    if numpy.isnan(values).all():
+        return None
+    low, high = (float(v) for v in numpy.nanpercentile(values, (0.5, 99.5)))
+    share = (numpy.nan_to_num(values) - low) / (high - low or 1.)
+    for k, one in enumerate(share):
+        packer.put(f"stress_{k}", numpy.rint(255. * one.clip(0., 1.)), "u1")
+    return [low, high]
+
+
+def put_joints(geometry, packer, box):
+    """Planes (2D: lines) of the joints as they are in the scene, in a box."""
     names, group = geometry.run.joint_groups()
     polygons, joints = geometry.joint_polygons()
     parts, groups = [], []
     for polygon, joint in zip(polygons, joints):
-        if joint >= len(group):
+        polygon = numpy.array(clip_polygon(polygon, *box))
+        if joint >= len(group) or not len(polygon):
             continue
         fan = ([polygon] if len(polygon) == 2 else
                [polygon[[0, i, i + 1]] for i in range(1, len(polygon) - 1)])
@@ -164,7 +184,10 @@ def describe(run, row):
             f"{number(row['volume'])} m³"
             + (" per m" if run.is_plane else ""),
             f"{number(row['weight'] / 1e3)} kN" if row["weight"] else "",
-            row["mode"] or "",
+            mode_in_words(row["mode"]) or "",
+            {True: "held by clamping", None: "", False: ""}[row["clamped"]],
+            f"needs {demand_in_words(row['demand'], run.is_plane)}"
+            if row["demand"] else "",
             f"limit equilibrium {limit_in_words(row['limit'])}"
             if row["limit"] else "",
             f"strength reduction {in_words(factor)} after {factor['stage']}"
@@ -200,12 +223,13 @@ def pack(geometry, rows):
     joint = (numpy.full(len(cell), -1) if faces is None else
              geometry.face_joint[faces])
     packer.put("triangle_group", numpy.tile(group_of(run, joint), 2), "u1")
+    stress = put_stress(geometry, cell, packer)
     packer.put("lines", lines, "u4")
     packer.put("line_seen", line_seen, "u4")
     packer.put("line_block", numpy.where(geometry.is_finite[line_cell],
                                          geometry.block[line_cell], 0), "i4")
     packer.put("line_group", group_of(run, line_joint), "u1")
-    groups = put_joints(geometry, packer)
+    groups = put_joints(geometry, packer, box)
     inside = None if run.is_plane else geometry.place_inside()
     down = run.down()
     meta = {
@@ -218,7 +242,7 @@ def pack(geometry, rows):
             [0., 0., 1.] if down is None else (-down).tolist()),
         "stages": ["before the first stage" if i < 0 else f"after {name}"
                    for name, i, *_ in run.states[:len(small)]],
-        "exaggeration": exaggeration(geometry, box), "groups": groups,
+        "stress": stress, "exaggeration": exaggeration(geometry, box), "groups": groups,
         "colours": {key: [value[0], value[1]]
                     for key, value in STATES.items()},
         "order": [row["block"] for row in rows],

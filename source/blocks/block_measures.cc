@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/blocks/block_measures.h>
 
+#include <keyblock/base/expression.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -183,6 +185,22 @@ namespace Keyblock
         measure(blocks.blocks[b], faces[b], mesh);
   }
 
+
+
+  template <int dim>
+  double
+  weight_per_mass(const Scene<dim> &scene)
+  {
+    const std::string &formula = scene.initial_state.gravity;
+    return formula.empty()
+             ? standard_gravity
+             : Expression<dim>(formula, dim, "Initial state/Gravity")
+                 .vector(Point<dim>(), 0.)
+                 .norm();
+  }
+
+  template double weight_per_mass(const Scene<2> &);
+  template double weight_per_mass(const Scene<3> &);
   template void measure_exactly(Blocks<2> &, const Mesh<2> &);
   template void measure_exactly(Blocks<3> &, const Mesh<3> &);
 } // namespace Keyblock

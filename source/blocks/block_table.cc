@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The table of blocks on the screen.
+#include <keyblock/blocks/block_measures.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/blocks.h>
 
@@ -38,13 +39,14 @@ namespace Keyblock
     out << "Blocks\n  id  class      removable  "
         << (dim == 2 ? "area [m2]  " : "volume [m3]")
         << "   weight [kN]  centroid [m]                 joints\n";
+    const double weight = weight_per_mass(scene);
     for (const auto &block : blocks.blocks)
       {
         out << std::setw(4) << block.id << "  " << std::left << std::setw(11)
             << to_string(block.class_of_stage.back()) << std::setw(9)
             << (block.is_removable ? "yes" : "no") << std::right
             << std::setprecision(6) << std::setw(12) << block.volume
-            << std::setw(13) << block.mass * 9.81e-3 << "  (";
+            << std::setw(13) << 1e-3 * block.mass * weight << "  (";
         for (unsigned int d = 0; d < dim; ++d)
           out << (d ? ", " : "") << std::setprecision(4) << block.centroid[d];
         out << ")  ";

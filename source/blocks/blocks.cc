@@ -295,7 +295,8 @@ namespace Keyblock
               else if (around[b].has_free_face[s])
                 kind = BlockClass::exposed;
               block.class_of_stage.push_back(kind);
-              if (around[b].has_free_face[s] && block.exposed_stage == none)
+              if (around[b].has_free_face[s] && kind != BlockClass::attached &&
+                  block.exposed_stage == none)
                 block.exposed_stage = s;
             }
         }

@@ -53,6 +53,8 @@ namespace Keyblock
                const Blocks<dim> &blocks,
                SplitMesh<dim> &result)
     {
+      result.mesh.region_names      = mesh.region_names;
+      result.mesh.boundary_id_names = mesh.boundary_id_names;
       std::vector<unsigned int> kept(mesh.n_cells(), none);
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
         if (mesh.excavation_stage[c] != 1)

@@ -36,7 +36,7 @@ namespace Keyblock
               continue;
             if ((across != none && mesh.excavation_stage[across] > 0 &&
                  mesh.excavation[across] == e) ||
-                (excavation.shape != ExcavationShape::formula &&
+                (excavation.has_outline() &&
                  depth_inside(excavation, outside) > 0.))
               {
                 found.push_back(f);

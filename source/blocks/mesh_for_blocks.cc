@@ -29,7 +29,7 @@ namespace Keyblock
         , size(scene, longest_side(mesh), demands)
       {
         for (const auto &excavation : scene.excavations)
-          if (excavation->shape != ExcavationShape::formula)
+          if (excavation->has_outline())
             reach = std::max(reach, narrowest_side(*excavation) / 2.);
       }
 
@@ -79,7 +79,7 @@ namespace Keyblock
       {
         bool has_outline = false;
         for (const auto &excavation : scene.excavations)
-          if (excavation->shape != ExcavationShape::formula)
+          if (excavation->has_outline())
             {
               has_outline = true;
               if (depth_inside(*excavation, p) > -reach)

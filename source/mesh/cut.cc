@@ -330,6 +330,8 @@ namespace Keyblock
     make_positive(mesh, origin, remedy);
     check_sides(mesh, origin, remedy);
     order_cells(mesh);
+    mesh.region_names      = mixed.cell_names;
+    mesh.boundary_id_names = mixed.face_names;
     return mesh;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/mesh/excavation_region.h>
+#include <keyblock/scene/solid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,14 @@ namespace Keyblock
         {depth_inside_polygon(excavation.vertices, Point<2>(p[0], p[dim - 1])),
          p[1] - excavation.from,
          excavation.to - p[1]});
+    if constexpr (dim == 3)
+      if (excavation.shape == ExcavationShape::file)
+        {
+          double depth = -std::numeric_limits<double>::max();
+          for (const auto &solid : excavation.solids)
+            depth = std::max(depth, solid->depth_inside(p));
+          return depth;
+        }
     double depth = std::numeric_limits<double>::max();
     for (unsigned int d = 0; d < dim; ++d)
       depth = std::min({depth,
@@ -58,12 +67,20 @@ namespace Keyblock
   double
   narrowest_side(const Excavation<dim> &excavation)
   {
-    if (excavation.shape == ExcavationShape::formula)
+    if (!excavation.has_outline())
       return 1e300;
     if (excavation.shape == ExcavationShape::circle)
       return 2. * excavation.radius;
     if (excavation.shape == ExcavationShape::box)
       return *std::min_element(excavation.size.begin(), excavation.size.end());
+    if (excavation.shape == ExcavationShape::file)
+      {
+        double side = std::numeric_limits<double>::max();
+        for (const auto &solid : excavation.solids)
+          for (unsigned int d = 0; d < 3; ++d)
+            side = std::min(side, solid->high[d] - solid->low[d]);
+        return side;
+      }
     Point<2> low = excavation.vertices[0], high = low;
     for (const Point<2> &p : excavation.vertices)
       for (unsigned int d = 0; d < 2; ++d)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/mesh/gmsh_model.h>
+#include <keyblock/mesh/polyhedron.h>
 #include <keyblock/scene/joint_extent.h>
+#include <keyblock/scene/solid_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,6 +138,22 @@ namespace Keyblock
                            Point<3>(0., excavation.to - excavation.from, 0.));
     }
 
+    /** The solids of a file: polyhedra of triangles, or as OpenCASCADE reads
+     * them. */
+    template <int dim>
+    std::vector<int>
+    add_solids(const Excavation<dim> &excavation, const Point<dim> &origin)
+    {
+      if (!is_stl(excavation.file))
+        return import_solids(excavation.file,
+                             excavation.scale,
+                             in_space<dim>(origin));
+      std::vector<int> tags;
+      for (const auto &solid : excavation.solids)
+        tags.push_back(add_polyhedron(solid->surface));
+      return tags;
+    }
+
     /** A joint; an infinite one reaches beyond the ball of radius @p reach
      * about @p center. */
     int
@@ -260,7 +278,12 @@ namespace Keyblock
 
     vectorpair tools;
     for (const auto &excavation : scene.excavations)
-      tools.emplace_back(dim, add_excavation<dim>(*excavation));
+      if (excavation->shape == ExcavationShape::file)
+        for (const int tag : add_solids(*excavation, scene.domain.origin))
+          tools.emplace_back(dim, tag);
+      else
+        tools.emplace_back(dim, add_excavation<dim>(*excavation));
+    const std::size_t n_tools_of_excavations = tools.size();
     std::vector<unsigned int> joint_of_tool;
     const double reach = low.distance(high);
     if (with_joints)
@@ -286,7 +309,7 @@ namespace Keyblock
       model.joints.resize(scene.joints.size());
     for (unsigned int i = 0; i < joint_of_tool.size(); ++i)
       model.joints[joint_of_tool[i]] =
-        pieces_of[1 + scene.excavations.size() + i];
+        pieces_of[1 + n_tools_of_excavations + i];
     occ::synchronize();
     clip(model);
     return model;

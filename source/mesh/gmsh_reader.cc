@@ -84,8 +84,10 @@ namespace Keyblock
         gmsh::model::mesh::getElements(types, elements, nodes, dim - 1, tag);
         std::string type;
         gmsh::model::getType(dim - 1, tag, type);
-        const auto joints = joints_of_entity.find(tag);
-        bool is_new       = (joints == joints_of_entity.end());
+        const auto joints    = joints_of_entity.find(tag);
+        const bool is_joint  = (joints != joints_of_entity.end());
+        const bool is_curved = dim == 3 && !is_joint && type != "Plane";
+        bool is_new          = !is_joint;
         for (unsigned int t = 0; t < types.size(); ++t)
           for (std::size_t i = 0; i + dim <= nodes[t].size(); i += dim)
             {
@@ -105,9 +107,11 @@ namespace Keyblock
                 {
                   result.surfaces.push_back(
                     surface_through<dim>(places, type == "Circle", scene));
-                  is_new = false;
+                  result.surfaces.back().is_curved = is_curved;
+                  // each triangle on a curved one has its plane
+                  is_new = is_curved;
                 }
-              if (joints == joints_of_entity.end())
+              if (!is_joint)
                 mark(face, result.surfaces.size() - 1, places);
               else
                 for (const unsigned int j : joints->second)

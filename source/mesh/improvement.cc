@@ -148,7 +148,12 @@ namespace Keyblock
   bool
   MeshImprovement<dim>::smooth(const unsigned int vertex)
   {
-    if (mesh.is_fixed[vertex])
+    // moves along chords of a curved surface would add up
+    const auto &bound = mesh.bound_to[vertex];
+    if (mesh.is_fixed[vertex] ||
+        std::any_of(bound.begin(), bound.end(), [this](const unsigned int s) {
+          return mesh.surfaces[s].is_curved;
+        }))
       return false;
     const auto locked = mesh.locked_directions(vertex, may_leave_joints);
     if (locked.size() >= dim)
@@ -248,7 +253,8 @@ namespace Keyblock
                     if (is_joint)
                       height =
                         std::max(height, std::abs(surface.distance(before)));
-                    if (way.norm() < (is_joint ? least_sine : 1e-6))
+                    if (way.norm() <
+                        (is_joint ? least_sine : surface.least_sine()))
                       continue;
                     if (is_joint)
                       mesh.vertices[v] -=

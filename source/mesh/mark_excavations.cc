@@ -128,20 +128,26 @@ namespace Keyblock
                                       1,
                                       "Excavations/" + excavation->name +
                                         "/Formula");
+        const auto depth_of = [&](const unsigned int c) {
+          if (excavation->is_group())
+            return means_group("id " + excavation->name,
+                               mesh.region[c],
+                               mesh.region_names)
+                     ? 1.
+                     : -1.;
+          const Point<dim> center = mesh.cell_center(c);
+          return is_formula ? formula.value(center, 0., 0)
+                            : depth_inside(*excavation, center);
+        };
         std::vector<double> volume_inside(n_pieces, 0.); // minus the rest
         for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-          {
-            const Point<dim> center = mesh.cell_center(c);
-            const double depth      = is_formula ? formula.value(center, 0., 0)
-                                                 : depth_inside(*excavation, center);
-            volume_inside[piece[c]] +=
-              depth > 0. ? mesh.cell_volume(c) : -mesh.cell_volume(c);
-          }
+          volume_inside[piece[c]] +=
+            depth_of(c) > 0. ? mesh.cell_volume(c) : -mesh.cell_volume(c);
         unsigned int n_hits = 0;
         for (unsigned int c = 0; c < mesh.n_cells(); ++c)
           {
             const bool is_inside = volume_inside[piece[c]] > 0.;
-            AssertThrow(is_formula || !mesh.surfaces.empty() ||
+            AssertThrow(!excavation->has_outline() || !mesh.surfaces.empty() ||
                           !crosses(mesh, c, *excavation, is_inside),
                         InputError(
                           "The mesh does not follow the outline of the "

@@ -63,7 +63,8 @@ namespace Keyblock
                                        "/Region");
         for (unsigned int c = 0; c < mesh.n_cells(); ++c)
           if (is_all ||
-              (is_id && region.substr(3) == std::to_string(mesh.region[c])) ||
+              (is_id &&
+               means_group(region, mesh.region[c], mesh.region_names)) ||
               (is_band && band[0]->distance(mesh.cell_center(c)) > 0. &&
                band[1]->distance(mesh.cell_center(c)) < 0.) ||
               (!is_id && !is_band &&

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <sstream>
 #include <tuple>
 
 namespace Keyblock
@@ -226,6 +227,26 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    void
+    broadcast(const Communicator &communicator, GroupNames &names)
+    {
+      std::string lines;
+      for (const auto &[id, name] : names)
+        lines += std::to_string(id) + ' ' + name + '\n';
+      std::istringstream in(communicator.text_of_root(lines));
+      names.clear();
+      for (unsigned int id; in >> id;)
+        {
+          in.ignore();
+          std::getline(in, names[id]);
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   Mesh<dim>
   make_mesh(const Communicator &communicator,
@@ -249,6 +270,8 @@ namespace Keyblock
     communicator.broadcast(mesh.cells);
     communicator.broadcast(mesh.region);
     communicator.broadcast(mesh.boundary_faces);
+    broadcast(communicator, mesh.region_names);
+    broadcast(communicator, mesh.boundary_id_names);
     communicator.broadcast(mesh.hanging_faces);
     communicator.broadcast(mesh.surfaces);
     communicator.broadcast(mesh.marked_faces);

@@ -8,6 +8,21 @@
 
 namespace Keyblock
 {
+  bool
+  means_group(const std::string &words,
+              const unsigned int id,
+              const GroupNames &names)
+  {
+    if (words.rfind("id ", 0) != 0)
+      return false;
+    const std::string word = words.substr(3);
+    const auto named       = names.find(id);
+    return word == std::to_string(id) ||
+           (named != names.end() && word == named->second);
+  }
+
+
+
   template <int dim>
   const std::vector<std::string> &
   Mesh<dim>::boundary_names()
@@ -159,7 +174,7 @@ namespace Keyblock
     if (b != none && boundary_names()[b] == name)
       return true;
     const unsigned int id = boundary_id[cell][face];
-    return id != none && name == "id " + std::to_string(id);
+    return id != none && means_group(name, id, boundary_id_names);
   }
 
 

@@ -254,7 +254,7 @@ namespace Keyblock
       {
         for (const auto &excavation : scene.excavations)
           {
-            if (excavation->shape == ExcavationShape::formula)
+            if (!excavation->has_outline())
               continue;
             double least = 1e300, greatest = -1e300;
             for (const unsigned int v : cell->vertex_indices())
@@ -399,6 +399,9 @@ namespace Keyblock
       {
         for (unsigned int e = 0; e < scene.excavations.size(); ++e)
           {
+            if (scene.excavations[e]->is_group() &&
+                a->material_id() != b->material_id())
+              return true;
             const auto depth = [&](const Point<dim> &p) {
               return scene.excavations[e]->shape == ExcavationShape::formula
                        ? formulas[e]->value(p, 0., 0)
@@ -488,7 +491,10 @@ namespace Keyblock
   {
     Refinement<dim> refinement(scene, mesh);
     refinement.refine();
-    mesh = refinement.flatten();
+    Mesh<dim> refined         = refinement.flatten();
+    refined.region_names      = mesh.region_names;
+    refined.boundary_id_names = mesh.boundary_id_names;
+    mesh                      = std::move(refined);
   }
 
 

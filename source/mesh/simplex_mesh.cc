@@ -8,9 +8,9 @@ namespace Keyblock
 {
   namespace
   {
-    /** Directions that are nearer to the plane of the locked ones lock nothing
-     * more: for the model, which is exact, and for joints [-]. */
-    constexpr double least_model_sine = 1e-6, least_joint_sine = 0.05;
+    /** Sine between planes, below which a second joint locks no direction
+     * [-]. */
+    constexpr double least_joint_sine = 0.05;
 
   } // namespace
 
@@ -193,7 +193,8 @@ namespace Keyblock
             const Tensor<1, dim> n =
               free_part(free_part(surfaces[s].normal_at(vertices[v]), locked),
                         locked);
-            if (n.norm() > (is_joint ? least_joint_sine : least_model_sine))
+            if (n.norm() >
+                (is_joint ? least_joint_sine : surfaces[s].least_sine()))
               locked.push_back(n / n.norm());
           }
     return locked;

@@ -18,7 +18,7 @@ namespace Keyblock
   {
     /** Memory of a run without cells, and per cell: peaks of runs of 250,000
      * and 1,000,000 (2D), 64,000 to 343,000 (3D) cells, set up only. Writing
-     * VTU takes three times as much for a moment [bytes]. */
+     * VTU takes a third more for a moment (3D) [bytes]. */
     constexpr double bytes_of_program = 2e8;
     template <int dim>
     constexpr double bytes_per_cell = (dim == 2) ? 750. : 1500.;

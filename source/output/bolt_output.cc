@@ -3,14 +3,13 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/output/bolt_output.h>
-#include <keyblock/output/patches.h>
+#include <keyblock/scene/network_output.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 namespace Keyblock
 {
@@ -24,28 +23,35 @@ namespace Keyblock
 
     /** Segments as lines, their forces and the slip at their ends. */
     template <int dim>
-    PatchOutput<1, dim>
-    draw(const std::vector<BoltReport<dim>> &reports)
+    VtuGrid
+    draw(const std::vector<BoltReport<dim>> &reports, const Scene<dim> &scene)
     {
-      PatchOutput<1, dim> lines;
-      lines.names = {"axial_force", "bond_slip", "dowel_force", "bolt", "set"};
+      VtuGrid lines;
+      VtuArray slip  = VtuArray::scalar("bond slip (m)"),
+               axial = VtuArray::scalar("axial force (N)"),
+               dowel = VtuArray::scalar("dowel force (N)"),
+               bolt = VtuArray::ids("bolt"), set = VtuArray::ids("bolt set");
       for (unsigned int b = 0; b < reports.size(); ++b)
         {
           const BoltReport<dim> &r = reports[b];
+          const unsigned int first = lines.n_points();
+          for (unsigned int j = 0; j < r.slip.size(); ++j)
+            {
+              lines.add_point(r.bolt->at(r.bolt->places[j]), dim);
+              slip.add(r.slip[j]);
+            }
           for (unsigned int j = 0; j < r.axial_force.size(); ++j)
             {
-              auto &patch = lines.add();
-              for (unsigned int v = 0; v < 2; ++v)
-                {
-                  patch.vertices[v] = r.bolt->at(r.bolt->places[j + v]);
-                  patch.data(0, v)  = r.axial_force[j];
-                  patch.data(1, v)  = r.slip[j + v];
-                  patch.data(2, v)  = r.dowel_force;
-                  patch.data(3, v)  = b + 1;
-                  patch.data(4, v)  = r.bolt->set + 1;
-                }
+              lines.add_lattice_cell({first + j, first + j + 1});
+              axial.add(r.axial_force[j]);
+              dowel.add(r.dowel_force);
+              bolt.add_id(b + 1);
+              set.add_id(r.bolt->set);
             }
         }
+      lines.point_data = {slip};
+      lines.cell_data  = {axial, dowel, bolt, set};
+      lines.texts.emplace_back("bolt set names", names_of(scene.bolts));
       return lines;
     }
   } // namespace
@@ -90,22 +96,24 @@ namespace Keyblock
   template <int dim>
   void
   write_bolts(const std::string &folder,
-              const std::vector<std::pair<double, std::string>> &records,
-              const std::vector<BoltReport<dim>> &reports)
+              const std::vector<VtuRecord> &records,
+              const std::vector<BoltReport<dim>> &reports,
+              const Scene<dim> &scene)
   {
     if (reports.empty() || records.empty())
       return;
-    const std::string last    = file_of(records.size() / 2 - 1);
-    PatchOutput<1, dim> lines = draw(reports);
-    lines.set_flags(vtk_flags(records.back().first));
-    std::vector<std::pair<double, std::string>> written;
-    bool is_written = write_file(lines, folder + last);
+    const std::string last = file_of(records.size() / 2 - 1);
+    VtuGrid lines          = draw(reports, scene);
+    lines.time             = records.back().time;
+    lines.texts.emplace_back("stage",
+                             std::vector<std::string>{records.back().stage});
+    bool is_written = write_vtu(lines, folder + last);
+    std::vector<VtuRecord> written;
     for (unsigned int i = 0; i < records.size() / 2; ++i)
       if (std::filesystem::exists(folder + file_of(i)))
-        written.emplace_back(records[2 * i].first, file_of(i));
-    std::ofstream pvd(folder + "bolts.pvd");
-    dealii::DataOutBase::write_pvd_record(pvd, written);
-    is_written = pvd.flush() && is_written;
+        written.push_back(
+          {records[2 * i].time, file_of(i), "", records[2 * i].stage});
+    is_written = write_pvd(written, folder + "bolts.pvd") && is_written;
     AssertThrow(is_written,
                 ComputationError("The file '" + folder + last +
                                  "' cannot be written; check free space."));
@@ -158,10 +166,10 @@ namespace Keyblock
     const std::vector<LinerReport> &, const Scene<dim> &);                     \
   template std::vector<BoltFigures> list_figures(                              \
     const std::vector<BoltReport<dim>> &, const Scene<dim> &);                 \
-  template void write_bolts(                                                   \
-    const std::string &,                                                       \
-    const std::vector<std::pair<double, std::string>> &,                       \
-    const std::vector<BoltReport<dim>> &);
+  template void write_bolts(const std::string &,                               \
+                            const std::vector<VtuRecord> &,                    \
+                            const std::vector<BoltReport<dim>> &,              \
+                            const Scene<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -42,12 +42,14 @@ namespace Keyblock
     Json
     strength_reduction_as_json(const SafetyFactor &factor)
     {
-      Json json = {{"stage", factor.stage}, {"lower", factor.lower}};
-      if (factor.outcome != SafetyFactor::Outcome::clamped)
-        {
-          json["upper"] = factor.upper;
-          json["value"] = factor.value();
-        }
+      using Outcome = SafetyFactor::Outcome;
+      Json json     = {{"stage", factor.stage}};
+      if (factor.lower > 0.)
+        json["lower"] = factor.lower;
+      if (factor.upper > 0.)
+        json["upper"] = factor.upper;
+      if (factor.outcome == Outcome::bracketed)
+        json["value"] = factor.value();
       if (factor.undecided_upper > 0.)
         {
           json["undecided_lower"] = factor.undecided_lower;
@@ -91,8 +93,9 @@ namespace Keyblock
                       {"remark", factor.limit_remark}};
         put_limit_factor(factor.limit_factor, cheap);
         limit.push_back(cheap);
-        ratio.push_back(
-          {{"stage", factor.stage}, {"value", factor.stress_ratio}});
+        ratio.push_back({{"stage", factor.stage}});
+        if (factor.stress_ratio > 0.)
+          ratio.back()["value"] = factor.stress_ratio;
         json["failure_mode"] = factor.failure_mode;
       }
     if (strength.empty())

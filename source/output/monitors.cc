@@ -334,6 +334,33 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** Rows from @p first on; before row 0 the names of the columns. */
+    void
+    write_rows(const History &history,
+               const std::size_t first,
+               std::ostream &out)
+    {
+      if (first == 0)
+        {
+          for (unsigned int c = 0; c < history.columns.size(); ++c)
+            out << (c ? "," : "") << history.columns[c];
+          out << '\n';
+        }
+      out << std::setprecision(12);
+      for (std::size_t i = first; i < history.rows.size(); ++i)
+        {
+          const std::vector<double> &row = history.rows[i];
+          for (unsigned int c = 0; c < row.size(); ++c)
+            out << (c ? "," : "") << row[c];
+          out << '\n';
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   Monitors<dim>::write_csv(const std::string &file_name) const
@@ -341,16 +368,22 @@ namespace Keyblock
     if (!numbering.communicator.is_root())
       return numbering.communicator.assert_written(true, file_name);
     std::ofstream out(file_name);
-    for (unsigned int c = 0; c < history.columns.size(); ++c)
-      out << (c ? "," : "") << history.columns[c];
-    out << '\n' << std::setprecision(12);
-    for (const auto &row : history.rows)
-      {
-        for (unsigned int c = 0; c < row.size(); ++c)
-          out << (c ? "," : "") << row[c];
-        out << '\n';
-      }
+    write_rows(history, 0, out);
     numbering.communicator.assert_written(bool(out.flush()), file_name);
+  }
+
+
+
+  template <int dim>
+  void
+  Monitors<dim>::append_csv(const std::string &file_name)
+  {
+    if (!numbering.communicator.is_root())
+      return;
+    std::ofstream out(file_name,
+                      n_appended > 0 ? std::ios::app : std::ios::trunc);
+    write_rows(history, n_appended, out);
+    n_appended = history.rows.size();
   }
 
   template class Monitors<2>;

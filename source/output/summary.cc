@@ -3,6 +3,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <keyblock/base/digest.h>
+#include <keyblock/blocks/block_measures.h>
 #include <keyblock/output/bolt_output.h>
 #include <keyblock/output/factor_json.h>
 #include <keyblock/output/output.h>
@@ -94,7 +95,7 @@ namespace Keyblock
                        Json &json)
     {
       json["exact_volume"] = block.exact.volume;
-      json["exact_weight"] = 9.81 * block.exact_mass();
+      json["exact_weight"] = weight_per_mass(scene) * block.exact_mass();
       if (!block.exact.joint_area.empty())
         json["exact_joint_areas"] =
           areas_as_json(block.exact.joint_area, scene);
@@ -160,7 +161,7 @@ namespace Keyblock
           if (block.exact.is_known)
             put_exact_measures(block, scene, json);
           json["mass"]   = block.mass;
-          json["weight"] = 9.81 * block.mass;
+          json["weight"] = weight_per_mass(scene) * block.mass;
           json["added_mass"] =
             b < scaling.size() ? scaling[b].added_fraction() : 0.;
           json["centroid"] = list_of<dim>(block.centroid);

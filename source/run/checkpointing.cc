@@ -178,17 +178,23 @@ namespace Keyblock
     exchange(file, "factors/", record.safety_factors);
     exchange(file, "history/", monitors.history);
     std::vector<double> times;
-    std::vector<std::string> names;
-    for (const auto &[time, name] : output.records)
+    std::vector<std::string> names, stages;
+    for (const VtuRecord &r : output.records)
       {
-        times.push_back(time);
-        names.push_back(name);
+        times.push_back(r.time);
+        names.push_back(r.file);
+        stages.push_back(r.stage);
       }
     file.exchange("output/times", times);
     file.exchange("output/names", names);
+    file.exchange("output/stages", stages);
     output.records.clear();
     for (unsigned int i = 0; i < names.size(); ++i)
-      output.records.emplace_back(times.at(i), names[i]);
+      output.records.push_back({times.at(i),
+                                names[i],
+                                i % 2 == 0 ? "rock" : "interface",
+                                stages.at(i)});
+    output.stage = record.present.number();
 
     double wall_time = MPI_Wtime() - record.wall_start;
     file.exchange("run/wall_time", wall_time);

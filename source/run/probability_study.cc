@@ -7,6 +7,7 @@
 #include <keyblock/blocks/liner_layout.h>
 #include <keyblock/run/probability_study.h>
 #include <keyblock/scene/check_parts.h>
+#include <keyblock/scene/solid.h>
 #include <keyblock/scene/text.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -251,6 +252,12 @@ namespace Keyblock
           low  = std::min(low, excavation->from);
           high = std::max(high, excavation->to);
         }
+      else
+        for (const auto &solid : excavation->solids)
+          {
+            low  = std::min(low, solid->low[1]);
+            high = std::max(high, solid->high[1]);
+          }
     return std::max(0., high - low);
   }
 

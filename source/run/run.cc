@@ -22,6 +22,7 @@ namespace Keyblock
              model.cells,
              model.fields,
              model.contact.get(),
+             record.safety_factors,
              folder)
     , finite_check(model, monitors, output, folder)
     , checkpointing(model,

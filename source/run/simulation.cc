@@ -222,6 +222,7 @@ namespace Keyblock
       model.contact != nullptr && model.scene.safety.wants_stage(stage.name);
     parts->record.before =
       progress.wants_factors ? take_snapshot(model.parts()) : Snapshot<dim>();
+    parts->output.stage = progress.number();
     stages->begin(progress);
     const std::string text = mass_scaling_of_stage();
     if (text != mass_scaling_text)
@@ -260,6 +261,8 @@ namespace Keyblock
       group_study->find_factors();
     else if (present.wants_factors)
       parts->safety.find_remaining_factors(*groups);
+    if (present.wants_factors && model.scene.output.write_vtu)
+      parts->output.rewrite_rock(model.step->time);
   }
 
 

@@ -9,6 +9,14 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Time from one look at the growing history.csv to the next [s]. */
+    constexpr double history_interval = 5.;
+  } // namespace
+
+
+
   template <int dim>
   StageRecorder<dim>::StageRecorder(const Model<dim> &model,
                                     Monitors<dim> &monitors,
@@ -40,6 +48,10 @@ namespace Keyblock
   StageRecorder<dim>::sampled(const StageProgress<dim> &progress)
   {
     monitors.sample(*model.step, progress.index);
+    if (MPI_Wtime() < next_history)
+      return;
+    monitors.append_csv(folder + "history.csv");
+    next_history = MPI_Wtime() + history_interval;
   }
 
 
@@ -133,7 +145,10 @@ namespace Keyblock
   {
     output.write_vtu(model.step->time);
     model.communicator.on_root([&]() {
-      write_bolts(folder, output.records, model.conditions->report_bolts());
+      write_bolts(folder,
+                  output.records,
+                  model.conditions->report_bolts(),
+                  model.scene);
     });
   }
 

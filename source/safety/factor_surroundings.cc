@@ -28,6 +28,8 @@ namespace Keyblock
                                   : "");
         case SafetyFactor::Outcome::undecided:
           return "undecided";
+        case SafetyFactor::Outcome::met:
+          return above.str() + ", as wanted";
       }
     return "";
   }

@@ -215,7 +215,8 @@ namespace Keyblock
       search.finish();
     }
     if (result.outcome != SafetyFactor::Outcome::immovable)
-      result.failure_mode = trials.failure();
+      result.failure_mode =
+        result.outcome == SafetyFactor::Outcome::met ? "" : trials.failure();
     else if (std::isfinite(result.limit_factor))
       result.outcome = SafetyFactor::Outcome::clamped;
     if (result.outcome == SafetyFactor::Outcome::bracketed &&
@@ -337,6 +338,10 @@ namespace Keyblock
                           : search.stable > 0. ? settings.highest
                                                : 1.;
     double spread       = 0.4 * settings.bracket;
+    if (settings.wanted > 0. && search.is_open(settings.wanted))
+      search.holds_at(settings.wanted);
+    if (settings.wanted > 0. && search.stable >= settings.wanted)
+      return SafetyFactor::Outcome::met;
     for (const double middle : {guess, known.limit})
       try_guess(search, middle, known.onset, spread);
     spread = has_hint ? 4. * spread : 0.5;

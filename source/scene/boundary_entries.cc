@@ -18,7 +18,7 @@ namespace Keyblock
       "Boundaries",
       boundaries,
       "Outer boundaries: left, right, bottom, top, front, back, "
-      "all, or `id N`.");
+      "all, or `id N` (N: number or name in the mesh file).");
     prm.add_parameter("Region",
                       region,
                       "Formula in x, y (z), positive at the nodes to be held; "
@@ -84,7 +84,8 @@ namespace Keyblock
     prm.add_parameter("Boundaries",
                       boundaries,
                       "Outer boundaries that are loaded: left, right, bottom, "
-                      "top, front, back, all, or `id N`.");
+                      "top, front, back, all, or `id N` (N: number or name "
+                      "in the mesh file).");
     prm.add_parameter(
       "Region",
       region,

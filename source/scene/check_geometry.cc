@@ -137,9 +137,7 @@ namespace Keyblock
     require(meshing.refine_at_excavations.empty() ||
               std::any_of(scene.excavations.begin(),
                           scene.excavations.end(),
-                          [](const auto &e) {
-                            return e->shape != ExcavationShape::formula;
-                          }),
+                          [](const auto &e) { return e->has_outline(); }),
             "The entry 'Mesh/Refine at excavations' needs an excavation with "
             "an outline; use 'Mesh/Refinement levels'.");
     require(meshing.refine_at_joints.empty() || !scene.joints.empty(),

@@ -41,12 +41,13 @@ namespace Keyblock
       "Outer boundaries beyond which the rock goes on: a block "
       "that touches one is infinite. Names left, right, bottom, "
       "top, front, back, all, none, or `id N` for a "
-      "boundary of a mesh file.");
+      "boundary of a mesh file (N: number, or name of the physical group).");
     prm.add_parameter("Origin",
                       origin,
                       "Coordinates of the model's origin in the grid of the "
-                      "table Joints/File: they are subtracted from the table's "
-                      "coordinates, so that the model has small numbers [m].");
+                      "table Joints/File and of files of excavations: they are "
+                      "subtracted from the coordinates there, so that the "
+                      "model has small numbers [m].");
   }
 
 
@@ -149,7 +150,8 @@ namespace Keyblock
       "rectangle, horseshoe (half a circle on walls), cavern "
       "(an arch of Rise on walls): Center, Width and Height, in "
       "3D along y as an extruded polygon; file: the solids of File (3D), "
-      "or the closed outline in it (2D); "
+      "or the closed outline in it (2D), in a mesh from Domain/File and if "
+      "File is empty, the physical group of the excavation's name; "
       "formula (structured and file meshes): Formula.");
     prm.add_parameter(
       "Formula",
@@ -159,13 +161,13 @@ namespace Keyblock
     prm.add_parameter("File",
                       file,
                       "File of the shape file, relative to the scene's: solids "
-                      "from STEP or BREP (.step, .stp, .brep) or a closed "
-                      "surface of triangles (.stl), in 2D a closed polyline "
-                      "(.dxf).");
+                      "from STEP or BREP (.step, .stp, .brep) or closed "
+                      "surfaces of triangles (.stl), in 2D a closed outline of "
+                      "polylines, lines and arcs (.dxf, ASCII).");
     prm.add_parameter("Scale",
                       scale,
-                      "Length of the unit of .stl and .dxf files [m]; STEP "
-                      "files name theirs.",
+                      "Length of the unit of .stl, .brep and .dxf files [m]; "
+                      "STEP files name theirs.",
                       positive);
     prm.add_parameter("Vertices", vertices, "Corners in order [m].");
     prm.add_parameter("Corner",
@@ -190,7 +192,8 @@ namespace Keyblock
                       not_negative);
     prm.add_parameter("Segments",
                       segments,
-                      "Number of chords of the crown.",
+                      "Number of chords of the crown; in .dxf files of half a "
+                      "circle.",
                       Integer(2, 1000));
     prm.add_parameter("Bench levels",
                       bench_levels,

@@ -47,7 +47,8 @@ namespace Keyblock
     prm.add_parameter(
       "Region",
       region,
-      "Region that the material fills: all; `id N` for cells of a mesh file; a "
+      "Region that the material fills: all; `id N` for cells of a mesh file "
+      "(N: number, or name of the physical group); a "
       "formula in x, y (z), positive at the centres of its cells; or `band A "
       "B` for the rock between the joints A and B. Later materials overwrite "
       "earlier ones.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
+#include <keyblock/base/vtu_file.h>
 #include <keyblock/law/joint_law.h>
 #include <keyblock/scene/domain_outline.h>
 #include <keyblock/scene/network_output.h>
@@ -15,9 +16,9 @@ namespace Keyblock
   namespace
   {
     void
-    check_written(std::ofstream &out, const std::string &file_name)
+    check_written(const bool is_written, const std::string &file_name)
     {
-      AssertThrow(out.flush(),
+      AssertThrow(is_written,
                   InputError("The file '" + file_name +
                              "' cannot be written; check free space and "
                              "permissions."));
@@ -132,53 +133,6 @@ namespace Keyblock
       return azimuth < 0. ? azimuth + 360. : azimuth;
     }
 
-    /** Cells of a VTU file, and what is known of each. */
-    struct Cells
-    {
-      unsigned int n_points = 0, n_cells = 0;
-      std::string points, connectivity, offsets, types;
-      std::map<std::string, std::string> data;
-
-      template <int dim>
-      void
-      add(const std::vector<Point<dim>> &corners)
-      {
-        for (const Point<dim> &corner : corners)
-          {
-            points += joined(corner, dim, " ") + (dim == 2 ? " 0\n" : "\n");
-            connectivity += std::to_string(n_points++) + " ";
-          }
-        offsets += std::to_string(n_points) + " ";
-        types += dim == 2 ? "3 " : "7 "; // line, polygon
-        ++n_cells;
-      }
-
-      void
-      write(std::ostream &out) const
-      {
-        const auto array = [&out](const std::string &type,
-                                  const std::string &attributes,
-                                  const std::string &values) {
-          out << "<DataArray type=\"" << type << "\" " << attributes
-              << " format=\"ascii\">\n"
-              << values << "\n</DataArray>\n";
-        };
-        out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" "
-               "version=\"0.1\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
-            << n_points << "\" NumberOfCells=\"" << n_cells
-            << "\">\n<Points>\n";
-        array("Float64", "NumberOfComponents=\"3\"", points);
-        out << "</Points>\n<Cells>\n";
-        array("Int32", "Name=\"connectivity\"", connectivity);
-        array("Int32", "Name=\"offsets\"", offsets);
-        array("UInt8", "Name=\"types\"", types);
-        out << "</Cells>\n<CellData>\n";
-        for (const auto &[name, values] : data)
-          array("Float64", "Name=\"" + name + "\"", values);
-        out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-      }
-    };
-
     /** Entries of those laws, by their indices; none if all joints have the
      * default. */
     std::vector<unsigned int>
@@ -271,7 +225,7 @@ namespace Keyblock
           << exact_text(joint->tensile_strength) << ','
           << exact_text(joint->residual_cohesion) << ',' << field(water(joint))
           << law_fields(*joint, laws) << '\n';
-    check_written(out, file_name);
+    check_written(bool(out.flush()), file_name);
   }
 
 
@@ -290,31 +244,55 @@ namespace Keyblock
           upper[d] = std::max(upper[d], vertex[d]);
         }
     const DomainOutline<dim> box(lower, upper);
-    Cells cells;
-    std::map<std::string, int> sets;
+    const JointSetNumbers sets = number_joint_sets(scene);
+    VtuGrid planes;
+    planes.texts   = {{"joint names", names_of(scene.joints)},
+                      {"joint set names", sets.names}};
+    VtuArray index = VtuArray::ids("joint"), set = VtuArray::ids("joint set"),
+             dip       = VtuArray::scalar("dip (deg)"),
+             direction = VtuArray::scalar("dip direction (deg)"),
+             friction  = VtuArray::scalar("friction angle (deg)");
     for (unsigned int j = 0; j < scene.joints.size(); ++j)
       {
         const Joint<dim> &joint = *scene.joints[j];
-        const auto corners      = corners_of(joint, box);
-        if (!joint.set.empty())
-          sets.emplace(joint.set, sets.size());
+        std::vector<unsigned int> corners;
+        for (const Point<dim> &corner : corners_of(joint, box))
+          corners.push_back(planes.add_point(corner, dim));
         if (corners.empty())
           continue;
-        cells.add(corners);
-        const auto put = [&cells](const std::string &name, const double value) {
-          cells.data[name] += exact_text(value) + " ";
-        };
-        put("joint", j);
-        put("set", joint.set.empty() ? -1 : sets[joint.set]);
-        put("dip", dip_of(joint));
-        put("dip_direction", dip_direction_of(joint));
-        put("friction_angle", joint.friction_angle);
+        planes.add_cell(dim == 2 ? VtuCell::line : VtuCell::polygon, corners);
+        index.add_id(j);
+        set.add_id(sets.of_joint[j]);
+        dip.add(dip_of(joint));
+        direction.add(dip_direction_of(joint));
+        friction.add(joint.friction_angle);
       }
-    std::ofstream out(file_name);
-    cells.write(out);
-    check_written(out, file_name);
+    planes.cell_data = {index, set, dip, direction, friction};
+    check_written(write_vtu(planes, file_name), file_name);
   }
 
+
+
+  template <int dim>
+  JointSetNumbers
+  number_joint_sets(const Scene<dim> &scene)
+  {
+    JointSetNumbers sets;
+    std::map<std::string, unsigned int> known = {{"", 0}};
+    sets.names                                = {"none"};
+    for (const auto &joint : scene.joints)
+      {
+        const auto [found, is_new] =
+          known.emplace(joint->set, sets.names.size());
+        if (is_new)
+          sets.names.push_back(joint->set);
+        sets.of_joint.push_back(found->second);
+      }
+    return sets;
+  }
+
+  template JointSetNumbers number_joint_sets(const Scene<2> &);
+  template JointSetNumbers number_joint_sets(const Scene<3> &);
   template void write_joint_table(const std::string &, const Scene<2> &);
   template void write_joint_table(const std::string &, const Scene<3> &);
   template void write_joint_planes(const std::string &,

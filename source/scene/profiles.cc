@@ -163,6 +163,13 @@ namespace Keyblock
           check_profile(*e);
           profiles.push_back(e.get());
         }
+      else
+        require(e->bench_levels.empty(),
+                "The entry 'Excavations/" + e->name +
+                  "/Bench levels' is given, but 'Shape' is " +
+                  name_of(e->shape) +
+                  ", which is not parted into benches; give each bench a shape "
+                  "of its own.");
     if (profiles.empty())
       return;
     if (domain.shape == DomainShape::box && domain.size.empty())

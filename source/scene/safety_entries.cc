@@ -57,7 +57,8 @@ namespace Keyblock
                       wanted,
                       "Factor for which limit equilibrium gives the pressure, "
                       "and the number of bolts of each set, that a block asks "
-                      "for besides the support it has; 0: none [-].",
+                      "for besides the support it has; the search for a factor "
+                      "ends where a block holds at it; 0: none [-].",
                       not_negative);
     prm.add_parameter(
       "Bolt convention",

@@ -8,6 +8,7 @@
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
 #include <keyblock/scene/joints.h>
+#include <keyblock/scene/shape_files.h>
 #include <keyblock/scene/text.h>
 
 #include <algorithm>
@@ -216,6 +217,7 @@ namespace Keyblock
     make_profiles();
     complete_ground();
     check_domain(*this);
+    read_shape_files(communicator, *this);
     joints = make_joints(*this, read_names(names, "Joints"), text);
     note_joints(*prm, joints);
     for (const auto &stage : stages)
@@ -264,7 +266,13 @@ namespace Keyblock
   std::string
   Scene<dim>::used_entries() const
   {
-    return print_entries(false);
+    std::string text = print_entries(false);
+    for (const auto &excavation : excavations)
+      if (!excavation->file_digest.empty())
+        text += "subsection Excavations\n  subsection " + excavation->name +
+                "\n    set Digest of File = " + excavation->file_digest +
+                "\n  end\nend\n";
+    return text;
   }
 
 

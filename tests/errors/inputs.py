@@ -12,6 +12,7 @@ import os
 import pathlib
 import resource
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -277,6 +278,31 @@ def joint_twice():
     valid(validate(INCLINE, ["Joints/Names=base, twin", "Joints/twin/Dip=40",
                              "Joints/twin/Friction angle=10"]),
           "The joint 'base' lies wholly on the joint 'twin'")
+
+
+def shape_file_changed():
+    drawing = (PRM.parent / "tests" / "shapes" / "opening.dxf").read_text()
+    room = pathlib.Path("room.dxf")
+    room.write_text(drawing)
+    arguments = [PRM / "verification" / "roof_block_falls.prm"]
+    for entry in ("Excavations/room/Shape=file", f"Excavations/room/File={room}",
+                  "Excavations/room/Scale=6e-4", "Output/Checkpoint interval=1e-3",
+                  "Stages/dig/Maximum steps=200", "Check/Closed form=none"):
+        arguments += ["--set", entry]
+    assert run(arguments + ["--output", "a"]).returncode == 0
+    again = arguments + ["--output", "b", "--restart", "a/checkpoint.h5"]
+    assert run(again).returncode == 0
+    room.write_text(drawing.replace("5000.0", "4999.0"))
+    refused(run(again), "the entry 'Excavations/room/Digest of File' is")
+
+
+def too_many_triangles():
+    triangle = struct.pack("<12fH", 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+    pathlib.Path("a.stl").write_bytes(b" " * 80 + struct.pack("<I", 20001)
+                                      + 20001 * triangle)
+    refused(validate(PRM / "study" / "powerhouse_3d.prm",
+                     ["Excavations/crown/Shape=file", "Excavations/crown/File=a.stl"]),
+            "it has 20001 triangles, more than 20000")
 
 
 def joints_welded():

@@ -24,6 +24,12 @@ foreach(option ${options})
     message(FATAL_ERROR "${option} is not in keyblock.1")
   endif()
 endforeach()
+foreach(file bash-completion/completions/keyblock keyblock/summary.schema.json
+    keyblock/study.schema.json)
+  if(NOT EXISTS ${FOLDER}/usr/share/${file})
+    message(FATAL_ERROR "share/${file} is missing")
+  endif()
+endforeach()
 run(${CMAKE_COMMAND} -S ${PROJECT} -B ${FOLDER}/user
   -DCMAKE_PREFIX_PATH=${FOLDER}/usr -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${FOLDER}/user)

@@ -269,3 +269,12 @@ foreach(i 1 2 3 4 5 6 7 8)
     "Stages/stage_${i}/Maximum steps=1")
 endforeach()
 keyblock_scene(study/powerhouse_3d RANKS 1 SET ${without_motion})
+# the same crown from files: as millimetres of a CAD program, and as triangles
+foreach(suffix step stl)
+  keyblock_scene(study/powerhouse_3d REFERENCES powerhouse_3d_${suffix} RANKS 2
+    SET ${without_motion} "Excavations/crown/Shape=file"
+    "Excavations/crown/File=${CMAKE_CURRENT_SOURCE_DIR}/shapes/crown.${suffix}")
+endforeach()
+keyblock_scene(verification/blocks_e3a REFERENCES blocks_e3a_dxf RANKS 1 2
+  SET "Excavations/opening/Shape=file" "Excavations/opening/Scale=0.001"
+  "Excavations/opening/File=${CMAKE_CURRENT_SOURCE_DIR}/shapes/opening.dxf")

@@ -19,6 +19,11 @@ namespace Keyblock
    */
   template <int dim>
   void measure_exactly(Blocks<dim> &blocks, const Mesh<dim> &mesh);
+
+  /** Weight of a mass in the scene, at its origin and time zero; in a scene
+   * without gravity standard gravity [m/s2]. */
+  template <int dim>
+  double weight_per_mass(const Scene<dim> &scene);
 } // namespace Keyblock
 
 #endif

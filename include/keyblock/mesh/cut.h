@@ -4,9 +4,9 @@
 
 #include <deal.II/base/point.h>
 
+#include <keyblock/base/gmsh_session.h>
 #include <keyblock/mesh/mesh.h>
 
-#include <functional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -33,31 +33,20 @@ namespace Keyblock
     std::vector<Element> cells;
     std::vector<Element> faces;
 
+    /** What the file calls the ids of cells and of faces. */
+    GroupNames cell_names, face_names;
+
     /** Faces that become Mesh::marked_faces; the id is that of the surface. */
     std::vector<Element> marked_faces;
   };
 
-  /** Keeps Gmsh initialized, silent and free of anybody's configuration file
-   * for as long as it lives. There may be one at a time. */
-  class GmshSession
-  {
-  public:
-    GmshSession();
-    ~GmshSession();
-    GmshSession(const GmshSession &)            = delete;
-    GmshSession &operator=(const GmshSession &) = delete;
-  };
-
-  /** Run @p action, in which Gmsh (which throws strings) or a reader of files
-   * may fail, and return why it failed; empty if it did not. */
-  std::string reason_of_failure(const std::function<void()> &action);
-
   /**
    * The elements of dimension @p dim (cells) and dim-1 (faces) of the current
    * model of Gmsh, with the number of the first physical group of the entity
-   * they belong to. @p vertex_of_tag gets the vertex of each of Gmsh's node
-   * tags. Of curved elements only the corners are taken. Vertices that no cell
-   * uses are left out, and so are faces without a group or with such a vertex.
+   * they belong to, and the names of these groups. @p vertex_of_tag gets the
+   * vertex of each of Gmsh's node tags. Of curved elements only the corners are
+   * taken. Vertices that no cell uses are left out, and so are faces without a
+   * group or with such a vertex.
    */
   template <int dim>
   MixedMesh

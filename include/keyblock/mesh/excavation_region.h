@@ -13,7 +13,9 @@ namespace Keyblock
   template <int dim>
   double depth_inside(const Excavation<dim> &excavation, const Point<dim> &p);
 
-  /** Least side [m] of the box around an excavation, 1e300 for a formula. */
+  /** Least side [m] of the box around an excavation, or of those around its
+   * solids; 1e300 if it has no
+   * outline. */
   template <int dim>
   double narrowest_side(const Excavation<dim> &excavation);
 } // namespace Keyblock

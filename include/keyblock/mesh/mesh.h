@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <iosfwd>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,6 +24,15 @@ namespace Keyblock
   using dealii::GeometryInfo;
 
   constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+
+  /** Names of physical groups in a mesh file, by number. */
+  using GroupNames = std::map<unsigned int, std::string>;
+
+  /** Whether the words `id N` of a scene mean group number @p id: N is its
+   * number or its name. */
+  bool means_group(const std::string &words,
+                   const unsigned int id,
+                   const GroupNames &names);
 
   /**
    * The mesh as flat lists, before it becomes a deal.II triangulation: what the
@@ -72,6 +83,9 @@ namespace Keyblock
 
     /** Ids of outer faces, where the generator gave any. */
     std::vector<BoundaryFace> boundary_faces;
+
+    /** What a mesh file calls regions, and ids of outer faces. */
+    GroupNames region_names, boundary_id_names;
 
     /** A face between cells that lies on a surface, as the generator knows it.
      * The right-hand normal of the vertices (in 2D: the left of the way from

@@ -13,7 +13,8 @@ namespace Keyblock
   constexpr unsigned int no_index = static_cast<unsigned int>(-1);
 
   /** What vertices of a simplex mesh may be bound to: the plane of a joint, or
-   * a plane (2D: line or circle) of the model's outline or of an excavation. */
+   * a plane (2D: line or circle) of the model's outline or of an excavation, or
+   * that of a triangle on a curved one. */
   template <int dim>
   struct Surface
   {
@@ -21,6 +22,15 @@ namespace Keyblock
     Tensor<1, dim> normal;         ///< unit; not used for a circle
     double radius      = 0.;       ///< of the circle; 0: a plane [m]
     unsigned int joint = no_index; ///< index into Scene::joints, or no_index
+    bool is_curved     = false;    ///< the plane of a chord of it
+
+    /** Sine between planes up to which a vertex on both may slide on one: on a
+     * curved surface it leaves the other by less than the chords do. */
+    double
+    least_sine() const
+    {
+      return is_curved ? 0.5 : 1e-6;
+    }
 
     bool
     is_joint() const

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <keyblock/base/vtu_file.h>
 #include <keyblock/step/bolts.h>
 #include <keyblock/step/shotcrete.h>
 
@@ -36,8 +37,9 @@ namespace Keyblock
    */
   template <int dim>
   void write_bolts(const std::string &folder,
-                   const std::vector<std::pair<double, std::string>> &records,
-                   const std::vector<BoltReport<dim>> &reports);
+                   const std::vector<VtuRecord> &records,
+                   const std::vector<BoltReport<dim>> &reports,
+                   const Scene<dim> &scene);
 
   /** They stand in summary.json so. */
   nlohmann::ordered_json bolts_as_json(const std::vector<BoltFigures> &bolts);

@@ -63,6 +63,11 @@ namespace Keyblock
     /** Write all rows so far (collective). */
     void write_csv(const std::string &file_name) const;
 
+    /** Add the rows since the last call to the file, which the first call begins
+     * anew with all of them (rank 0), for those who watch a run. Whether it could
+     * be written does not matter here: write_csv() says it. */
+    void append_csv(const std::string &file_name);
+
     History history;
 
     /** Displacement of local nodes at the last reset [m]. */
@@ -105,6 +110,7 @@ namespace Keyblock
     const Fields<dim> &fields;
     const Contact<dim> *contact;
 
+    std::size_t n_appended = 0; ///< rows in the file of append_csv()
     std::vector<unsigned int> node_of_monitor; ///< owned local node or none
     std::vector<std::vector<unsigned int>> nodes_of_monitor; ///< of regions
     std::vector<unsigned int> block_of_node;

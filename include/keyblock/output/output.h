@@ -2,15 +2,13 @@
 #ifndef keyblock_output_output_h
 #define keyblock_output_output_h
 
-#include <deal.II/lac/vector.h>
-
+#include <keyblock/base/vtu_file.h>
 #include <keyblock/geostress/geostress.h>
 #include <keyblock/output/bolt_output.h>
 #include <keyblock/output/monitors.h>
 #include <keyblock/safety/safety_factor.h>
 
 #include <cstdint>
-#include <map>
 
 namespace Keyblock
 {
@@ -83,10 +81,16 @@ namespace Keyblock
            const CellArrays<dim> &cells,
            const Fields<dim> &fields,
            const Contact<dim> *contact,
+           const std::vector<SafetyFactor> &factors,
            const std::string &folder);
 
     /** Write the state at @p time (collective). */
     void write_vtu(const double time);
+
+    /** Write the rock of the last time once more, if that is the state at
+     * @p time in the present stage: safety factors have become known
+     * (collective). */
+    void rewrite_rock(const double time) const;
 
     /** Numbers that are not finite are left out of summary.json and listed
      * there; then throws ComputationError (collective). */
@@ -100,27 +104,29 @@ namespace Keyblock
                        const std::vector<unsigned int> &removal_stage,
                        const Geostress *geostress) const;
 
-    /** Time and name of the files in solution.pvd: rock, interface, rock, ...
-     */
-    std::vector<std::pair<double, std::string>> records;
+    /** The files in solution.pvd: rock, interface, rock, ... */
+    std::vector<VtuRecord> records;
+
+    /** Number of the present stage (Scene::stage_number). */
+    unsigned int stage = 1;
 
   private:
-    using NamedValues = std::pair<std::string, dealii::Vector<double>>;
+    /** The rock that is there, on this rank (collective). */
+    VtuGrid make_rock(const double time) const;
 
-    void write_rock(const double time);
-    void write_interface(const double time);
-    void write_collection() const;
+    /** Faces of joints whose minus sides this rank has (collective). */
+    VtuGrid make_interface(const double time) const;
 
-    /** Block, material and mean stress of the active cells of the
-     * triangulation.
-     * @param local_cell index of each deformable cell here, by mesh cell */
-    std::vector<NamedValues>
-    cell_values(const std::map<unsigned int, unsigned int> &local_cell) const;
+    /** Write a grid of rock or interface of number @p number, of several ranks
+     * in pieces; returns the name of the file (collective). */
+    std::string write(const VtuGrid &grid,
+                      const std::string &base,
+                      const unsigned int number) const;
 
-    /** Write a file of rock or interface, of several ranks in pieces, and note
-     * it. */
-    template <typename Data>
-    void write(Data &data, const std::string &base, const double time);
+    /** What the ids of all grids stand for, and the present stage. */
+    VtuGrid make_grid(const double time) const;
+
+    std::string stage_name() const;
 
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
@@ -129,7 +135,8 @@ namespace Keyblock
     const CellArrays<dim> &cells;
     const Fields<dim> &fields;
     const Contact<dim> *contact;
-    std::string folder; ///< ends with "/"
+    const std::vector<SafetyFactor> &factors; ///< found so far
+    std::string folder;                       ///< ends with "/"
   };
 } // namespace Keyblock
 

@@ -24,8 +24,8 @@ namespace Keyblock
         const double wall_start);
 
     Monitors<dim> monitors;
-    Output<dim> output;
     RunRecord<dim> record;
+    Output<dim> output;
     FiniteCheck<dim> finite_check;
     Checkpointing<dim> checkpointing;
     SafetyStudy<dim> safety;

@@ -47,7 +47,8 @@ namespace Keyblock
     Checkpointing<dim> &checkpointing;
     RunRecord<dim> &record;
     std::string folder;                ///< of output, with '/' at its end
-    double loop_start = 0.;            ///< wall time [s]
+    double loop_start   = 0.; ///< wall time [s]
+    double next_history = 0.; ///< wall time of the next append_csv() [s]
     StageAdvance last_printed;         ///< at the last line of progress
     unsigned int stage_printed = none; ///< its stage
   };

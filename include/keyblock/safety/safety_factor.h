@@ -15,7 +15,8 @@ namespace Keyblock
       falls_freely, ///< fails at SafetySettings::lowest
       immovable,    ///< holds at SafetySettings::highest
       clamped,      ///< the same, though it can move (limit equilibrium)
-      undecided     ///< neither holds nor fails wherever it was tried
+      undecided,    ///< neither holds nor fails wherever it was tried
+      met           ///< holds at SafetySettings::wanted; not looked further
     };
     unsigned int block = 0; ///< index
     std::string stage;
@@ -52,7 +53,7 @@ namespace Keyblock
   };
 
   /** The outcome in words; a value, falls freely, immovable, above 100, held by
-   * clamping, or undecided. */
+   * clamping, undecided, or above 1.5, as wanted. */
   std::string describe_outcome(const SafetyFactor &factor);
 
   /**

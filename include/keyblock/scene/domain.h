@@ -6,6 +6,7 @@
 
 #include <keyblock/scene/choices.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ namespace Keyblock
 {
   using dealii::ParameterHandler;
   using dealii::Point;
+
+  class Solid;
 
   /** The body of ground that is modelled, before anything is excavated. */
   template <int dim>
@@ -92,6 +95,11 @@ namespace Keyblock
     std::string backfill_stage;
     std::string backfill_material;
 
+    /** What File contains, if the shape is file and was read
+     * (read_shape_files()), the same on all ranks; 3D. */
+    std::vector<std::shared_ptr<const Solid>> solids;
+    std::string file_digest; ///< of the bytes of File
+
     /** Whether Center, Width and Height say what it is: polygons for all but
      * the reader of entries (Scene::make_profiles). */
     bool
@@ -100,6 +108,20 @@ namespace Keyblock
       return shape == ExcavationShape::rectangle ||
              shape == ExcavationShape::horseshoe ||
              shape == ExcavationShape::cavern;
+    }
+
+    /** Whether it is a physical group of the mesh file, that of its name. */
+    bool
+    is_group() const
+    {
+      return shape == ExcavationShape::file && file.empty();
+    }
+
+    /** Whether depths inside are known, rather than only what is inside. */
+    bool
+    has_outline() const
+    {
+      return shape != ExcavationShape::formula && !is_group();
     }
 
     void declare(ParameterHandler &prm);

@@ -113,7 +113,8 @@ namespace Keyblock
      * tables and sets, is written out, so that the file needs neither. */
     void write_used(const std::string &file_name) const;
 
-    /** The same as text, without descriptions. */
+    /** The same as text, without descriptions, and with digests of the files of
+     * excavations. */
     std::string used_entries() const;
 
   private:

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Gmsh in this process, and the cells of its model.
+// The cells of Gmsh's model.
 #include <gmsh.h>
-#include <keyblock/base/errors.h>
 #include <keyblock/mesh/cut.h>
 
-#include <cctype>
 #include <cstddef>
 #include <cstdlib>
-#include <exception>
+#include <stdexcept>
 #include <unordered_map>
 
 namespace Keyblock
@@ -20,6 +18,23 @@ namespace Keyblock
       std::vector<std::vector<std::size_t>> corners;
       std::vector<unsigned int> ids;
     };
+
+    /** Of physical groups that have one. */
+    GroupNames
+    get_names(const int dimension)
+    {
+      GroupNames names;
+      gmsh::vectorpair groups;
+      gmsh::model::getPhysicalGroups(groups, dimension);
+      for (const auto &[d, group] : groups)
+        {
+          std::string name;
+          gmsh::model::getPhysicalName(d, group, name);
+          if (!name.empty())
+            names[std::abs(group)] = name;
+        }
+      return names;
+    }
 
     TaggedElements
     get_elements(const int dimension)
@@ -60,64 +75,6 @@ namespace Keyblock
 
 
 
-  GmshSession::GmshSession()
-  {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0.);
-    gmsh::option::setNumber("General.NumThreads", 1.);
-    gmsh::option::setNumber("Mesh.MaxNumThreads1D", 1.);
-    gmsh::option::setNumber("Mesh.MaxNumThreads2D", 1.);
-    gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1.);
-  }
-
-
-
-  GmshSession::~GmshSession()
-  {
-    gmsh::finalize();
-  }
-
-
-
-  std::string
-  reason_of_failure(const std::function<void()> &action)
-  {
-    std::string reason;
-    try
-      {
-        action();
-        return "";
-      }
-    catch (const InputError &error)
-      {
-        reason = error.message;
-      }
-    catch (const std::bad_alloc &)
-      {
-        reason = "there is not enough memory for it";
-      }
-    catch (const std::exception &exception)
-      {
-        reason = exception.what();
-      }
-    catch (const std::string &message)
-      {
-        reason = message;
-      }
-    catch (...)
-      {
-        // OpenCASCADE's exceptions are of no standard type
-        reason = "";
-      }
-    // one sentence, whatever a file makes others quote
-    for (char &letter : reason)
-      if (std::iscntrl(static_cast<unsigned char>(letter)))
-        letter = ' ';
-    return reason.empty() ? "unknown reason" : reason;
-  }
-
-
-
   template <int dim>
   MixedMesh
   read_gmsh_model()
@@ -141,6 +98,8 @@ namespace Keyblock
       node_of_tag[tags[i]] = i;
 
     MixedMesh mixed;
+    mixed.cell_names           = get_names(dim);
+    mixed.face_names           = get_names(dim - 1);
     const TaggedElements cells = get_elements(dim);
     for (std::size_t c = 0; c < cells.ids.size(); ++c)
       {

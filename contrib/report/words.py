@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Numbers, modes of failure and demands for support as people say them."""
+import math
+import re
+
+
+def number(value, digits=4):
+    """A number as people read it, or a dash."""
+    if value is None:
+        return "–"
+    if math.isinf(value):
+        return "∞"
+    if value and not 1e-4 <= abs(value) < 1e6:
+        return f"{value:.3g}"
+    text = f"{value:.{digits}g}"
+    return f"{float(text):g}" if "e" in text else text
+
+
+def mode_in_words(mode):
+    """How a block fails, as people say it: falling, sliding on J1 and J2."""
+    if not mode:
+        return None
+    verb, on, names = mode.partition(" on ")
+    if not on:
+        return mode
+    joints = names.split("/")
+    if "a free face" in joints:  # it has left a joint and leans on an edge
+        joints = [name for name in joints if name != "a free face"]
+        joints.append("an edge of a free face")
+    return f"{verb} on " + (" and ".join([", ".join(joints[:-1]), joints[-1]])
+                            if len(joints) > 1 else joints[0])
+
+
+DEMAND = re.compile(r"a factor of ([\d.e+-]+) (?:is in reach of no pressure|asks "
+                    r"for ([\d.e+-]+) kN(?:/m)? against its free faces, "
+                    r"([\d.e+-]+) kPa((?:, or [^;,]+ bolts[^;,]*)*))")
+
+
+def demand_of(limit):
+    """Support that a wanted factor asks for: factor, kN, kPa, bolts; or None.
+
+    By what limit equilibrium remarks; without kN where none is enough."""
+    found = DEMAND.search((limit or {}).get("remark") or "")
+    if not found:
+        return None
+    factor, force, pressure, bolts = found.groups()
+    return {"factor": float(factor), "force": force and float(force),
+            "pressure": pressure and float(pressure),
+            "bolts": [b.strip() for b in (bolts or "").split(", or ") if b]}
+
+
+def demand_in_words(demand, is_plane):
+    """Support that is asked for, as people say it."""
+    if not demand:
+        return None
+    if demand["force"] is None:
+        return f"no pressure is enough for {number(demand['factor'])}"
+    return " or ".join([
+        f"{number(demand['force'])} kN{'/m' if is_plane else ''}, "
+        f"{number(demand['pressure'])} kPa", *demand["bolts"]]) + (
+            f" for {number(demand['factor'])}")

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Excavations from files: solids in 3D, an outline in 2D.
+#include <keyblock/base/digest.h>
+#include <keyblock/base/gmsh_session.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/scene/check.h>
+#include <keyblock/scene/domain_outline.h>
+#include <keyblock/scene/dxf.h>
+#include <keyblock/scene/polygon.h>
+#include <keyblock/scene/shape_files.h>
+#include <keyblock/scene/solid_file.h>
+
+#include <boost/algorithm/string.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Longest side of a shape over that of the domain, below which its unit
+     * is doubted [-]. */
+    constexpr double least_part = 1e-3;
+
+    /** Cells follow each triangle: more of them take long, and no excavation
+     * asks for them. */
+    constexpr unsigned int most_triangles = 20000;
+
+    template <int dim>
+    class ShapeFileReader
+    {
+    public:
+      ShapeFileReader(const Communicator &communicator,
+                      const Scene<dim> &scene,
+                      Excavation<dim> &excavation)
+        : communicator(communicator)
+        , scene(scene)
+        , excavation(excavation)
+        , section("Excavations/" + excavation.name)
+        , subject("The file '" + excavation.file + "' of the entry '" +
+                  section + "/File'")
+        , suffix(boost::to_lower_copy(
+            std::filesystem::path(excavation.file).extension().string()))
+      {}
+
+      void
+      read()
+      {
+        check_suffix();
+        communicator.on_root([&]() { find_and_read(); });
+        excavation.file = communicator.text_of_root(excavation.file);
+        excavation.file_digest =
+          communicator.text_of_root(excavation.file_digest);
+        communicator.broadcast(outline);
+        std::vector<unsigned int> n_surfaces = {
+          static_cast<unsigned int>(surfaces.size())};
+        communicator.broadcast(n_surfaces);
+        surfaces.resize(n_surfaces[0]);
+        for (TriangleSurface &surface : surfaces)
+          {
+            communicator.broadcast(surface.vertices);
+            communicator.broadcast(surface.triangles);
+          }
+        if (dim == 2)
+          {
+            excavation.shape    = ExcavationShape::polygon;
+            excavation.vertices = outline;
+          }
+        for (TriangleSurface &surface : surfaces)
+          excavation.solids.push_back(
+            std::make_shared<Solid>(std::move(surface)));
+        if (scene.domain.shape != DomainShape::file)
+          check_place();
+      }
+
+    private:
+      void
+      check_suffix() const
+      {
+        require(!excavation.file.empty(),
+                "The entry '" + section +
+                  "/File' is empty, but 'Shape' is file; name the file of the "
+                  "shape (only in a mesh from 'Domain/File' does it stand for "
+                  "the physical group of the excavation's name).");
+        const bool is_drawing = suffix == ".dxf";
+        const bool is_step    = suffix == ".step" || suffix == ".stp",
+                   is_brep = suffix == ".brep", is_triangles = suffix == ".stl";
+        require(is_drawing || is_step || is_brep || is_triangles,
+                subject + " has the extension '" + suffix +
+                  "'; convert it to " +
+                  (dim == 2 ? ".dxf." : "one of .step, .stp, .brep, .stl."));
+        require(is_drawing == (dim == 2),
+                subject +
+                  (is_drawing
+                     ? " is a drawing, but 'Dimension' is 3; give a "
+                       "solid (.step, .stp, .brep, .stl), or an extruded "
+                       "polygon."
+                     : " is a solid, but 'Dimension' is 2; give a closed "
+                       "outline (.dxf)."));
+        require(!is_step || excavation.scale == 1.,
+                "The entry '" + section + "/Scale' is " +
+                  text_of(excavation.scale) + ", but '" + excavation.file +
+                  "' is a STEP file, which names its unit; leave 'Scale' out.");
+      }
+
+      /** On rank 0. */
+      void
+      find_and_read()
+      {
+        namespace fs = std::filesystem;
+        std::ifstream in;
+        for (const fs::path &path :
+             {fs::path(scene.file).parent_path() / excavation.file,
+              fs::path(excavation.file)})
+          if (!in.is_open() && fs::is_regular_file(path))
+            {
+              in.open(path, std::ios::binary);
+              if (in.is_open())
+                excavation.file = path.string();
+            }
+        require(in.is_open(),
+                subject + " does not exist or cannot be read; give a path "
+                          "relative to the scene file.");
+        const std::string text{std::istreambuf_iterator<char>(in),
+                               std::istreambuf_iterator<char>()};
+        excavation.file_digest = digest_of(text);
+        const std::string reason =
+          reason_of_failure([&]() { read_content(text); });
+        require(reason.empty(),
+                subject + " cannot be used (" + reason +
+                  "); correct it in the program that made it.");
+        if (dim == 2)
+          check_outline();
+        else
+          for (TriangleSurface &surface : surfaces)
+            {
+              const std::string fault = surface.orient();
+              require(fault.empty(),
+                      subject + " has a surface that " + fault +
+                        "; close it in the program that made it.");
+            }
+      }
+
+      void
+      read_content(const std::string &text)
+      {
+        Point<3> origin;
+        for (unsigned int d = 0; d < dim; ++d)
+          origin[d] = scene.domain.origin[d];
+        if (dim == 2)
+          {
+            outline = read_dxf_outline(text, excavation.segments);
+            for (Point<2> &p : outline)
+              p = Point<2>(excavation.scale * p[0] - origin[0],
+                           excavation.scale * p[1] - origin[1]);
+          }
+        else if (is_stl(suffix))
+          {
+            TriangleSurface surface = read_stl(text);
+            if (surface.triangles.size() > most_triangles)
+              throw std::runtime_error(
+                "it has " + std::to_string(surface.triangles.size()) +
+                " triangles, more than " + std::to_string(most_triangles) +
+                ", each of which cells would follow: make them larger");
+            for (Point<3> &p : surface.vertices)
+              p = Point<3>(excavation.scale * p - origin);
+            surfaces = surface.components();
+          }
+        else
+          surfaces =
+            triangulate_solids(excavation.file, excavation.scale, origin);
+      }
+
+      void
+      check_outline() const
+      {
+        const std::string fault =
+          outline.size() < 3 ? "has no area" : fault_of_polygon(outline);
+        require(fault.empty(),
+                subject + " has an outline that " + fault +
+                  "; draw it as one closed line that does not cross itself.");
+      }
+
+      /** The shape reaches into the domain and is of its order of size. */
+      void
+      check_place() const
+      {
+        const DomainOutline<dim> domain(scene.domain);
+        Point<dim> low, high;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            low[d]  = std::numeric_limits<double>::max();
+            high[d] = -low[d];
+            for (const Point<2> &p : outline)
+              {
+                low[d]  = std::min(low[d], p[d % 2]);
+                high[d] = std::max(high[d], p[d % 2]);
+              }
+            for (const auto &solid : excavation.solids)
+              {
+                low[d]  = std::min(low[d], solid->low[d]);
+                high[d] = std::max(high[d], solid->high[d]);
+              }
+          }
+        bool is_outside = false, is_larger = true;
+        double longest = 0., longest_of_domain = 0.;
+        std::string sides;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double side      = high[d] - low[d],
+                         of_domain = domain.upper[d] - domain.lower[d];
+            is_outside             = is_outside || low[d] >= domain.upper[d] ||
+                         high[d] <= domain.lower[d];
+            is_larger         = is_larger && side >= of_domain;
+            longest           = std::max(longest, side);
+            longest_of_domain = std::max(longest_of_domain, of_domain);
+            sides += (d > 0 ? ", " : "") + std::string(1, "xyz"[d]) + " from " +
+                     text_of(low[d]) + " to " + text_of(high[d]);
+          }
+        const bool has_unit = suffix == ".step" || suffix == ".stp";
+        const std::string remedy =
+          "; check its unit " +
+          (has_unit ? std::string("in the file")
+                    : "('" + section + "/Scale')") +
+          " and its coordinates ('Domain/Origin') against 'Domain'.";
+        require(!is_larger,
+                subject + " has a shape of " + sides +
+                  " m, larger than the domain" + remedy);
+        require(longest >= least_part * longest_of_domain,
+                subject + " has a shape of " + sides +
+                  " m, less than a thousandth of the domain" + remedy);
+        require(!is_outside,
+                subject + " has a shape of " + sides +
+                  " m, which is outside of the domain" + remedy);
+      }
+
+      const Communicator &communicator;
+      const Scene<dim> &scene;
+      Excavation<dim> &excavation;
+      const std::string section, subject, suffix;
+      std::vector<Point<2>> outline;
+      std::vector<TriangleSurface> surfaces;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  read_shape_files(const Communicator &communicator, Scene<dim> &scene)
+  {
+    for (const auto &excavation : scene.excavations)
+      if (excavation->shape == ExcavationShape::file &&
+          !(excavation->is_group() && scene.domain.shape == DomainShape::file))
+        ShapeFileReader<dim>(communicator, scene, *excavation).read();
+  }
+
+  template void read_shape_files(const Communicator &, Scene<2> &);
+  template void read_shape_files(const Communicator &, Scene<3> &);
+} // namespace Keyblock

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Solids from files: triangles of .stl, and shapes that OpenCASCADE reads by
+// way of Gmsh.
+#include <gmsh.h>
+#include <keyblock/base/child_process.h>
+#include <keyblock/base/gmsh_session.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/scene/solid_file.h>
+
+#include <boost/algorithm/string/predicate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    namespace occ = gmsh::model::occ;
+
+    /** Distance of vertices of an .stl file that are one, over the size of the
+     * surface [-]: its numbers have seven digits. */
+    constexpr double closeness = 1e-7;
+
+    /** Chords of a full circle where a curved surface becomes triangles. */
+    constexpr double chords_of_circle = 96.;
+
+    // binary STL: a head, the number of triangles, and of each the normal, the
+    // corners and two bytes
+    constexpr std::size_t head_of_stl = 80, bytes_of_triangle = 50;
+
+    void
+    add_triangle(TriangleSurface &surface,
+                 const std::array<Point<3>, 3> &corners)
+    {
+      const unsigned int n = surface.vertices.size();
+      surface.vertices.insert(surface.vertices.end(),
+                              corners.begin(),
+                              corners.end());
+      surface.triangles.push_back({{n, n + 1, n + 2}});
+    }
+
+    bool
+    is_binary_stl(const std::string &text)
+    {
+      std::uint32_t n = 0;
+      if (text.size() < head_of_stl + sizeof n)
+        return false;
+      std::memcpy(&n, &text[head_of_stl], sizeof n);
+      return text.size() == head_of_stl + sizeof n + n * bytes_of_triangle;
+    }
+
+    TriangleSurface
+    read_binary_stl(const std::string &text)
+    {
+      TriangleSurface surface;
+      for (std::size_t at = head_of_stl + sizeof(std::uint32_t);
+           at < text.size();
+           at += bytes_of_triangle)
+        {
+          float numbers[12];
+          std::memcpy(numbers, &text[at], sizeof numbers);
+          std::array<Point<3>, 3> corners;
+          for (unsigned int i = 0; i < 9; ++i)
+            corners[i / 3][i % 3] = numbers[3 + i];
+          add_triangle(surface, corners);
+        }
+      return surface;
+    }
+
+    TriangleSurface
+    read_ascii_stl(const std::string &text)
+    {
+      TriangleSurface surface;
+      std::array<Point<3>, 3> corners;
+      unsigned int n = 0;
+      std::istringstream in(text);
+      for (std::string word; in >> word;)
+        if (word == "vertex")
+          {
+            for (unsigned int d = 0; d < 3; ++d)
+              if (!(in >> word) || !read_number(word, false, corners[n][d]))
+                throw std::runtime_error("'" + word.substr(0, 30) +
+                                         "' stands where a coordinate is "
+                                         "expected");
+            if (++n == 3)
+              {
+                add_triangle(surface, corners);
+                n = 0;
+              }
+          }
+        else if (word == "endfacet" && n != 0)
+          throw std::runtime_error("a facet has not three corners");
+      return surface;
+    }
+  } // namespace
+
+
+
+  bool
+  is_stl(const std::string &path)
+  {
+    return boost::iends_with(path, ".stl");
+  }
+
+
+
+  TriangleSurface
+  read_stl(const std::string &text)
+  {
+    const bool is_binary = is_binary_stl(text);
+    if (!is_binary && !boost::starts_with(text, "solid"))
+      throw std::runtime_error(
+        "it is neither ASCII STL, which begins with 'solid', nor binary STL of "
+        "the length that its number of triangles asks for");
+    TriangleSurface surface =
+      is_binary ? read_binary_stl(text) : read_ascii_stl(text);
+    if (surface.triangles.empty())
+      throw std::runtime_error("it has no triangles");
+    Point<3> low = surface.vertices[0], high = low;
+    for (const Point<3> &p : surface.vertices)
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          if (!std::isfinite(p[d]))
+            throw std::runtime_error("it has a corner that is no finite "
+                                     "number");
+          low[d]  = std::min(low[d], p[d]);
+          high[d] = std::max(high[d], p[d]);
+        }
+    surface.weld(closeness * low.distance(high));
+    return surface;
+  }
+
+
+
+  std::vector<int>
+  import_solids(const std::string &path,
+                const double scale,
+                const Point<3> &origin)
+  {
+    gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+    gmsh::vectorpair shapes;
+    occ::importShapes(path, shapes);
+    std::vector<int> solids;
+    gmsh::vectorpair others;
+    for (const auto &shape : shapes)
+      if (shape.first == 3)
+        solids.push_back(shape.second);
+      else
+        others.push_back(shape);
+    if (solids.empty())
+      throw std::runtime_error(
+        shapes.empty() ? "it has no solid"
+                       : "it has surfaces, but no solid that they close");
+    occ::remove(others, true);
+    gmsh::vectorpair bodies;
+    for (const int solid : solids)
+      bodies.emplace_back(3, solid);
+    if (scale != 1.)
+      occ::dilate(bodies, 0., 0., 0., scale, scale, scale);
+    if (origin.norm() > 0.)
+      occ::translate(bodies, -origin[0], -origin[1], -origin[2]);
+    return solids;
+  }
+
+
+
+  namespace
+  {
+    /** The triangles on the boundary of a meshed volume. */
+    TriangleSurface
+    read_surface(const int volume)
+    {
+      gmsh::vectorpair faces;
+      gmsh::model::getBoundary({{3, volume}}, faces, false, false, false);
+      TriangleSurface surface;
+      std::unordered_map<std::size_t, unsigned int> number;
+      const std::set<std::pair<int, int>> once(faces.begin(), faces.end());
+      for (const auto &[dimension, face] : once)
+        {
+          std::vector<std::size_t> tags, elements, nodes;
+          std::vector<double> coordinates, parameters;
+          gmsh::model::mesh::getNodes(
+            tags, coordinates, parameters, 2, face, true);
+          for (std::size_t i = 0; i < tags.size(); ++i)
+            if (number.try_emplace(tags[i], surface.vertices.size()).second)
+              surface.vertices.emplace_back(coordinates[3 * i],
+                                            coordinates[3 * i + 1],
+                                            coordinates[3 * i + 2]);
+          gmsh::model::mesh::getElementsByType(2, elements, nodes, face);
+          for (std::size_t i = 0; i + 2 < nodes.size(); i += 3)
+            surface.triangles.push_back({{number.at(nodes[i]),
+                                          number.at(nodes[i + 1]),
+                                          number.at(nodes[i + 2])}});
+        }
+      return surface;
+    }
+
+    std::vector<TriangleSurface>
+    triangulate_here(const std::string &path,
+                     const double scale,
+                     const Point<3> &origin)
+    {
+      const GmshSession session;
+      const std::vector<int> solids = import_solids(path, scale, origin);
+      occ::synchronize();
+      for (const std::string source : {"ExtendFromBoundary", "FromPoints"})
+        gmsh::option::setNumber("Mesh.MeshSize" + source, 0.);
+      gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", chords_of_circle);
+      gmsh::model::mesh::generate(2);
+      std::vector<TriangleSurface> surfaces;
+      for (const int solid : solids)
+        surfaces.push_back(read_surface(solid));
+      return surfaces;
+    }
+  } // namespace
+
+
+
+  std::vector<TriangleSurface>
+  triangulate_solids(const std::string &path,
+                     const double scale,
+                     const Point<3> &origin)
+  {
+    std::vector<TriangleSurface> surfaces;
+    in_child_process(
+      [&]() { surfaces = triangulate_here(path, scale, origin); },
+      [&](const PipeEnd &pipe) {
+        pipe.write_number(surfaces.size());
+        for (const TriangleSurface &surface : surfaces)
+          {
+            pipe.write_list(surface.vertices);
+            pipe.write_list(surface.triangles);
+          }
+      },
+      [&](const PipeEnd &pipe) {
+        surfaces.resize(pipe.read_number());
+        for (TriangleSurface &surface : surfaces)
+          {
+            surface.vertices  = pipe.read_list<Point<3>>();
+            surface.triangles = pipe.read_list<TriangleSurface::Triangle>();
+          }
+      });
+    return surfaces;
+  }
+} // namespace Keyblock

@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures and STL files of runs, by contrib/figures.py, render.py, blocks_stl.py.
+
+usage: pictures.py KEYBLOCK CONTRIB PRM FOLDER CASE
+
+network: maps of a plane scene with hundreds of joints have a legend by set and
+numbers of exposed blocks only; SVG and PDF are what they say.
+solid: in 3D there is a picture of each part, cut, inside, and of joint states.
+stl: surfaces of blocks are closed, outward, and hold the volume of summary.json.
+missing: without a display, VTK, Matplotlib or numpy there is one sentence and exit
+code 1.
+"""
+import collections
+import json
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+
+KEYBLOCK, CONTRIB, PRM, FOLDER, CASE = sys.argv[1:6]
+CONTRIB, PRM, FOLDER = map(pathlib.Path, (CONTRIB, PRM, FOLDER))
+STEPS = [f"Stages/stage_{k}/Maximum steps=1" for k in range(1, 9)]
+SCENES = {
+    "network": ("tutorial/first_tunnel", [
+        "Safety factor/Blocks=none", "Mesh/Size=4", "Joint sets/east/Spacing=1.2",
+        "Joint sets/west/Spacing=1.2", "Joint sets/east/Radius law=constant",
+        "Joint sets/west/Radius law=constant", "Joint sets/east/Radius mean=4",
+        "Joint sets/west/Radius mean=4", "Stages/heading/Maximum steps=100",
+        "Stages/bench/Maximum steps=100", "Output/Write VTU=true"]),
+    "": ("study/powerhouse_3d", [
+        "Safety factor/Blocks=none", "Output/Write VTU=true",
+        "Mesh/Size at excavation=14", "Mesh/Size=60", *STEPS])}
+DISPLAY = ["xvfb-run", "-a"] if shutil.which("xvfb-run") else []
+PYTHON = "/usr/bin/python3"
+
+
+def has(module):
+    """Whether the Python of the scripts has a module."""
+    return subprocess.run([PYTHON, "-c", f"import {module}"],
+                          capture_output=True).returncode == 0
+
+
+def run_scene():
+    """Run the scene of the case; its folder and summary."""
+    scene, settings = SCENES.get(CASE, SCENES[""])
+    folder = FOLDER / "output"
+    subprocess.run([KEYBLOCK, PRM / f"{scene}.prm", "--output", folder]
+                   + [word for s in settings for word in ("--set", s)],
+                   check=True, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    return folder, json.loads((folder / "summary.json").read_text())
+
+
+def call(*command):
+    """Run a script that has to succeed; what it says."""
+    done = subprocess.run([str(word) for word in command], capture_output=True,
+                          text=True)
+    assert done.returncode == 0, (command, done.stdout, done.stderr)
+    return done.stdout
+
+
+def finite_blocks(summary):
+    """Blocks that could move, by number."""
+    return {b["id"]: b for b in summary["blocks"]
+            if not {"infinite", "rigid"} & set(b["class"])}
+
+
+def check_network():
+    """Legends and labels of maps with many joints and blocks."""
+    folder, summary = run_scene()
+    blocks = finite_blocks(summary)
+    exposed = {n for n, b in blocks.items() if "exposed_stage" in b}
+    n_joints = len((folder / "joints.csv").read_text().splitlines()) - 1
+    assert n_joints > 150 and len(blocks) > 40, (n_joints, len(blocks))
+    assert 1 < len(exposed) < len(blocks) / 2, exposed
+    call(CONTRIB / "figures.py", folder, "--to", FOLDER / "svg", "--format",
+         "svg")
+    for name in ("blocks", "deformed", "stress", "joint_states"):
+        text = (FOLDER / "svg" / f"{name}.svg").read_text()
+        shown = [t.strip() for t in re.findall(r"<text[^>]*>([^<]*)</text>",
+                                               text)]
+        labels = {int(n) for n in re.findall(r'id="label_(\d+)"', text)}
+        assert len(labels) > 1 and labels <= exposed, (name, labels - exposed)
+        assert len(shown) < 100, (name, len(shown))
+        assert not any(re.match(r"(east|west)\.", t) for t in shown), name
+        if name == "blocks":
+            assert {"east", "west"} <= set(shown), shown
+        if name == "joint_states":
+            assert any(t.startswith("sticking") for t in shown), shown
+    call(CONTRIB / "figures.py", folder, "--to", FOLDER / "pdf", "--format",
+         "pdf")
+    assert (FOLDER / "pdf/blocks.pdf").read_bytes()[:5] == b"%PDF-"
+    sizes = {}
+    for dpi in (50, 100):
+        path = FOLDER / f"{dpi}.png"
+        call(CONTRIB / "figures.py", folder, "--to", FOLDER / str(dpi),
+             "--dpi", dpi)
+        path = FOLDER / str(dpi) / "blocks.png"
+        sizes[dpi] = struct.unpack(">II", path.read_bytes()[16:24])
+    assert all(abs(2 * a - b) <= 2 for a, b in zip(sizes[50], sizes[100])), sizes
+
+
+def colours_of(path):
+    """How many pixels a PNG file has of each colour, by Pillow."""
+    text = subprocess.run(
+        [PYTHON, "-c", "import sys, PIL.Image as i; p = i.open(sys.argv[1])."
+         "convert('RGB'); print(p.size[0], p.size[1]); "
+         "[print(n, *c) for n, c in p.getcolors(10**7)]", path],
+        capture_output=True, text=True, check=True).stdout
+    size, *rows = [tuple(map(int, line.split())) for line in text.splitlines()]
+    return size, {row[1:]: row[0] for row in rows}
+
+
+def check_solid():
+    """Pictures of parts of a scene in 3D."""
+    folder, _ = run_scene()
+    seen = {}
+    for name, options in {
+            "rock": (), "cut": ("--cut", "x,y"), "blocks": ("--parts", "blocks"),
+            "tunnel": ("--parts", "tunnel"), "inside": (
+                "--inside", "--parts", "tunnel,blocks"),
+            "joints": ("--parts", "blocks,joints", "--field", "block"),
+            "major": ("--field", "stress_major", "--cut", "y"),
+            "states": ("--field", "joint_state", "--parts", "blocks")}.items():
+        path = FOLDER / f"{name}.png"
+        call(*DISPLAY, CONTRIB / "render.py", folder / "solution.pvd", path,
+             "--size", "300,240", *options)
+        size, seen[name] = colours_of(path)
+        assert len(seen[name]) > 5, name
+        drawn = sum(seen[name].values()) - seen[name].get((255, 255, 255), 0)
+        assert drawn > 0.05 * size[0] * size[1], (name, drawn)
+    assert seen["cut"] != seen["rock"] and seen["inside"] != seen["tunnel"]
+    assert any(abs(r - 33) < 9 and abs(g - 135) < 9 and abs(b - 230) < 9
+               for r, g, b in seen["states"]), "no joint that sticks"
+    for ending, begin in ((".pdf", b"%PDF-1"), (".svg", b"<svg ")):
+        path = FOLDER / f"blocks{ending}"
+        call(*DISPLAY, CONTRIB / "render.py", folder / "solution.pvd", path,
+             "--parts", "blocks", "--dpi", 150)
+        assert path.read_bytes().startswith(begin)
+    assert 'viewBox="0 0 1500 ' in path.read_text()[:200]
+
+
+def volume_of(path):
+    """Volume within a binary STL file, whose edges are all met twice."""
+    data, edges, volume = path.read_bytes(), collections.Counter(), 0.
+    n, = struct.unpack("<I", data[80:84])
+    assert len(data) == 84 + 50 * n, path
+    origin = None
+    for k in range(n):
+        row = struct.unpack("<12fH", data[84 + 50 * k:134 + 50 * k])
+        points = [row[3:6], row[6:9], row[9:12]]
+        origin = origin or points[0]
+        for a, b in zip(points, points[1:] + points[:1]):
+            edges[a, b] += 1
+        (a, b, c), (d, e, f), (g, h, i) = (
+            [x - y for x, y in zip(p, origin)] for p in points)
+        volume += (a * (e * i - f * h) - b * (d * i - f * g)
+                   + c * (d * h - e * g)) / 6.
+    for (a, b), count in edges.items():
+        assert count == 1 and edges.get((b, a)) == 1, (path, a, b)
+    return volume
+
+
+def check_stl():
+    """Surfaces of blocks against their volumes."""
+    folder, summary = run_scene()
+    blocks = finite_blocks(summary)
+    call(CONTRIB / "blocks_stl.py", folder, FOLDER / "stl")
+    files = sorted((FOLDER / "stl").glob("*.stl"))
+    assert {f.name for f in files} == {f"block_{n}.stl" for n in blocks}
+    for n, block in blocks.items():
+        volume = volume_of(FOLDER / "stl" / f"block_{n}.stl")
+        assert abs(volume / block["volume"] - 1.) < 1e-6, (n, volume, block)
+    call(CONTRIB / "blocks_stl.py", folder, FOLDER / "moved", "--state", "-1",
+         "--exposed")
+    assert len(list((FOLDER / "moved").glob("*.stl"))) == sum(
+        "exposed_stage" in b for b in blocks.values()) < len(blocks)
+    assert volume_of(FOLDER / "moved/block_1.stl") > 0.
+
+
+def check_missing():
+    """One sentence and exit code 1 for what is missing."""
+    folder, _ = run_scene()
+    bare = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
+    picture = FOLDER / "picture.png"
+    render = [CONTRIB / "render.py", folder / "solution.pvd", picture]
+    figures = [CONTRIB / "figures.py", folder, "--to", FOLDER / "figures"]
+    report = [CONTRIB / "keyblock-report", folder, "-o", FOLDER / "report.html"]
+    stl = [CONTRIB / "blocks_stl.py", folder, FOLDER / "stl"]
+    for module, commands in (
+            ("", [render, figures]), ("vtkmodules", [render, figures]),
+            ("matplotlib", [figures]), ("numpy", [render, figures, report,
+                                                  stl])):
+        hidden = FOLDER / f"without_{module}"
+        (hidden / (module or "none")).mkdir(parents=True)
+        (hidden / (module or "none") / "__init__.py").write_text(
+            'raise ImportError("hidden")\n')
+        for display in (None, ":9876") if not module else (None,):
+            place = {} if display is None else {"DISPLAY": display}
+            for command in commands:
+                done = subprocess.run(
+                    [str(word) for word in command], capture_output=True,
+                    text=True, env={**bare, **place, "PYTHONPATH": str(hidden)})
+                name = command[0].name
+                assert done.returncode == 1, (command, done)
+                assert done.stderr.count("\n") == 1, done.stderr
+                assert done.stderr.startswith(f"{name}: "), done.stderr
+                assert not module or module.lower()[:3] in done.stderr.lower()
+                print(done.stderr.strip())
+    assert not picture.exists()
+
+
+shutil.rmtree(FOLDER, ignore_errors=True)
+FOLDER.mkdir(parents=True)
+needed = {"network": ["vtkmodules", "matplotlib"], "stl": ["numpy"],
+          "missing": ["vtkmodules", "matplotlib"]}.get(CASE, [
+              "vtkmodules", "matplotlib", "PIL"])
+lacking = [module for module in needed if not has(module)]
+if CASE == "solid" and not DISPLAY and not os.environ.get("DISPLAY"):
+    lacking.append("a display or xvfb-run")
+if lacking:
+    print(f"skipped: {PYTHON} lacks {', '.join(lacking)}")
+    sys.exit(77)
+{"network": check_network, "solid": check_solid, "stl": check_stl,
+ "missing": check_missing}[CASE]()
