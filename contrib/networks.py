@@ -257,7 +257,7 @@ def main():
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--keep", default="")
     options = parser.parse_args(arguments)
-    folder = Path(options.keep or tempfile.mkdtemp())
+    folder = Path(options.keep or tempfile.mkdtemp()).resolve()
     folder.mkdir(parents=True, exist_ok=True)
     program = str(Path(options.keyblock).resolve())
     n_failures = 0

@@ -312,10 +312,13 @@ namespace Keyblock
             << factor.group_lower << ", " << factor.group_upper << "]";
       }
     out << "; limit equilibrium "
-        << (has_initial_stress(scene) ? "without in-situ clamping " : "")
-        << factor.limit_factor << " (" << factor.limit_mode
-        << (factor.limit_remark.empty() ? "" : "; ") << factor.limit_remark
-        << ")";
+        << (has_initial_stress(scene) ? "without in-situ clamping " : "");
+    if (std::isfinite(factor.limit_factor))
+      out << factor.limit_factor << " ";
+    else
+      out << "above all ";
+    out << "(" << factor.limit_mode << (factor.limit_remark.empty() ? "" : "; ")
+        << factor.limit_remark << ")";
     if (factor.stress_ratio > 0.)
       out << ", stress ratio " << factor.stress_ratio;
     const Block<dim> &block = blocks.blocks[factor.block];
