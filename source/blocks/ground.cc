@@ -75,8 +75,11 @@ namespace Keyblock
     for (const auto &set : scene.bolts)
       if (scene.stage_number(set->stage) == number)
         return true;
+    for (const auto &liner : scene.liners)
+      if (scene.stage_number(liner->stage) == number)
+        return true;
     for (const auto &stage : scene.stages)
-      if ((!stage->water_level.empty() ||
+      if ((!stage->water_level.empty() || !stage->drained_joints.empty() ||
            !stage->seismic_coefficient.empty()) &&
           scene.stage_number(stage->name) == number)
         return true;

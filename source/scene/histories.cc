@@ -98,6 +98,26 @@ namespace Keyblock
           found.push_back(text.str());
         }
     for (const auto &support : supports)
+      if (support->is_free_field())
+        for (const auto &stage : stages)
+          {
+            const std::string who = "The support '" + support->name +
+                                    "' is a free field in the stage '" +
+                                    stage->name + "', ";
+            if (stage_number(stage->name) < stage_number(support->stage))
+              continue;
+            if (stage->damping_ratio > 0.)
+              found.push_back(
+                who + "whose 'Damping ratio' the ground beside the model has "
+                      "not; use 'Rayleigh ratio'.");
+            if (stage->kind != StageKind::dynamic)
+              found.push_back(
+                who +
+                "which is not dynamic: the side does not hold; name the "
+                "stage of the shaking in 'Supports/" +
+                support->name + "/Stage'.");
+          }
+    for (const auto &support : supports)
       if (support->history &&
           support->history_quantity != HistoryQuantity::stress)
         {

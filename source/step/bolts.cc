@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/bolts.h>
 
+#include <keyblock/step/row_bound.h>
+
 #include <algorithm>
 
 namespace Keyblock
@@ -107,13 +109,7 @@ namespace Keyblock
             row[node] += stiffness * weight;
         });
     });
-    StepBound bound;
-    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
-      bound.squared_frequency =
-        std::max(bound.squared_frequency, row[node] * inverse_mass[node]);
-    bound.squared_frequency =
-      numbering.communicator.max(bound.squared_frequency);
-    return bound;
+    return bound_of_rows(row, inverse_mass, numbering);
   }
 
 

@@ -65,6 +65,7 @@ namespace Keyblock
                                      material.density));
       }
     std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     const auto gap = [&](const double elevation) {
       return std::max(least_share * height_beside(side, elevation),
                       fastest * least_step);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/shotcrete.h>
 
+#include <keyblock/step/row_bound.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -165,6 +167,11 @@ namespace Keyblock
   Shotcrete<dim>::add_force(const std::vector<double> &displacement,
                             std::vector<double> &force)
   {
+    // the same on every rank
+    if (std::none_of(sections.begin(), sections.end(), [](const Section &s) {
+          return s.is_present;
+        }))
+      return;
     const std::vector<Tensor<1, dim>> opening = openings(displacement);
     for (unsigned int i = 0; i < sections.size(); ++i)
       {
@@ -217,13 +224,7 @@ namespace Keyblock
       for (const unsigned int v : section.trace.vertex)
         if (section.is_present && numbering.is_owned(v))
           row[numbering.local_node(v)] += 2. * stiffness_of(section);
-    StepBound bound;
-    for (unsigned int node = 0; node < numbering.n_owned(); ++node)
-      bound.squared_frequency =
-        std::max(bound.squared_frequency, row[node] * inverse_mass[node]);
-    bound.squared_frequency =
-      numbering.communicator.max(bound.squared_frequency);
-    return bound;
+    return bound_of_rows(row, inverse_mass, numbering);
   }
 
 

@@ -111,6 +111,11 @@ keyblock_scene(verification/slope_crack REFERENCES slope_strong_half_shaken RANK
   "Joints/plane/Friction angle=45" "Joints/plane/Cohesion=196200"
   "Joints/plane/Residual cohesion=196200"
   "Stages/rest/Seismic coefficient=-0.08, 0")
+# the same by the level of the water that stands in the crack
+keyblock_scene(verification/slope_crack REFERENCES slope_crack_filled RANKS 1
+  SET "Joints/crack/Water level=60"
+  "Joints/plane/Water pressure=9810*14.01*max(0, min(1, x/65.680527))"
+  "Stages/rest/Seismic coefficient=-0.08, 0")
 keyblock_scene(verification/material_change)
 keyblock_scene(verification/geostress)
 keyblock_scene(verification/order_at_once RANKS 1 2)
@@ -181,6 +186,14 @@ keyblock_scene(verification/factor_incline REFERENCES water_table RANKS 1 2
   "Stages/drained/Kind=quasi-static"
   "Stages/drained/Friction angle override=84.2894"
   "Stages/drained/Unbalanced ratio=1e-7" "Stages/drained/Water level=none")
+# the same by joints that are drained under the water table that stays
+keyblock_scene(verification/factor_incline REFERENCES water_drained RANKS 1
+  SET "Stages/Names=rest, wet, drained" "Stages/wet/Kind=quasi-static"
+  "Stages/wet/Friction angle override=84.2894"
+  "Stages/wet/Unbalanced ratio=1e-7" "Stages/wet/Water level=0.02"
+  "Stages/drained/Kind=quasi-static"
+  "Stages/drained/Friction angle override=84.2894"
+  "Stages/drained/Unbalanced ratio=1e-7" "Stages/drained/Drained joints=base")
 keyblock_scene(verification/friction_rod_400 RANKS 2)
 foreach(angle 10 20 30 35)
   keyblock_scene(verification/footing_${angle} RANKS 1)
@@ -222,6 +235,13 @@ keyblock_scene(verification/lined_roof REFERENCES lined_roof_weight RANKS 1
   SET "Shotcrete/shell/Density=2400")
 keyblock_scene(verification/lined_roof REFERENCES lined_roof_thin RANKS 1
   SET "Shotcrete/shell/Thickness=0.02")
+# a second shell in a stage that does nothing else
+keyblock_scene(verification/lined_roof REFERENCES lined_roof_twice RANKS 1 2
+  SET "Stages/Names=dig, again" "Stages/again/Kind=quasi-static"
+  "Stages/again/Unbalanced ratio=1e-6" "Shotcrete/Names=shell, more"
+  "Shotcrete/more/Stage=again" "Shotcrete/more/Excavations=room"
+  "Shotcrete/more/Thickness=0.05" "Shotcrete/more/Shear strength=0.4e6"
+  "Shotcrete/more/Shear modulus=1e8" "Shotcrete/more/Density=0")
 keyblock_scene(verification/lined_roof_3d RANKS 1 2)
 keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_20 RANKS 1
   SET "Tractions/push/Traction=-20e3@ 0"

@@ -63,9 +63,9 @@ namespace Keyblock
     /** Write all rows so far (collective). */
     void write_csv(const std::string &file_name) const;
 
-    /** Add the rows since the last call to the file, which the first call begins
-     * anew with all of them (rank 0), for those who watch a run. Whether it could
-     * be written does not matter here: write_csv() says it. */
+    /** Add the rows since the last call to the file, which the first call
+     * begins anew with all of them (rank 0), for those who watch a run. Whether
+     * it could be written does not matter here: write_csv() says it. */
     void append_csv(const std::string &file_name);
 
     History history;

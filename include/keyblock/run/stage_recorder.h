@@ -46,10 +46,10 @@ namespace Keyblock
     Output<dim> &output;
     Checkpointing<dim> &checkpointing;
     RunRecord<dim> &record;
-    std::string folder;                ///< of output, with '/' at its end
-    double loop_start   = 0.; ///< wall time [s]
-    double next_history = 0.; ///< wall time of the next append_csv() [s]
-    StageAdvance last_printed;         ///< at the last line of progress
+    std::string folder;        ///< of output, with '/' at its end
+    double loop_start   = 0.;  ///< wall time [s]
+    double next_history = 0.;  ///< wall time of the next append_csv() [s]
+    StageAdvance last_printed; ///< at the last line of progress
     unsigned int stage_printed = none; ///< its stage
   };
 } // namespace Keyblock
