@@ -9,6 +9,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
 #include <keyblock/mesh/excavation_region.h>
+#include <keyblock/mesh/face_marks.h>
 #include <keyblock/mesh/mesh.h>
 #include <keyblock/mesh/size_limit.h>
 
@@ -56,7 +57,7 @@ namespace Keyblock
               tree.prepare_coarsening_and_refinement();
             while (flag_across_interfaces() | flag_around_crossings());
             tree.execute_coarsening_and_refinement();
-            pass_marks_on();
+            marks->pass_on();
           }
       }
 
@@ -65,7 +66,7 @@ namespace Keyblock
       {
         Mesh<dim> mesh;
         mesh.vertices = tree.get_vertices();
-        mesh.surfaces = surfaces;
+        mesh.surfaces = marks->all_surfaces();
         mesh.report   = report;
         for (const auto &cell : tree.active_cell_iterators())
           {
@@ -90,16 +91,7 @@ namespace Keyblock
                    c,
                    f});
           }
-        for (const auto &face : tree.active_face_iterators())
-          for (const MarkOfFace &mark : marks_of(face))
-            {
-              typename Mesh<dim>::FaceVertices vertices;
-              for (const unsigned int v : face->vertex_indices())
-                vertices[v] = face->vertex_index(v);
-              if (mark.is_turned)
-                std::swap(vertices[dim - 2], vertices[dim - 1]);
-              mesh.marked_faces.push_back({vertices, mark.surface});
-            }
+        mesh.marked_faces = marks->list();
         for (const HangingVertex &hanging : list_hanging_vertices(mesh))
           {
             // off the middle only where an outline is bent along its axis
@@ -150,82 +142,8 @@ namespace Keyblock
               const auto found = ids.find(key);
               face->set_boundary_id(found == ids.end() ? 0 : found->second);
             }
-        plant_marks(coarse);
-      }
-
-      /** That a face lies on a surface; turned if the surface's plus side is
-       * where deal.II's order of the vertices does not point to. */
-      struct MarkOfFace
-      {
-        unsigned int surface;
-        bool is_turned;
-      };
-
-      /** Give each marked face of the coarse mesh the number of its list. */
-      void
-      plant_marks(const Mesh<dim> &coarse)
-      {
-        surfaces = coarse.surfaces;
-        report   = coarse.report;
-        marks.assign(1, {});
-        list_of_face.assign(tree.n_raw_faces(), 0);
-        std::map<typename Mesh<dim>::FaceVertices,
-                 std::vector<const typename Mesh<dim>::MarkedFace *>>
-          marked;
-        for (const auto &face : coarse.marked_faces)
-          {
-            auto key = face.vertices;
-            std::sort(key.begin(), key.end());
-            marked[key].push_back(&face);
-          }
-        if (marked.empty())
-          return;
-        for (const auto &face : tree.active_face_iterators())
-          {
-            typename Mesh<dim>::FaceVertices vertices, key;
-            for (const unsigned int v : face->vertex_indices())
-              vertices[v] = face->vertex_index(v);
-            key = vertices;
-            std::sort(key.begin(), key.end());
-            const auto found = marked.find(key);
-            if (found == marked.end())
-              continue;
-            std::vector<MarkOfFace> list;
-            for (const auto *mark : found->second)
-              list.push_back(
-                {mark->surface, !turn_alike<dim>(vertices, mark->vertices)});
-            list_of_face[face->index()] = marks.size();
-            marks.push_back(list);
-          }
-      }
-
-      /** Children lie on what their parents lie on. */
-      void
-      pass_marks_on()
-      {
-        list_of_face.resize(tree.n_raw_faces(), 0);
-        for (auto face = tree.begin_face(); face != tree.end_face(); ++face)
-          if (list_of_face[face->index()] > 0)
-            pass_on_to_children(face);
-      }
-
-      template <typename Face>
-      void
-      pass_on_to_children(const Face &face)
-      {
-        if (face->has_children())
-          for (unsigned int i = 0; i < face->n_children(); ++i)
-            {
-              list_of_face[face->child_index(i)] = list_of_face[face->index()];
-              pass_on_to_children(face->child(i));
-            }
-      }
-
-      template <typename Face>
-      const std::vector<MarkOfFace> &
-      marks_of(const Face &face) const
-      {
-        return marks[list_of_face[face->index()]];
+        marks  = std::make_unique<FaceMarks<dim>>(tree, coarse);
+        report = coarse.report;
       }
 
       /** Let new vertices on circular outlines go to the circle. */
@@ -344,43 +262,24 @@ namespace Keyblock
       bool
       is_on_joint(const Face &face, const double size) const
       {
-        if (surfaces.empty())
-          return count_joints_at(face->center(true), size) > 0;
-        for (const MarkOfFace &mark : marks_of(face))
-          if (surfaces[mark.surface].is_joint())
-            return true;
-        return false;
+        return marks->are_known()
+                 ? marks->is_on_joint(face)
+                 : count_joints_at(face->center(true), size) > 0;
       }
 
-      /** Lines at which marked faces of several joints meet. */
+      /** Lines at which several joints meet, by their index: as the generator
+       * knows, else by their place. */
       std::vector<bool>
       find_crossings() const
       {
+        if (marks->are_known())
+          return marks->find_crossings();
         std::vector<bool> is_crossing(tree.n_raw_lines(), false);
-        if constexpr (dim == 3)
-          {
-            if (surfaces.empty())
-              {
-                for (const auto &cell : tree.active_cell_iterators())
-                  for (const unsigned int l : cell->line_indices())
-                    is_crossing[cell->line(l)->index()] =
-                      count_joints_at(cell->line(l)->center(),
-                                      cell->line(l)->diameter()) > 1;
-                return is_crossing;
-              }
-            std::vector<unsigned int> first(tree.n_raw_lines(), none);
-            for (const auto &face : tree.active_face_iterators())
-              for (const MarkOfFace &mark : marks_of(face))
-                if (surfaces[mark.surface].is_joint())
-                  for (unsigned int l = 0; l < 4; ++l)
-                    {
-                      const unsigned int line = face->line_index(l);
-                      is_crossing[line] =
-                        is_crossing[line] ||
-                        (first[line] != none && first[line] != mark.surface);
-                      first[line] = mark.surface;
-                    }
-          }
+        for (const auto &cell : tree.active_cell_iterators())
+          for (const unsigned int l : cell->line_indices())
+            is_crossing[cell->line(l)->index()] =
+              count_joints_at(cell->line(l)->center(),
+                              cell->line(l)->diameter()) > 1;
         return is_crossing;
       }
 
@@ -470,12 +369,7 @@ namespace Keyblock
         formulas; ///< of excavations
       dealii::Triangulation<dim> tree;
       std::vector<unsigned int> id_of_boundary;
-      std::vector<Surface<dim>> surfaces; ///< as the generator knows them
-
-      /** Index into marks of each face, by the face's index: refinement clears
-       * the user indices of the faces in 2D. */
-      std::vector<unsigned int> list_of_face;
-      std::vector<std::vector<MarkOfFace>> marks;
+      std::unique_ptr<FaceMarks<dim>> marks; ///< of faces of the tree
       MeshReport<dim> report;
     };
 
