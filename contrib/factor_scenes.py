@@ -135,7 +135,7 @@ def unit(a):
     return [x / length for x in a]
 
 
-def scene(dim, title, domain, size, joints, names, bed, truncated, more=""):
+def scene(dim, title, domain, size, joints, names, bed, truncated, more="", poisson=0.25):
     """The parts that the kinds below share: rock on a bed, at rest."""
     zeros = "0; " * (dim - 1)
     return f"""set Dimension = {dim}
@@ -155,7 +155,7 @@ subsection Materials
   set Names = rock, bed
   subsection rock
     set Young modulus = 10e9
-    set Poisson ratio = 0.25
+    set Poisson ratio = {poisson}
     set Density = 2500
   end
   subsection bed
@@ -239,9 +239,12 @@ def water(seed):
     return text, factor
 
 
-def wedge(seed):
+def wedge(seed, poisson=0.):
     """A tetrahedral wedge in the front (y = 0) and top of a box, on two planes
-    so much alike that it does not turn."""
+    so much alike that it does not turn. Statics takes shear along the line where
+    they meet, and is exact for a wedge that does not spread across it under its
+    own weight (Poisson ratio 0): one that does (kind wedging) locks stress across
+    the line and can rest at up to 1.4 % above."""
     rng = random.Random(f"wedge {seed}")
     top = 10.
     foot = (0., 0., rng.uniform(2., 5.))
@@ -267,7 +270,7 @@ def wedge(seed):
     forces = [(right[i] - cosine * right[1 - i]) / (1. - cosine**2) for i in range(2)]
     driving = dot(load, along)
     if min(forces) < 0.05 * abs(load[2]):
-        return wedge(seed + 1000)
+        return wedge(seed + 1000, poisson)
     angle = rng.uniform(15, 40)
     tangents = [math.tan(math.radians(angle + rng.uniform(-3, 3))) for _ in range(2)]
     # by the forces on the planes, so that cohesion does not turn the wedge
@@ -278,7 +281,7 @@ def wedge(seed):
     tangents = [t * factor / now for t in tangents]
     cohesions = [c * factor / now for c in cohesions]
     if max(tangents) > 1.2:
-        return wedge(seed + 1000)
+        return wedge(seed + 1000, poisson)
     joints, sides = "", []
     for i, (name, corner) in enumerate(zip("AB", corners)):
         joints += joint_entries(name, (foot, apex, corner),
@@ -289,11 +292,12 @@ def wedge(seed):
     text = scene(3, f"Wedge, exact factor {factor:.6g}",
                  f"  set Corner = {-width:.6g}, 0, 0\n  set Size = {2 * width:.6g}, {depth:.6g}, 10",
                  rng.uniform(1.2, 2.2), joints, "A, B", f"if({' || '.join(sides)}, 1, -1)",
-                 "bottom, back, left, right", "    set Model = rigid\n")
+                 "bottom, back, left, right", "    set Model = rigid\n", poisson)
     return text, factor
 
 
 KINDS = {"incline": lambda seed, exact: incline(seed, 2, exact),
          "incline_3d": lambda seed, exact: incline(seed, 3, exact),
          "water": lambda seed, exact: water(seed),
-         "wedge": lambda seed, exact: wedge(seed)}
+         "wedge": lambda seed, exact: wedge(seed),
+         "wedging": lambda seed, exact: wedge(seed, 0.25)}

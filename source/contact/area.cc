@@ -11,9 +11,10 @@ namespace Keyblock
     /** Gap over the size of a face beyond which a joint has come apart [-]. */
     constexpr double least_opening = 1e-3;
 
-    /** Impulse over the joint's mean from which on a point bears cohesion: one
-     * that hovers would take it and let go in turns [-]. */
-    constexpr double least_share = 0.1;
+    /** Pressure over the joint's mean below which a point bears cohesion only
+     * in proportion: one that hovers would take it and let go in turns, and
+     * stick and slip by that [-]. */
+    constexpr double full_pressure = 0.1;
 
     /** Joint, and two blocks in order. */
     std::array<unsigned int, 3>
@@ -52,8 +53,25 @@ namespace Keyblock
     if (is_moved &&
         std::find(joints.begin(), joints.end(), true) != joints.end())
       overlaps = list_overlaps<dim>(surface, memory.searched_position, joints);
-    shared_among = {};
-    covered_area.clear();
+    is_shared = false;
+  }
+
+
+
+  template <int dim>
+  auto
+  ContactAreas<dim>::find(const Footing &footing) const -> unsigned int
+  {
+    const auto point =
+      std::lower_bound(points.begin(),
+                       points.end(),
+                       footing,
+                       [](const BearingPoint &p, const Footing &f) {
+                         return p.footing < f;
+                       });
+    return point != points.end() && point->footing == footing
+             ? point - points.begin()
+             : none;
   }
 
 
@@ -62,11 +80,12 @@ namespace Keyblock
   double
   ContactAreas<dim>::of(const SurfaceContact<dim> &contact) const
   {
-    const auto area =
-      covered_area.find({{contact.slave, contact.joint, contact.master_block}});
-    return area == covered_area.end() ? std::numeric_limits<double>::quiet_NaN()
-                                      : area->second;
+    const unsigned int point =
+      find({{contact.slave, contact.joint, contact.master_block}});
+    return point == none ? std::numeric_limits<double>::quiet_NaN()
+                         : points[point].present_area;
   }
+
 
 
   template <int dim>
@@ -101,7 +120,7 @@ namespace Keyblock
         if (gap - memory.dilation_of(p) > least_opening * pair.face_size)
           {
             memory.state[p].has_opened = true;
-            shared_among               = {};
+            is_shared                  = false;
           }
       }
   }
@@ -159,37 +178,16 @@ namespace Keyblock
 
   template <int dim>
   auto
-  ContactAreas<dim>::list_footings() const
-    -> std::array<std::vector<Footing>, 2>
+  ContactAreas<dim>::list_footings() const -> std::vector<Footing>
   {
-    std::vector<Footing> near, pressed;
-    std::map<Footing, std::array<double, 2>> impulses; // number and sum
-    std::vector<std::pair<Footing, double>> impulse_at;
+    std::vector<Footing> footings;
     for (const SurfaceContact<dim> &contact : memory.contacts)
       if (contact.joint != none && strength.needs_areas[contact.joint] &&
           !contact.is_ridge)
-        {
-          near.push_back(
-            {{contact.slave, contact.joint, contact.master_block}});
-          const double r =
-            std::max(0., dot<dim>(contact.point.impulse, contact.point.normal));
-          auto &sums = impulses[between(contact.joint,
-                                        surface.block_of_node[contact.slave],
-                                        contact.master_block)];
-          sums[0] += 1.;
-          sums[1] += r;
-          impulse_at.emplace_back(near.back(), r);
-        }
-    for (const auto &[footing, r] : impulse_at)
-      {
-        const auto &sums = impulses[between(
-          footing[1], surface.block_of_node[footing[0]], footing[2])];
-        if (r > least_share * sums[1] / sums[0])
-          pressed.push_back(footing);
-      }
-    std::sort(near.begin(), near.end());
-    std::sort(pressed.begin(), pressed.end());
-    return {{near, pressed}};
+        footings.push_back(
+          {{contact.slave, contact.joint, contact.master_block}});
+    std::sort(footings.begin(), footings.end());
+    return footings;
   }
 
 
@@ -232,42 +230,89 @@ namespace Keyblock
   void
   ContactAreas<dim>::share()
   {
-    const auto footings = list_footings();
-    if (footings == shared_among)
-      return;
-    const auto &[near, pressed] = footings;
-    shared_among                = footings;
-    covered_area.clear();
+    std::vector<Footing> footings = list_footings();
+    if (!is_shared || footings != shared_among)
+      {
+        distribute(footings);
+        shared_among = std::move(footings);
+        is_shared    = true;
+      }
+    weigh_by_pressure();
+  }
+
+
+
+  template <int dim>
+  void
+  ContactAreas<dim>::distribute(const std::vector<Footing> &footings)
+  {
     std::vector<AreaShare> shares;
     std::map<Footing, std::array<double, 2>> areas; // with points, and without
-    // to nodes that press
-    std::vector<std::pair<unsigned int, double>> lone;
-    for (unsigned int i = 0; i < overlaps.size(); ++i)
+    for (const FaceOverlap<dim> &overlap : overlaps)
       {
-        const FaceOverlap<dim> &overlap = overlaps[i];
         const double area = overlap.area * (1. - share_of_pairs(overlap, true));
         const std::size_t n_before = shares.size();
-        const bool is_shared = share_between(overlap, area, pressed, shares);
-        areas[key_of(overlap)][is_shared ? 0 : 1] += area;
-        if (!is_shared)
-          lone.emplace_back(i, area);
+        const bool has_points = share_between(overlap, area, footings, shares);
+        areas[key_of(overlap)][has_points ? 0 : 1] += area;
         for (std::size_t k = n_before; k < shares.size(); ++k)
           shares[k].between = key_of(overlap);
       }
     // faces that have lifted a little, but not opened, lean on the others: what
-    // lies on points that do not press is not lost. Where nothing presses, to
-    // such as are near
-    for (AreaShare &part : shares)
-      {
-        const auto &sums = areas[part.between];
-        covered_area[part.footing] += part.area * (1. + sums[1] / sums[0]);
-      }
-    shares.clear();
-    for (const auto &[i, area] : lone)
-      if (areas[key_of(overlaps[i])][0] <= 0.)
-        share_between(overlaps[i], area, near, shares);
+    // lies beside points that touch nothing is not lost
+    std::map<Footing, BearingPoint> by_footing;
+    std::map<Footing, unsigned int> side_pairs;
     for (const AreaShare &part : shares)
-      covered_area[part.footing] += part.area;
+      {
+        const auto &[with, without] = areas[part.between];
+        const unsigned int side_pair =
+          side_pairs.try_emplace(part.between, side_pairs.size()).first->second;
+        BearingPoint &point = by_footing[part.footing];
+        point.footing       = part.footing;
+        point.side_pair     = side_pair;
+        point.area += part.area * (1. + without / with);
+      }
+    points.clear();
+    for (const auto &[footing, point] : by_footing)
+      points.push_back(point);
+    sums.assign(side_pairs.size(), {});
+  }
+
+
+
+  template <int dim>
+  void
+  ContactAreas<dim>::weigh_by_pressure()
+  {
+    for (BearingPoint &point : points)
+      point.impulse = 0.;
+    std::fill(sums.begin(), sums.end(), BearingSums{});
+    if (points.empty())
+      return;
+    for (const SurfaceContact<dim> &contact : memory.contacts)
+      if (contact.joint != none && !contact.is_ridge)
+        if (const unsigned int point =
+              find({{contact.slave, contact.joint, contact.master_block}});
+            point != none)
+          points[point].impulse +=
+            std::max(0., dot<dim>(contact.point.impulse, contact.point.normal));
+    for (const BearingPoint &point : points)
+      {
+        sums[point.side_pair].area += point.area;
+        sums[point.side_pair].impulse += point.impulse;
+      }
+    for (BearingPoint &point : points)
+      {
+        BearingSums &sum = sums[point.side_pair];
+        // its pressure over the mean that is enough for all of its area
+        const double enough = full_pressure * sum.impulse * point.area;
+        point.present_area =
+          point.area *
+          (enough > 0. ? std::min(1., point.impulse * sum.area / enough) : 1.);
+        sum.present_area += point.present_area;
+      }
+    for (BearingPoint &point : points)
+      if (const BearingSums &sum = sums[point.side_pair]; sum.present_area > 0.)
+        point.present_area *= sum.area / sum.present_area;
   }
 
 

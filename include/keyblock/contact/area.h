@@ -31,7 +31,8 @@ namespace Keyblock
      * @param is_moved whether nodes have, since the one before */
     void find_overlaps(const bool is_moved);
 
-    /** Share them out among the present surface contacts. */
+    /** Share them out among the present surface contacts, by their impulses.
+     */
     void share();
 
     /** Area that a surface contact stands for [m^(dim-1)]; NaN: unknown. */
@@ -60,8 +61,34 @@ namespace Keyblock
       double area;     ///< [m^(dim-1)]
     };
 
-    /** List the contacts that are near and those that press, sorted. */
-    std::array<std::vector<Footing>, 2> list_footings() const;
+    /** A point that stands for a part of where two blocks' faces lie on each
+     * other. */
+    struct BearingPoint
+    {
+      Footing footing;
+      unsigned int side_pair;   ///< index of its joint and blocks
+      double area;              ///< [m^(dim-1)]
+      double impulse      = 0.; ///< normal, of the last step [N s]
+      double present_area = 0.; ///< once it is known what presses
+    };
+
+    /** Sums over the points of a joint between two blocks. */
+    struct BearingSums
+    {
+      double area = 0., impulse = 0., present_area = 0.;
+    };
+
+    /** The surface contacts that need areas, in order. */
+    std::vector<Footing> list_footings() const;
+
+    /** Share the overlaps out among the points that are there. */
+    void distribute(const std::vector<Footing> &footings);
+
+    /** Index of the point of a footing; none if it has no area. */
+    unsigned int find(const Footing &footing) const;
+
+    /** Let points that hardly press give their parts to those that do. */
+    void weigh_by_pressure();
 
     /** Joint and blocks of an overlap. */
     Footing key_of(const FaceOverlap<dim> &overlap) const;
@@ -106,9 +133,11 @@ namespace Keyblock
     ContactMemory<dim> &memory;
     std::vector<FaceOverlap<dim>> overlaps; ///< of the last search
 
-    /** As list_footings() was when areas were shared. */
-    std::array<std::vector<Footing>, 2> shared_among;
-    std::map<Footing, double> covered_area; ///< [m^(dim-1)]
+    /** As list_footings() was when areas were distributed. */
+    std::vector<Footing> shared_among;
+    bool is_shared = false;
+    std::vector<BearingPoint> points; ///< by footing
+    std::vector<BearingSums> sums;    ///< by joint and blocks
 
     /** By joint and blocks [Pa]. */
     std::map<Footing, double> mean_pressure;
