@@ -41,7 +41,7 @@ namespace Keyblock
     }
 
     /** The largest shift of each joint, over the size of the cells, on faces
-     * of finite blocks. */
+     * of blocks that can move. */
     template <int dim>
     std::vector<Shift<dim>>
     measure_shifts(const Scene<dim> &scene,
@@ -53,7 +53,9 @@ namespace Keyblock
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
         {
           const unsigned int b = split.block_of_cell[c];
-          if (b == none || blocks.blocks[b].is_infinite)
+          // joints of rock that stays welded do not move
+          if (b == none || (blocks.blocks[b].is_infinite &&
+                            scene.contact.weld_infinite_blocks))
             continue;
           const double size = std::pow(mesh.cell_volume(c), 1. / dim);
           for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
@@ -130,14 +132,16 @@ namespace Keyblock
       if (ids.empty())
         return "";
       const std::string unit = dim == 2 ? " m2" : " m3";
-      return "The mesh gives block" + std::string(ids.size() > 1 ? "s " : " ") +
-             list_some(ids) +
-             " another volume than the planes of the joints, the most to "
-             "block " +
-             std::to_string(most->id) + ", " + text_of(most->volume, 4) + unit +
-             " instead of " + text_of(most->exact.volume, 4) + unit +
-             ", which its factor by strength reduction has; lower 'Mesh/Size' "
-             "or 'Mesh/Size at excavation', or set 'Mesh/Cells across blocks'.";
+      return "The mesh gives block " + std::to_string(most->id) + " " +
+             text_of(most->volume, 4) + unit + " instead of " +
+             text_of(most->exact.volume, 4) + unit +
+             " between the planes of its joints" +
+             (ids.size() > 1
+                ? " (more than 5 % off are blocks " + list_some(ids) + ")"
+                : "") +
+             ", and its factor by strength reduction is found with that; lower "
+             "'Mesh/Size' or 'Mesh/Size at excavation', or set 'Mesh/Cells "
+             "across blocks'.";
     }
   } // namespace
 

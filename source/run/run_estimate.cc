@@ -26,8 +26,13 @@ namespace Keyblock
     constexpr unsigned long long most_cells_to_solve = 30000;
 
     // as measured on scenes of the project (doc/performance.md)
-    /** Steps of a quasi-static stage over those of its ramp [-]. */
+    /** Steps of a quasi-static stage over those of its ramp, in elastic rock
+     * and where rock may yield, which slows the ramp down [-]. */
     constexpr double least_ramps = 1.2, most_ramps = 5.;
+    constexpr double least_plastic_ramps = 3., most_plastic_ramps = 15.;
+
+    /** Steps after which a stage that changes nothing is found in balance. */
+    constexpr double least_steps = 25.;
     /** Trials of a factor, and length of one in periods of the block [-]. */
     constexpr double least_trials = 5., most_trials = 16.;
     constexpr double least_periods = 15., most_periods = 60.;
@@ -44,20 +49,28 @@ namespace Keyblock
     times_text(const EstimatedRange &seconds)
     {
       const auto text = [](const double s) {
-        return s < 10. ? text_of(s, 2) + " s" : duration_text(s);
+        return s < 9.95 ? text_of(s, 2) + " s" : duration_text(s);
       };
       const std::string least = text(seconds.least), most = text(seconds.most);
       return least == most ? least : least + " to " + most;
     }
 
+    /** A number with two digits that count, without an exponent. */
+    std::string
+    rounded(const double value)
+    {
+      if (value < 100.)
+        return text_of(value, 2);
+      const double unit = std::pow(10., std::floor(std::log10(value)) - 1.);
+      return std::to_string(std::llround(unit * std::round(value / unit)));
+    }
+
     std::string
     counts_text(const EstimatedRange &counts)
     {
-      const std::string least = text_of(counts.least, 2),
-                        most  = text_of(counts.most, 2);
-      return counts.least == counts.most
-               ? std::to_string(std::llround(counts.least))
-               : least + " to " + most;
+      if (counts.least == counts.most)
+        return std::to_string(std::llround(counts.least));
+      return rounded(counts.least) + " to " + rounded(counts.most);
     }
 
     double
@@ -186,11 +199,21 @@ namespace Keyblock
       }
     else
       {
-        result.has_end    = false;
+        result.has_end = false;
+        const bool is_ramped =
+          model.conditions->changes(model.scene.stage_number(stage.name));
+        const bool is_plastic =
+          std::any_of(model.scene.materials.begin(),
+                      model.scene.materials.end(),
+                      [](const auto &m) { return m->is_plastic(); });
         const double ramp = stage.ramp_duration > 0.
                               ? stage.ramp_duration / model.step->dt
                               : ramp_steps;
-        result.steps      = {least_ramps * ramp, most_ramps * ramp};
+        result.steps      = {!is_ramped
+                               ? least_steps
+                               : (is_plastic ? least_plastic_ramps : least_ramps) *
+                                   ramp,
+                        (is_plastic ? most_plastic_ramps : most_ramps) * ramp};
       }
     if (stage.maximum_steps > 0)
       {
@@ -316,8 +339,7 @@ namespace Keyblock
       out << "        " << n_factors
           << (n_factors > 1 ? " safety factors: " : " safety factor: ")
           << times_text(trial_seconds) << " of trials\n";
-    out << "        memory at most about " << text_of(1e-6 * memory, 2)
-        << " MB\n";
+    out << "        memory at most about " << rounded(1e-6 * memory) << " MB\n";
   }
 
   template class RunEstimate<2>;

@@ -382,16 +382,13 @@ NETWORK = PRM / "tutorial" / "joint_network.prm"
 
 def names_taken_out():
     # the scene has the subsections of names that --set takes out of its lists
-    named = validate(NETWORK).stdout.decode("utf-8")
-    assert "bedding.2" in named
     for names, is_there in (("", False), ("faults", False), ("bedding", True)):
-        done = validate(NETWORK, [f"Joint sets/Names={names}"])
+        done = validate(NETWORK, [f"Joint sets/Names={names}",
+                                  "Monitors/Names="])
         assert done.returncode == 0, done.stderr
         assert (b"bedding.2" in done.stdout) == is_there, names
-    none = validate(NETWORK, ["Joint sets/Names=", "Joints/File=",
-                              "Excavations/Names="])
-    assert none.returncode == 0 and b"0 pairs" in none.stdout, none.stderr
     done = validate(INCLINE, ["Joints/Names=", "Check/Closed form=none",
+                              "Check/Joint=",
                               "Monitors/Names=block"])
     assert done.returncode == 0 and b"0 pairs" in done.stdout, done.stderr
     # a name that neither list has is still an error
@@ -420,7 +417,10 @@ def derived_entries():
         assert done.returncode == 0, done.stderr
         assert pathlib.Path(folder, "history.csv").read_bytes() == history, (
             f"other history of used.prm with {more}")
-    assert pathlib.Path("b/used.prm").read_text(encoding="utf-8") == used
+    again = pathlib.Path("b/used.prm").read_text(encoding="utf-8")
+    values = [[line.split("#")[0].split() for line in text.splitlines()
+               if line.split("#")[0].strip()] for text in (used, again)]
+    assert values[0] == values[1], "used.prm of used.prm has other values"
 
 
 COARSE_WEDGE = """set Dimension = 3
