@@ -34,8 +34,9 @@ namespace Keyblock
   };
 
   /**
-   * Forecast of the time and memory that a run will take: its first steps are
-   * made for up to a second, on the ranks that are there, and counted on. Steps
+   * Forecast of the time and memory that a run will take on processors of its
+   * own: its first steps are made for up to a second, on the ranks that are
+   * there, and counted on. Steps
    * of stages that end when forces are in balance, and trials of factors, are
    * counted by what scenes of the project take; they are ranges.
    */
