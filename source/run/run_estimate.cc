@@ -29,7 +29,7 @@ namespace Keyblock
     // as measured on scenes of the project (doc/performance.md)
     /** Steps of a quasi-static stage over those of its ramp, in elastic rock
      * and where rock may yield, which slows the ramp down [-]. */
-    constexpr double least_ramps = 1.2, most_ramps = 5.;
+    constexpr double least_ramps = 1.2, most_ramps = 6.;
     constexpr double least_plastic_ramps = 3., most_plastic_ramps = 15.;
 
     /** Steps after which a stage that changes nothing is found in balance. */
@@ -180,6 +180,8 @@ namespace Keyblock
         if (i == n_warm_up)
           begin = processor_seconds();
         model.step->advance(i % interval == 0);
+        if (i % interval == 0)
+          run.monitors.sample(*model.step, progress.index);
         n_steps += i >= n_warm_up;
         if (i > n_warm_up && model.communicator.on_any(
                                processor_seconds() - begin > timed_seconds))
