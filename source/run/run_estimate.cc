@@ -45,11 +45,12 @@ namespace Keyblock
     /** Cells across what a stage excavates, at least. */
     constexpr double least_across = 4.;
 
-    /** What is printed for a range of times. */
+    /** What is printed for a range of times, of at least 0.1 s. */
     std::string
     times_text(const EstimatedRange &seconds)
     {
-      const auto text = [](const double s) {
+      const auto text = [](const double exact) {
+        const double s = std::max(0.1, exact);
         return s < 9.95 ? text_of(s, 2) + " s" : duration_text(s);
       };
       const std::string least = text(seconds.least), most = text(seconds.most);
