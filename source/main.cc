@@ -32,6 +32,8 @@ namespace
                                          arguments.restart);
     if (arguments.is_validation)
       simulation.validate();
+    else if (!arguments.factors.empty())
+      simulation.find_factors(arguments.factors);
     else
       simulation.run();
   }

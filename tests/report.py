@@ -4,8 +4,8 @@
 
 usage: report.py KEYBLOCK REPORT PRM FOLDER CASE
 
-plane, wedge, bolts: the tables carry the numbers of summary.json, the page has all its
-parts, loads nothing from elsewhere and is of a sensible size; a Chromium, if
+plane, wedge, bolts: the tables carry the numbers of summary.json, those that the run
+wrote are copied as they are, the page has all its parts, loads nothing from elsewhere and is of a sensible size; a Chromium, if
 there is one, opens it without an error on the console and shows the view.
 poor: without VTU files, used.prm or joints.csv there is a report with a sentence
 that says what is missing; of a folder without a run there is none, and what was
@@ -27,7 +27,8 @@ SCENES = {
         "Safety factor/Blocks=all", "Stages/Names=dig, wait",
         "Stages/wait/Kind=quasi-static", "Output/Write VTU=true"]),
     "wedge": ("verification/wedge_3d", [
-        "Safety factor/Bracket=0.05", "Output/Write VTU=true"]),
+        "Safety factor/Bracket=0.05", "Safety factor/Wanted=1.5",
+        "Output/Write VTU=true"]),
     "bolts": ("verification/bolted_incline", ["Output/Write VTU=true"]),
     "poor": ("verification/factor_incline", [
         "Safety factor/Bracket=0.1", "Output/Write VTU=false"])}
@@ -67,22 +68,41 @@ def finite_blocks(summary):
             if not {"infinite", "rigid"} & set(b["class"])}
 
 
+def assert_demand(row, demand):
+    """The support that the wanted factor asks for."""
+    force, = (value for title, value in row.items()
+              if title.startswith("support (N"))
+    assert row["support for factor"] == "" if demand is None else (
+        float(row["support for factor"]) == demand["factor"])
+    if demand and demand["outcome"] == "support":
+        assert float(force) == demand["force"]
+        assert float(row["support pressure (Pa)"]) == demand["pressure"]
+    elif demand and demand["outcome"] == "out of reach":
+        assert force == "out of reach"
+
+
 def assert_tables(summary, folder):
     """Every number of the tables is that of summary.json."""
     blocks = finite_blocks(summary)
+    for name in ("blocks.csv", "factors.csv"):
+        written = (FOLDER / "output" / name).read_bytes()
+        assert written == (folder / name).read_bytes(), "not the run's own"
+        assert written.count(b"\n") == written.count(b"\r\n") > 0, name
     rows = rows_of(folder / "blocks.csv")
     assert sorted(int(r["block"]) for r in rows) == sorted(blocks)
     for row in rows:
         block = blocks[int(row["block"])]
-        assert float(row["volume (m3)" if "volume (m3)" in row else
-                         "volume (m3 per m)"]) == block.get(
-                             "exact_volume", block["volume"])
-        assert float(row["weight (N)"]) == block.get("exact_weight",
-                                                     block["weight"])
+        per = " per m" if summary["scene"]["dimension"] == 2 else ""
+        assert float(row[f"volume (m3{per})"]) == block.get("exact_volume",
+                                                            block["volume"])
+        assert float(row[f"weight (N{per})"]) == block.get("exact_weight",
+                                                           block["weight"])
+        assert (row["removable"] == "yes") == block["removable"]
+        assert row["class"] == block["class"][-1]
         assert set(row["joints"].split()) == set(block["joint_areas"])
         assert bool(row["exposed since"]) == ("exposed_stage" in block)
-    is_exposed = [bool(r["exposed since"]) for r in rows]
-    assert is_exposed == sorted(is_exposed, reverse=True), "exposed come first"
+        assert (float(row[f"free area (m2{per})"] or 0.) > 0.) == (
+            "exposed_stage" in block)
     found = rows_of(folder / "factors.csv")
     wanted = [(n, f) for n, b in blocks.items()
               for f in b.get("safety_factor", [])]
@@ -91,6 +111,13 @@ def assert_tables(summary, folder):
         assert (int(row["block"]), row["stage"], row["outcome"]) == (
             n, factor["stage"], factor["outcome"])
         assert row["lower"] == "" or float(row["lower"]) == factor["lower"]
+        limit = next(x for x in blocks[n]["limit_equilibrium"]
+                     if x["stage"] == factor["stage"])
+        assert row["limit equilibrium mode"] == limit["mode"]
+        assert row["remark"] == limit["remark"]
+        assert row["limit equilibrium"] == "stable" or float(
+            row["limit equilibrium"]) == limit["value"]
+        assert_demand(row, limit.get("support_demand"))
         if factor["outcome"] == "value":
             assert float(row["factor"]) == factor["value"]
             assert float(row["upper"]) == factor["upper"]
@@ -191,9 +218,8 @@ def check(n_states):
     assert 7e5 < size < 3e6, size  # the script of the view has 0.73 MB
     if CASE == "wedge":  # closed form of the scene's head; the free face is up
         row, = rows_of(FOLDER / "blocks.csv")
-        assert float(row["factor lower"]) < 0.877022 < float(
-            row["factor upper"]), row
-        assert row["place"] == "floor" and row["held by clamping"] == "no"
+        assert float(row["lower"]) < 0.877022 < float(row["upper"]), row
+        assert row["place"] == "floor"
     if CASE == "bolts":
         assert_bolts(summary, page)
     open_in_browser(path)

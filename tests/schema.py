@@ -27,10 +27,8 @@ FREE = {"monitors", "checks", "joint_areas", "exact_joint_areas", "seeds",
 OPTIONAL = FREE - {"monitors", "checks", "seeds"} | {
     "block_theory", "blocks", "bolts", "exposed_stage", "geostress",
     "governed_by", "group", "largest_volumes", "mesh", "open_ends", "remark",
-    "removable", "removed_in_stage"}
-
-# statistics of a study, where no sample has a value
-NULL_IF_NONE = {"least_factor", "failed_volume", "factor"}
+    "removable", "removed_in_stage", "support_demand", "least_factor",
+    "failed_volume"}
 
 # of these damages_of_one() has more
 POINTS = {"centroid", "head", "end", "largest_overlap_at"}
@@ -146,7 +144,7 @@ def damages_of_one(key, value):
     """Values that a key must not have, as it has another one."""
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return str(value), None, 1e100, -1e100
-    bad = [17] if value is None or key in NULL_IF_NONE else [17, None]
+    bad = [17, None]
     if key in POINTS:
         bad += [value[:-1], [*value, 0.]]
     if key in WORDS:
@@ -161,7 +159,9 @@ def damages(results):
         name, key = "/".join(map(str, path)), path[-1]
         may_be_absent = (isinstance(key, int) or key in OPTIONAL
                          or len(path) > 1 and path[-2] in FREE
-                         or "stress_ratio" in path and key == "value")
+                         or "stress_ratio" in path and key == "value"
+                         # of a block of a study that cannot move
+                         or path[0] == "blocks" and path[2:] == ("factor",))
         if not may_be_absent:
             yield f"lacks {name}", with_value(results, path)
         if isinstance(value, dict) and key not in FREE - {"monitors"}:

@@ -43,9 +43,11 @@ def report(folder, path):
     run = Run(folder)
     geometry, why = read_geometry(run)
     rows = tables.block_rows(run, geometry)
-    csvs = {"blocks.csv": tables.blocks_csv(run, rows),
-            "factors.csv": tables.factors_csv(run),
-            "stages.csv": tables.stages_csv(run)}
+    # these the program has written; of older runs there are none
+    csvs = {name: (run.folder / name).read_bytes().decode("utf-8")
+            for name in ("blocks.csv", "factors.csv")
+            if (run.folder / name).exists()}
+    csvs["stages.csv"] = tables.stages_csv(run)
     if run.summary.get("bolts"):
         csvs["bolts.csv"] = tables.bolts_csv(run)
     parts = make_parts(run, geometry, rows, why)
@@ -55,7 +57,7 @@ def report(folder, path):
                             for name, table in csvs.items()}}
     for file, content in files.items():
         try:
-            file.write_text(content, encoding="utf-8")
+            file.write_bytes(content.encode("utf-8"))
         except OSError as error:
             raise ReportError(f"'{file}' cannot be written: "
                               f"{error.strerror}.") from None

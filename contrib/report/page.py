@@ -123,7 +123,8 @@ def write_page(run, rows, parts, csvs):
     sections = [
         ("blocks", "blocks", blocks_section(
             run, rows, bool(parts["view"]),
-            f"{links['blocks.csv']}, {links['factors.csv']}")),
+            ", ".join(links[name] for name in ("blocks.csv", "factors.csv")
+                      if name in links))),
         ("in-space", "view", view_section(run, parts["view"])),
         ("factors", "factors", factors_section(run, rows, *parts["factors"])),
         ("stages", "stages", stages_section(run, parts["pictures"],

@@ -198,68 +198,6 @@ def bolts_csv(run):
         for n, b in enumerate(bolts, 1)])
 
 
-def blocks_csv(run, rows):
-    """blocks.csv: finite blocks, the most dangerous first."""
-    names = ["block", "exposed since", "place", "removable",
-             "volume (m3)" if not run.is_plane else "volume (m3 per m)",
-             "weight (N)", "width (m)", "cells across", "free area (m2)",
-             "joints", "failure mode", "limit equilibrium",
-             "limit equilibrium mode", "remark", "factor", "factor lower",
-             "factor upper", "outcome", "factor after", "stress ratio",
-             "group", "group factor", "held by clamping",
-             "support for factor", "support (kN)" if not run.is_plane else
-             "support (kN per m)", "support pressure (kPa)", "largest displacement (m)", "moved off in", "removed in"]
-    table = []
-    for row in rows:
-        limit, factor = row["limit"] or {}, row["factor"] or {}
-        group = row["group"] or {}
-        has_value = factor.get("outcome") == "value"
-        table.append([
-            row["block"], row["since"], row["where"], row["removable"],
-            row["volume"], row["weight"], row["width"], row["cells_across"],
-            row["free_area"], " ".join(row["faces"]), row["mode"],
-            limit.get("value", limit.get("outcome")), limit.get("mode"),
-            limit.get("remark"), factor.get("value") if has_value else None,
-            factor.get("lower"), factor.get("upper") if has_value else None,
-            factor.get("outcome"), factor.get("stage"),
-            row["stress_ratio"].get("value"),
-            " ".join(map(str, group.get("blocks", []))), group.get("value"),
-            {True: "yes", False: "no", None: None}[row["clamped"]],
-            *((row["demand"] or {}).get(key) for key in (
-                "factor", "force", "pressure")),
-            row["displacement"], row["moved_off"], row["removed"]])
-    return as_csv(names, table)
-
-
-def factors_csv(run):
-    """factors.csv: a line for each block and stage looked at."""
-    names = ["block", "stage", "outcome", "factor", "lower", "upper",
-             "undecided lower", "undecided upper", "failure mode",
-             "limit equilibrium", "limit equilibrium mode", "remark",
-             "stress ratio", "group", "group factor", "group lower",
-             "group upper", "trials"]
-    table = []
-    for n in run.finite_blocks():
-        block = run.blocks[n]
-        for found in block.get("safety_factor", []):
-            stage, group = found["stage"], found.get("group", {})
-            limit = of_stage(block.get("limit_equilibrium"), stage) or {}
-            ratio = of_stage(block.get("stress_ratio"), stage) or {}
-            has_value = found.get("outcome") == "value"
-            table.append([
-                n, stage, found.get("outcome"),
-                found.get("value") if has_value else None,
-                found.get("lower"), found.get("upper") if has_value else None,
-                found.get("undecided_lower"), found.get("undecided_upper"),
-                found.get("failure_mode"),
-                limit.get("value", limit.get("outcome")), limit.get("mode"),
-                limit.get("remark"), ratio.get("value"),
-                " ".join(map(str, group.get("blocks", []))),
-                group.get("value"), group.get("lower"), group.get("upper"),
-                len(found.get("trials", []))])
-    return as_csv(names, table)
-
-
 STAGE_COLUMNS = {
     "name": "stage", "steps": "steps", "time_step": "time step (s)",
     "converged": "converged", "unbalanced_ratio": "unbalanced ratio",

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Numbers, modes of failure and demands for support as people say them."""
 import math
-import re
 
 
 def number(value, digits=4):
@@ -31,31 +30,24 @@ def mode_in_words(mode):
                             if len(joints) > 1 else joints[0])
 
 
-DEMAND = re.compile(r"a factor of ([\d.e+-]+) (?:is in reach of no pressure|asks "
-                    r"for ([\d.e+-]+) kN(?:/m)? against its free faces, "
-                    r"([\d.e+-]+) kPa((?:, or [^;,]+ bolts[^;,]*)*))")
-
-
 def demand_of(limit):
-    """Support that a wanted factor asks for: factor, kN, kPa, bolts; or None.
+    """Support that a wanted factor asks for, in N and Pa; or None.
 
-    By what limit equilibrium remarks; without kN where none is enough."""
-    found = DEMAND.search((limit or {}).get("remark") or "")
-    if not found:
-        return None
-    factor, force, pressure, bolts = found.groups()
-    return {"factor": float(factor), "force": force and float(force),
-            "pressure": pressure and float(pressure),
-            "bolts": [b.strip() for b in (bolts or "").split(", or ") if b]}
+    Without force where no pressure is enough."""
+    demand = (limit or {}).get("support_demand") or {}
+    return demand if demand.get("outcome") in ("support",
+                                               "out of reach") else None
 
 
 def demand_in_words(demand, is_plane):
     """Support that is asked for, as people say it."""
     if not demand:
         return None
-    if demand["force"] is None:
+    if "force" not in demand:
         return f"no pressure is enough for {number(demand['factor'])}"
     return " or ".join([
-        f"{number(demand['force'])} kN{'/m' if is_plane else ''}, "
-        f"{number(demand['pressure'])} kPa", *demand["bolts"]]) + (
-            f" for {number(demand['factor'])}")
+        f"{number(1e-3 * demand['force'])} kN{'/m' if is_plane else ''}, "
+        f"{number(1e-3 * demand['pressure'])} kPa",
+        *(f"{n} bolts{' per metre' if is_plane else ''} of {name}"
+          for name, n in demand.get("bolts", {}).items())]) + (
+              f" for {number(demand['factor'])}")

@@ -229,4 +229,27 @@ namespace Keyblock
     table.separator = splitter.separator;
     return table;
   }
+
+
+
+  std::string
+  csv_line(const std::vector<std::string> &fields)
+  {
+    std::string line;
+    for (const std::string &field : fields)
+      {
+        if (&field != &fields.front())
+          line += ',';
+        if (field.find_first_of(",\"\r\n") == std::string::npos)
+          {
+            line += field;
+            continue;
+          }
+        line += '"';
+        for (const char letter : field)
+          line += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+        line += '"';
+      }
+    return line + "\r\n";
+  }
 } // namespace Keyblock

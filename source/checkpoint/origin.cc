@@ -80,7 +80,8 @@ namespace Keyblock
   std::array<std::string, 3>
   find_difference(const std::string &saved,
                   const std::string &present,
-                  const std::vector<std::string> &changeable)
+                  const std::vector<std::string> &changeable,
+                  const std::vector<std::string> &fixed)
   {
     const auto old_values = parse(saved), new_values = parse(present);
     const std::map<std::string, std::string> before(old_values.begin(),
@@ -92,7 +93,9 @@ namespace Keyblock
       const auto found = values.find(entry);
       return found == values.end() ? "missing" : "'" + found->second + "'";
     };
-    const auto is_free = [&changeable](const std::string &entry) {
+    const auto is_free = [&](const std::string &entry) {
+      if (std::find(fixed.begin(), fixed.end(), entry) != fixed.end())
+        return false;
       return std::any_of(
         changeable.begin(), changeable.end(), [&](const auto &beginning) {
           return entry.compare(0, beginning.size(), beginning) == 0;

@@ -9,6 +9,7 @@
 #include <boost/serialization/vector.hpp>
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 namespace Keyblock
@@ -47,6 +48,9 @@ namespace Keyblock
     action(factor.group_upper);
     action(factor.limit_factor);
     action(factor.stress_ratio);
+    action(factor.support_demand.factor);
+    action(factor.support_demand.force);
+    action(factor.support_demand.pressure);
   }
 
   template <typename Action>
@@ -90,6 +94,41 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** Numbers of bolts that factors ask for, by set. */
+    void
+    exchange_bolt_numbers(StateFile &file,
+                          const std::string &group,
+                          std::vector<SafetyFactor> &factors)
+    {
+      std::vector<std::string> sets;
+      std::vector<unsigned int> numbers, n_sets;
+      for (const SafetyFactor &factor : factors)
+        {
+          n_sets.push_back(factor.support_demand.numbers.size());
+          for (const auto &[set, number] : factor.support_demand.numbers)
+            {
+              sets.push_back(set);
+              numbers.push_back(number);
+            }
+        }
+      file.exchange(group + "n_demand_sets", n_sets);
+      file.exchange(group + "demand_sets", sets);
+      file.exchange(group + "demand_numbers", numbers);
+      unsigned int next = 0;
+      for (unsigned int f = 0; f < factors.size(); ++f)
+        {
+          factors[f].support_demand.numbers.clear();
+          for (const unsigned int end = next + n_sets.at(f); next < end; ++next)
+            factors[f].support_demand.numbers.emplace_back(sets.at(next),
+                                                           numbers.at(next));
+        }
+    }
+  } // namespace
+
+
+
   void
   exchange(StateFile &file,
            const std::string &group,
@@ -109,6 +148,7 @@ namespace Keyblock
                    group + "limit_remark",
                    factors,
                    &SafetyFactor::limit_remark);
+    exchange_bolt_numbers(file, group, factors);
     std::vector<unsigned int> n_trials, group_sizes, group_ids;
     std::vector<Trial> trials;
     for (const SafetyFactor &factor : factors)
@@ -141,8 +181,9 @@ namespace Keyblock
   gather_from_rank_groups(const Communicator &all,
                           const std::vector<SafetyFactor> &mine)
   {
-    // numbers of factors, of their trials and groups, and texts
-    using Rows = std::vector<std::vector<double>>;
+    // numbers of factors, of their trials, groups and bolts, and texts
+    using Rows                    = std::vector<std::vector<double>>;
+    constexpr unsigned int n_rows = 4, n_texts = 5;
     std::pair<Rows, std::vector<std::string>> packed;
     for (const SafetyFactor &factor : mine)
       {
@@ -152,27 +193,43 @@ namespace Keyblock
           for (const double number : numbers_of(trial))
             packed.first.back().push_back(number);
         packed.first.emplace_back(factor.group.begin(), factor.group.end());
+        packed.first.emplace_back();
+        std::string sets;
+        for (const auto &[set, number] : factor.support_demand.numbers)
+          {
+            packed.first.back().push_back(number);
+            sets += set + '\n';
+          }
         for (const std::string &text : {factor.stage,
                                         factor.failure_mode,
                                         factor.limit_mode,
-                                        factor.limit_remark})
+                                        factor.limit_remark,
+                                        sets})
           packed.second.push_back(text);
       }
     const std::size_t n = numbers_of(Trial()).size();
     std::vector<SafetyFactor> found;
     for (const auto &[rows, texts] :
          dealii::Utilities::MPI::all_gather(all, packed))
-      for (std::size_t f = 0; 3 * f < rows.size(); ++f)
+      for (std::size_t f = 0; n_rows * f < rows.size(); ++f)
         {
-          auto factor = from_numbers<SafetyFactor>(rows[3 * f].data());
-          for (std::size_t t = 0; t + n <= rows[3 * f + 1].size(); t += n)
-            factor.trials.push_back(
-              from_numbers<Trial>(rows[3 * f + 1].data() + t));
-          factor.stage        = texts[4 * f];
-          factor.failure_mode = texts[4 * f + 1];
-          factor.limit_mode   = texts[4 * f + 2];
-          factor.limit_remark = texts[4 * f + 3];
-          factor.group.assign(rows[3 * f + 2].begin(), rows[3 * f + 2].end());
+          const auto row  = rows.begin() + n_rows * f;
+          const auto text = texts.begin() + n_texts * f;
+          auto factor     = from_numbers<SafetyFactor>(row[0].data());
+          for (std::size_t t = 0; t + n <= row[1].size(); t += n)
+            factor.trials.push_back(from_numbers<Trial>(row[1].data() + t));
+          factor.stage        = text[0];
+          factor.failure_mode = text[1];
+          factor.limit_mode   = text[2];
+          factor.limit_remark = text[3];
+          factor.group.assign(row[2].begin(), row[2].end());
+          std::istringstream sets(text[4]);
+          for (const double number : row[3])
+            {
+              factor.support_demand.numbers.emplace_back(
+                "", static_cast<unsigned int>(number));
+              std::getline(sets, factor.support_demand.numbers.back().first);
+            }
           const auto is_same = [&](const SafetyFactor &other) {
             return other.block == factor.block;
           };

@@ -40,6 +40,25 @@ namespace Keyblock
     }
 
     Json
+    demand_as_json(const SupportDemand &demand)
+    {
+      Json json = {{"factor", demand.factor}};
+      if (demand.force == 0.)
+        json["outcome"] = "met";
+      else if (std::isinf(demand.force))
+        json["outcome"] = "out of reach";
+      else
+        {
+          json["outcome"]  = "support";
+          json["force"]    = demand.force;
+          json["pressure"] = demand.pressure;
+          for (const auto &[set, number] : demand.numbers)
+            json["bolts"][set] = number;
+        }
+      return json;
+    }
+
+    Json
     strength_reduction_as_json(const SafetyFactor &factor)
     {
       using Outcome = SafetyFactor::Outcome;
@@ -92,6 +111,8 @@ namespace Keyblock
                       {"mode", factor.limit_mode},
                       {"remark", factor.limit_remark}};
         put_limit_factor(factor.limit_factor, cheap);
+        if (factor.support_demand.factor > 0.)
+          cheap["support_demand"] = demand_as_json(factor.support_demand);
         limit.push_back(cheap);
         ratio.push_back({{"stage", factor.stage}});
         if (factor.stress_ratio > 0.)

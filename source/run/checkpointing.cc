@@ -51,14 +51,8 @@ namespace Keyblock
   Checkpointing<dim>::save()
   {
     finite_check.check_state();
-    StateFile file(model.communicator);
-    std::string entries        = model.scene.used_entries(),
-                mesh_signature = signature(model.split);
-    file.exchange("origin/entries", entries);
-    file.exchange("origin/mesh", mesh_signature);
-    put_state(file);
     const std::string name    = folder + "checkpoint.h5";
-    const std::string failure = file.write(name);
+    const std::string failure = write(name);
     last_saved                = MPI_Wtime();
     if (failure.empty())
       note_checkpoint(name);
@@ -74,6 +68,35 @@ namespace Keyblock
 
   template <int dim>
   void
+  Checkpointing<dim>::keep_stage()
+  {
+    const std::string name =
+      folder + name_of_kept_stage(record.present.index + 1);
+    const std::string failure = write(name);
+    if (!failure.empty() && model.communicator.is_root())
+      std::cerr << "Warning: The state '" << name << "' cannot be kept ("
+                << failure << ")." << std::endl;
+  }
+
+
+
+  template <int dim>
+  std::string
+  Checkpointing<dim>::write(const std::string &name)
+  {
+    StateFile file(model.communicator);
+    std::string entries        = model.scene.used_entries(),
+                mesh_signature = signature(model.split);
+    file.exchange("origin/entries", entries);
+    file.exchange("origin/mesh", mesh_signature);
+    put_state(file);
+    return file.write(name);
+  }
+
+
+
+  template <int dim>
+  void
   Checkpointing<dim>::put_state(StateFile &file)
   {
     exchange_progress(file);
@@ -81,7 +104,7 @@ namespace Keyblock
     StateExchange<dim> state(file, model.split, *model.numbering);
     Snapshot<dim> now = take_snapshot(model.parts());
     state.save("state/", now);
-    if (record.present.wants_factors)
+    if (record.has_before)
       state.save("before/", record.before);
   }
 
@@ -152,6 +175,7 @@ namespace Keyblock
     file.exchange("run/has_removed", record.present.has_removed);
     file.exchange("run/is_reported", record.present.is_reported);
     file.exchange("run/wants_factors", record.present.wants_factors);
+    file.exchange("run/has_before", record.has_before);
     file.exchange("run/slip_begin", record.present.slips.begin);
     file.exchange("run/slip_steps", record.present.slips.steps);
     file.exchange("run/slips", record.present.slips.slips);
@@ -225,7 +249,7 @@ namespace Keyblock
     exchange_progress(file);
     exchange_results(file);
     StateExchange<dim> state(file, model.split, *model.numbering);
-    if (record.present.wants_factors)
+    if (record.has_before)
       {
         state.restore("before/", model.parts());
         record.before = take_snapshot(model.parts());
@@ -250,13 +274,21 @@ namespace Keyblock
 
 
 
+  std::string
+  name_of_kept_stage(const unsigned int number)
+  {
+    return "stage_" + std::to_string(number) + ".h5";
+  }
+
+
+
   template <int dim>
   void
   check_origin(StateFile &file,
                const std::string &name,
-               const Scene<dim> &scene)
+               const Scene<dim> &scene,
+               const StateUse use)
   {
-    const std::string anew = ", or leave --restart out to start anew.";
     std::string entries;
     file.exchange("origin/entries", entries);
     unsigned int index = 0;
@@ -267,13 +299,30 @@ namespace Keyblock
                                            "Safety factor/Rank groups"};
     for (unsigned int s = index + 1; s < scene.stages.size(); ++s)
       changeable.push_back("Stages/" + scene.stages[s]->name + "/");
+    std::vector<std::string> fixed;
+    if (use == StateUse::factors)
+      {
+        changeable.insert(changeable.end(),
+                          {"Safety factor/", "Block theory/", "Study/"});
+        // by it stages take blocks away
+        fixed.emplace_back("Safety factor/Removal slip");
+      }
     const auto [entry, there, here] =
-      find_difference(entries, scene.used_entries(), changeable);
+      find_difference(entries, scene.used_entries(), changeable, fixed);
+    std::string remedy = "use the scene it was made with";
+    if (use == StateUse::factors)
+      remedy += "; --factors lets the other entries of 'Safety factor' be "
+                "changed, and those of 'Output'.";
+    else if (entry.compare(0, 14, "Safety factor/") == 0)
+      remedy += ", find factors alone by --factors instead of --restart, or "
+                "leave --restart out to start anew.";
+    else
+      remedy += ", or leave --restart out to start anew.";
     AssertThrow(entry.empty(),
                 InputError("The checkpoint '" + name +
                            "' is of another scene: the entry '" + entry +
-                           "' is " + there + " there and " + here +
-                           " here; use the scene it was made with" + anew));
+                           "' is " + there + " there and " + here + " here; " +
+                           remedy));
   }
 
 
@@ -296,10 +345,14 @@ namespace Keyblock
 
   template class Checkpointing<2>;
   template class Checkpointing<3>;
-  template void
-  check_origin(StateFile &, const std::string &, const Scene<2> &);
-  template void
-  check_origin(StateFile &, const std::string &, const Scene<3> &);
+  template void check_origin(StateFile &,
+                             const std::string &,
+                             const Scene<2> &,
+                             const StateUse);
+  template void check_origin(StateFile &,
+                             const std::string &,
+                             const Scene<3> &,
+                             const StateUse);
   template void
   check_mesh(StateFile &, const std::string &, const SplitMesh<2> &);
   template void

@@ -5,6 +5,7 @@
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/bolt_layout.h>
 #include <keyblock/blocks/liner_layout.h>
+#include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/run/probability_study.h>
 #include <keyblock/scene/check_parts.h>
 #include <keyblock/scene/solid.h>
@@ -164,6 +165,8 @@ namespace Keyblock
     result.split                  = split_mesh(mesh, result.blocks, sample);
     result.split.bolts            = lay_out_bolts(sample, result.split);
     result.split.liners           = lay_out_liners(sample, result.split);
+    result.warnings =
+      warnings_of_coarse_mesh(sample, result.split, result.blocks);
     return result;
   }
 
@@ -204,7 +207,8 @@ namespace Keyblock
                double(r.n_exposed),
                double(r.n_failed),
                r.failed_volume,
-               r.rigid_factor}};
+               r.rigid_factor,
+               double(r.is_coarse)}};
             std::copy(head.begin(), head.end(), row);
             std::copy(r.factors.begin(),
                       r.factors.end(),
@@ -233,6 +237,7 @@ namespace Keyblock
            static_cast<unsigned int>(row[4]),
            row[5],
            row[6],
+           row[7] > 0.,
            std::vector<double>(row + n_sample_figures, row + n)});
       }
   }
@@ -310,6 +315,8 @@ namespace Keyblock
                              geometry ? &geometry->blocks : nullptr,
                              values,
                              results,
+                             geometry ? geometry->warnings
+                                      : std::vector<std::string>(),
                              length_of_tunnel(),
                              MPI_Wtime() - start,
                              n_resumed);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/wave_resolution.h>
 #include <keyblock/safety/block_theory.h>
@@ -124,6 +125,9 @@ namespace Keyblock
         warnings.push_back(warning);
     for (const std::string &warning :
          warnings_of_short_waves(model.scene, model.split.mesh))
+      warnings.push_back(warning);
+    for (const std::string &warning :
+         warnings_of_coarse_mesh(model.scene, model.split, model.blocks))
       warnings.push_back(warning);
     return warnings;
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/run_estimate.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/simulation.h>
 #include <keyblock/run/stage_reporter.h>
@@ -22,6 +23,7 @@ namespace Keyblock
     : model(communicator, scene_file, overrides)
     , scene_file(scene_file)
     , overrides(overrides)
+    , has_chosen_folder(!output_folder.empty())
     , checkpoint(checkpoint)
     , wall_start(MPI_Wtime())
   {
@@ -96,7 +98,28 @@ namespace Keyblock
         std::ostream &out = model.out.get_stream();
         print_head(out);
         print_block_statics(out, model.scene, model.split, model.blocks);
-        out << "The scene is valid.\n";
+      }
+    print_estimate();
+    model.out << "The scene is valid." << std::endl;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::print_estimate()
+  {
+    try
+      {
+        const RunEstimate<dim> estimate(model, *parts);
+        if (model.out.is_active())
+          estimate.print(model.out.get_stream());
+      }
+    catch (const ComputationError &error)
+      {
+        model.out << "Warning: The first steps fail, so that time and memory "
+                     "of the run cannot be told: "
+                  << error.message << '\n';
       }
   }
 
@@ -113,7 +136,7 @@ namespace Keyblock
     if (!checkpoint.empty())
       {
         file = std::make_unique<StateFile>(model.communicator, checkpoint);
-        check_origin(*file, checkpoint, model.scene);
+        check_origin(*file, checkpoint, model.scene, StateUse::restart);
       }
     model.make_geometry();
     if (file)
@@ -220,8 +243,10 @@ namespace Keyblock
     progress.removal_stage.resize(model.blocks.blocks.size(), 0);
     progress.wants_factors =
       model.contact != nullptr && model.scene.safety.wants_stage(stage.name);
+    parts->record.has_before =
+      progress.wants_factors || model.scene.output.keeps_stages;
     parts->record.before =
-      progress.wants_factors ? take_snapshot(model.parts()) : Snapshot<dim>();
+      parts->record.has_before ? take_snapshot(model.parts()) : Snapshot<dim>();
     parts->output.stage = progress.number();
     stages->begin(progress);
     const std::string text = mass_scaling_of_stage();
@@ -255,6 +280,8 @@ namespace Keyblock
                       stage,
                       record.stage_reports.back());
         present.is_reported = true;
+        if (model.scene.output.keeps_stages)
+          parts->checkpointing.keep_stage();
         parts->checkpointing.save_if_due();
       }
     if (present.wants_factors && group_study)
@@ -312,6 +339,7 @@ namespace Keyblock
                                 record.safety_factors,
                                 record.present.removal_stage,
                                 model.geostress.get());
+    parts->output.write_tables(record.present.removal_stage);
     parts->finite_check.check_history();
     if (report.capped_groups > 0)
       model.out << "Warning: " << report.capped_groups << " contact groups of "

@@ -110,9 +110,10 @@ namespace Keyblock
              found.factor.begin();
     };
     SampleResult result;
-    result.factor = result.rigid_factor =
+    result.is_coarse = !g.warnings.empty();
+    result.factor    = result.rigid_factor =
       all.empty() ? std::numeric_limits<double>::infinity()
-                  : found.factor[least()];
+                     : found.factor[least()];
     if (may_run && scene.study.level == StudyLevel::full &&
         result.rigid_factor < sample.safety.critical_factor)
       run_sample(index, found);

@@ -30,11 +30,14 @@ namespace Keyblock
       return {{"value", p.value}, {"lower", p.lower}, {"upper", p.upper}};
     }
 
-    Json
-    statistics_as_json(const std::vector<double> &values)
+    /** Put statistics of @p values, if there are any, under @p key. */
+    void
+    put_statistics(const std::vector<double> &values,
+                   const std::string &key,
+                   Json &owner)
     {
       if (values.empty())
-        return nullptr;
+        return;
       const SampleStatistics statistics(values);
       Json json = {{"samples", values.size()},
                    {"mean", statistics.mean},
@@ -53,7 +56,7 @@ namespace Keyblock
       for (const double x : values)
         ++counts[std::min<unsigned int>((x - low) / width, n_bins - 1)];
       json["histogram"] = {{"from", low}, {"width", width}, {"counts", counts}};
-      return json;
+      owner[key]        = json;
     }
 
     std::ostream &
@@ -70,6 +73,7 @@ namespace Keyblock
                                 const Blocks<dim> *blocks,
                                 const std::vector<std::vector<double>> &values,
                                 const std::vector<SampleResult> &results,
+                                const std::vector<std::string> &mesh_warnings,
                                 const double length,
                                 const double seconds,
                                 const unsigned int n_resumed)
@@ -77,6 +81,7 @@ namespace Keyblock
     , blocks(blocks)
     , values(values)
     , results(results)
+    , mesh_warnings(mesh_warnings)
     , length(length)
     , seconds(seconds)
     , n_resumed(n_resumed)
@@ -135,6 +140,28 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<std::string>
+  StudyReport<dim>::warnings() const
+  {
+    const auto n = std::count_if(results.begin(),
+                                 results.end(),
+                                 [](const SampleResult &result) {
+                                   return result.is_coarse;
+                                 });
+    if (!mesh_warnings.empty() || n == 0)
+      return mesh_warnings;
+    return {"In " + std::to_string(n) + " of " +
+            std::to_string(results.size()) +
+            " samples the mesh has moved faces of blocks off their joints by "
+            "more than half a cell, or changed volumes by more than 5 %; limit "
+            "equilibrium takes faces as plane and, where they are known, exact "
+            "volumes; lower 'Mesh/Size' or 'Mesh/Size at excavation', or set "
+            "'Mesh/Cells across blocks'."};
+  }
+
+
+
+  template <int dim>
   std::vector<double>
   StudyReport<dim>::finite_factors() const
   {
@@ -165,6 +192,8 @@ namespace Keyblock
   StudyReport<dim>::print(std::ostream &out) const
   {
     const unsigned int n_new = results.size() - n_resumed;
+    for (const std::string &warning : warnings())
+      out << "Warning: " << warning << '\n';
     out << std::setprecision(4) << "Study   " << results.size()
         << (scene.study.level == StudyLevel::full
               ? " samples, those with critical blocks run, "
@@ -232,15 +261,16 @@ namespace Keyblock
         root["failed_blocks_per_metre"] = mean_failed / length;
         root["failed_volume_per_metre"] = mean_volume / length;
       }
-    root["least_factor"] = statistics_as_json(finite_factors());
+    put_statistics(finite_factors(), "least_factor", root);
     root["immovable_share"] =
       1. - finite_factors().size() / double(results.size());
     std::vector<double> volumes;
     for (const SampleResult &result : results)
       if (result.n_failed > 0)
         volumes.push_back(result.failed_volume);
-    root["failed_volume"] = statistics_as_json(volumes);
-    root["variables"]     = Json::array();
+    put_statistics(volumes, "failed_volume", root);
+    root["warnings"]  = warnings();
+    root["variables"] = Json::array();
     for (unsigned int v = 0; v < values.size(); ++v)
       {
         const SampleStatistics drawn(values[v]);
@@ -272,11 +302,11 @@ namespace Keyblock
             for (const SampleResult &result : results)
               if (std::isfinite(result.factors[b]))
                 factors.push_back(result.factors[b]);
-            root["blocks"].push_back(
-              {{"id", blocks->blocks[b].id},
-               {"volume", blocks->blocks[b].volume},
-               {"probability", as_json(probability_of_block(b))},
-               {"factor", statistics_as_json(factors)}});
+            Json block = {{"id", blocks->blocks[b].id},
+                          {"volume", blocks->blocks[b].volume},
+                          {"probability", as_json(probability_of_block(b))}};
+            put_statistics(factors, "factor", block);
+            root["blocks"].push_back(block);
           }
       }
     std::ofstream out(file_name);

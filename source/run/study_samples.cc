@@ -70,7 +70,7 @@ namespace Keyblock
       text += "," + variable->name;
     text +=
       ",factor,block,stage,exposed_blocks,failed_blocks,failed_volume,rigid_"
-      "factor";
+      "factor,coarse_mesh";
     if (geometry)
       for (const auto &block : geometry->blocks.blocks)
         text += ",factor_" + std::to_string(block.id);
@@ -128,6 +128,7 @@ namespace Keyblock
          static_cast<unsigned int>(rows[i + 4]),
          rows[i + 5],
          rows[i + 6],
+         rows[i + 7] > 0.,
          {rows.begin() + i + n_sample_figures, rows.begin() + i + n}});
   }
 
@@ -161,7 +162,8 @@ namespace Keyblock
             if (r.stage > 0)
               out << (r.stage == 1 ? "start" : scene.stages[r.stage - 2]->name);
             out << ',' << r.n_exposed << ',' << r.n_failed << ','
-                << exact_text(r.failed_volume) << ',' << number(r.rigid_factor);
+                << exact_text(r.failed_volume) << ',' << number(r.rigid_factor)
+                << ',' << r.is_coarse;
             for (const double factor : r.factors)
               out << ',' << number(factor);
             out << '\n';

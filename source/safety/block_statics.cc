@@ -32,6 +32,7 @@ namespace Keyblock
         , around(statics.around)
         , limit(statics.limit)
         , support(statics.support)
+        , demand(statics.demand)
         , remarks(statics.remarks)
       {}
 
@@ -65,13 +66,9 @@ namespace Keyblock
         if (!support.is_empty())
           add() << "with " << support.describe() << ", "
                 << name_of(scene.safety.bolt_convention);
-        if (scene.safety.wanted == 0.)
-          return;
-        const SupportDemand demand = find_demand(
-          ground, free, index, around, support, scene.safety.wanted);
         if (demand.force == 0.)
           return;
-        add() << "a factor of " << scene.safety.wanted;
+        add() << "a factor of " << demand.factor;
         if (!std::isfinite(demand.force))
           {
             last << " is in reach of no pressure on its free faces";
@@ -272,6 +269,7 @@ namespace Keyblock
       const BlockSurroundings<dim> &around;
       const LimitEquilibrium<dim> &limit;
       const BlockSupport<dim> &support;
+      const SupportDemand &demand;
       std::vector<std::string> &remarks;
       std::ostringstream last;
     };
@@ -297,6 +295,13 @@ namespace Keyblock
                               statics.support,
                               ground.scene.safety.bolt_convention ==
                                 BoltConvention::passive);
+    if (ground.scene.safety.wanted > 0.)
+      statics.demand = find_demand(ground,
+                                   free,
+                                   block,
+                                   statics.around,
+                                   statics.support,
+                                   ground.scene.safety.wanted);
     const double factor_of_sliding      = statics.limit.factor;
     std::vector<PointForce<dim>> forces = loads.all();
     for (const auto &pull : statics.support.pulls)

@@ -243,6 +243,7 @@ namespace Keyblock
       area += ground.split.mesh.face_area_vector(free.faces[i].cell,
                                                  free.faces[i].face);
     SupportDemand demand;
+    demand.factor = factor;
     const bool is_passive =
       ground.scene.safety.bolt_convention == BoltConvention::passive;
     const Tensor<1, dim> load = around.loads.without_water();

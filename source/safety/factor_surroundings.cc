@@ -57,9 +57,10 @@ namespace Keyblock
     const Ground<dim> ground        = run.conditions.active_cells.ground();
     const BlockStatics<dim> statics = judge_block<dim>(
       ground, FreeFaces<dim>(ground), blocks, block, run.step.time);
-    result.limit_mode   = statics.mode();
-    result.limit_remark = statics.remark();
-    result.limit_factor = statics.limit.factor;
+    result.limit_mode     = statics.mode();
+    result.limit_remark   = statics.remark();
+    result.limit_factor   = statics.limit.factor;
+    result.support_demand = statics.demand;
     result.stress_ratio =
       stress_ratio<dim>(scene,
                         statics.around.faces,

@@ -23,6 +23,10 @@ namespace Keyblock
       "restart",
       options::value<std::string>(),
       "checkpoint file to continue from, with the same scene")(
+      "factors",
+      options::value<std::string>(),
+      "folder of a run with Output/Keep stages, or a file of a state: find the "
+      "safety factors that the scene asks for now; no steps of stages")(
       "output", options::value<std::string>(), "output folder")(
       "print-parameters",
       "all entries of a scene, as Markdown")("help", "this text")("version",
@@ -63,12 +67,19 @@ namespace Keyblock
       output = values["output"].as<std::string>();
     if (values.count("restart"))
       restart = values["restart"].as<std::string>();
+    if (values.count("factors"))
+      factors = values["factors"].as<std::string>();
     is_validation = values.count("validate") > 0;
     is_study      = values.count("study") > 0;
     AssertThrow(!is_study || (!is_validation && restart.empty()),
                 InputError("The command line has --study together with "
                            "--validate or --restart; name one of them (a study "
                            "that was stopped goes on by itself)."));
+    AssertThrow(values.count("factors") == 0 ||
+                  (!is_validation && !is_study && restart.empty()),
+                InputError("The command line has --factors together with "
+                           "--validate, --study or --restart; name one of "
+                           "them."));
     const auto scenes = values.count("scene")
                           ? values["scene"].as<std::vector<std::string>>()
                           : std::vector<std::string>();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What short entries stand for: the section of a tunnel or cavern, and ground
 // whose state follows from its depth.
+#include <deal.II/base/parameter_handler.h>
+
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
 #include <keyblock/scene/scene.h>
@@ -17,6 +19,50 @@ namespace Keyblock
     constexpr double margin_of_domain = 4.;
 
     using Polygon = std::vector<Point<2>>;
+
+    /** Numbers as a list of an entry, exactly. */
+    template <typename Numbers>
+    std::string
+    list_text(const Numbers &numbers, const std::size_t n)
+    {
+      std::string text;
+      for (std::size_t i = 0; i < n; ++i)
+        text += (i ? ", " : "") + exact_text(numbers[i]);
+      return text;
+    }
+
+    /** Put what was derived into the entries that used.prm shows. */
+    void
+    note(ParameterHandler &prm,
+         const std::string &section,
+         const std::vector<std::pair<std::string, std::string>> &entries)
+    {
+      prm.enter_subsection(section);
+      for (const auto &[entry, value] : entries)
+        prm.set(entry, value);
+      prm.leave_subsection();
+    }
+
+    /** The same of named things: the list of names, and their subsections. */
+    template <typename Items>
+    void
+    note_items(ParameterHandler &prm,
+               const std::string &section,
+               const Items &items)
+    {
+      std::string names;
+      for (const auto &item : items)
+        names += (names.empty() ? "" : ", ") + item->name;
+      note(prm, section, {{"Names", names}});
+      prm.enter_subsection(section);
+      for (const auto &item : items)
+        {
+          prm.enter_subsection(item->name);
+          item->declare(prm);
+          prm.leave_subsection();
+        }
+      prm.leave_subsection();
+    }
 
     /** Corners of an excavation's section, counterclockwise from the left end
      * of the floor. */
@@ -173,7 +219,13 @@ namespace Keyblock
     if (profiles.empty())
       return;
     if (domain.shape == DomainShape::box && domain.size.empty())
-      surround(domain, profiles);
+      {
+        surround(domain, profiles);
+        note(*prm,
+             "Domain",
+             {{"Corner", list_text(domain.corner, dim)},
+              {"Size", list_text(domain.size, dim)}});
+      }
     std::vector<std::unique_ptr<Excavation<dim>>> expanded;
     for (auto &e : excavations)
       {
@@ -228,29 +280,35 @@ namespace Keyblock
               " m above elevation 0; lower the domain, or raise the depth.");
     const std::string none_across = dim == 2 ? "0; " : "0; 0; ";
     if (initial_state.gravity.empty())
-      initial_state.gravity = none_across + "-" + exact_text(standard_gravity);
+      note(*prm,
+           "Initial state",
+           {{"Gravity", none_across + "-" + exact_text(standard_gravity)}});
     if (initial_state.stress.empty() && !initial_state.has_depth_stress() &&
         initial_state.measured_points.empty())
-      {
-        initial_state.surface_elevation        = ground.depth;
-        initial_state.vertical_stress_gradient = standard_gravity * density;
-        initial_state.lateral_ratios           = ground.k0;
-        initial_state.lateral_azimuth          = ground.azimuth;
-      }
+      note(*prm,
+           "Initial state",
+           {{"Surface elevation", exact_text(ground.depth)},
+            {"Vertical stress gradient",
+             exact_text(standard_gravity * density)},
+            {"Lateral ratios", list_text(ground.k0, ground.k0.size())},
+            {"Lateral azimuth", exact_text(ground.azimuth)}});
     if (supports.empty())
-      for (const bool is_bottom : {true, false})
-        {
-          auto support        = std::make_unique<Support<dim>>();
-          support->name       = is_bottom ? "ground below" : "ground beside";
-          support->directions = SupportDirections::normal;
-          support->boundaries = {"left", "right"};
-          if (dim == 3)
-            support->boundaries.insert(support->boundaries.end(),
-                                       {"front", "back"});
-          if (is_bottom)
-            support->boundaries = {"bottom"};
-          supports.push_back(std::move(support));
-        }
+      {
+        for (const bool is_bottom : {true, false})
+          {
+            auto support        = std::make_unique<Support<dim>>();
+            support->name       = is_bottom ? "ground below" : "ground beside";
+            support->directions = SupportDirections::normal;
+            support->boundaries = {"left", "right"};
+            if (dim == 3)
+              support->boundaries.insert(support->boundaries.end(),
+                                         {"front", "back"});
+            if (is_bottom)
+              support->boundaries = {"bottom"};
+            supports.push_back(std::move(support));
+          }
+        note_items(*prm, "Supports", supports);
+      }
     if (tractions.empty() && top < ground.depth)
       {
         auto overburden        = std::make_unique<Traction<dim>>();
@@ -260,6 +318,7 @@ namespace Keyblock
           none_across +
           exact_text(-standard_gravity * density * (ground.depth - top));
         tractions.push_back(std::move(overburden));
+        note_items(*prm, "Tractions", tractions);
       }
   }
 

@@ -99,6 +99,11 @@ namespace Keyblock
                       "Wall time between checkpoints, from which --restart "
                       "continues [s]; 0: only when a signal stops the run.",
                       Double(0.));
+    prm.add_parameter("Keep stages",
+                      keeps_stages,
+                      "Whether the state at the end of each stage is kept as "
+                      "stage_N.h5 (N from 1), from which --factors finds other "
+                      "safety factors without a step of the stages.");
   }
 
   template struct Monitor<2>;

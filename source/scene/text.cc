@@ -2,6 +2,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/scene/dropped_names.h>
 #include <keyblock/scene/old_names.h>
 #include <keyblock/scene/text.h>
 
@@ -332,6 +333,7 @@ namespace Keyblock
     set_joints_apart(*this);
     for (const std::string &assignment : overrides)
       add_override(assignment, *this);
+    drop_names_taken_out(*this);
   }
 
 

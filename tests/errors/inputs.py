@@ -377,6 +377,127 @@ def some_tension():
           "a tension of up to 7e+06 Pa")
 
 
+NETWORK = PRM / "tutorial" / "joint_network.prm"
+
+
+def names_taken_out():
+    # the scene has the subsections of names that --set takes out of its lists
+    for names, is_there in (("", False), ("faults", False), ("bedding", True)):
+        done = validate(NETWORK, [f"Joint sets/Names={names}",
+                                  "Monitors/Names="])
+        assert done.returncode == 0, done.stderr
+        assert (b"bedding.2" in done.stdout) == is_there, names
+    done = validate(INCLINE, ["Joints/Names=", "Check/Closed form=none",
+                              "Check/Joint=",
+                              "Monitors/Names=block"])
+    assert done.returncode == 0 and b"0 pairs" in done.stdout, done.stderr
+    # a name that neither list has is still an error
+    text = NETWORK.read_text(encoding="utf-8")
+    pathlib.Path("s.prm").write_text(
+        text.replace("subsection faults", "subsection falts").replace(
+            "set File = joint_network.csv", f"set File = {NETWORK.parent}/joint_network.csv"),
+        encoding="utf-8")
+    refused(validate("s.prm", ["Joint sets/Names="]),
+            "there is a subsection 'Joint sets/falts'")
+
+
+def derived_entries():
+    """What follows from Ground and sections stands in used.prm, exactly."""
+    scene = PRM / "verification" / "cavern_at_depth.prm"
+    few = ["--set", "Output/Write VTU=false"]
+    assert run([scene, "--output", "a", *few]).returncode == 0
+    used = pathlib.Path("a/used.prm").read_text(encoding="utf-8")
+    for entry in ("Names    = ground below, ground beside",
+                  "Names = overburden", "subsection ground below"):
+        words = entry.replace("    ", " ")
+        assert words in " ".join(used.split()), entry
+    history = pathlib.Path("a/history.csv").read_bytes()
+    for folder, more in (("b", []), ("c", ["--set", "Ground/Depth=0"])):
+        done = run(["a/used.prm", "--output", folder, *few, *more])
+        assert done.returncode == 0, done.stderr
+        assert pathlib.Path(folder, "history.csv").read_bytes() == history, (
+            f"other history of used.prm with {more}")
+    again = pathlib.Path("b/used.prm").read_text(encoding="utf-8")
+    values = [[line.split("#")[0].split() for line in text.splitlines()
+               if line.split("#")[0].strip()] for text in (used, again)]
+    assert values[0] == values[1], "used.prm of used.prm has other values"
+
+
+COARSE_WEDGE = """set Dimension = 3
+subsection Domain
+  set Corner = -20, -20, -20
+  set Size = 40, 40, 40
+  set Truncated boundaries = all
+end
+subsection Mesh
+  set Generator = gmsh
+  set Size = 6
+  set Size at excavation = 1
+  set Grading distance = 12
+end
+subsection Excavations
+  set Names = tunnel
+  subsection tunnel
+    set Shape = box
+    set Corner = -3, -10, -3
+    set Size = 6, 20, 6
+    set Stage = dig
+  end
+end
+subsection Joints
+  set Names = J1, J2, J3
+  subsection J1
+    set Point = -1.2, 0, 6
+    set Dip = 55
+    set Dip direction = 30
+  end
+  subsection J2
+    set Point = -1.2, 0, 6
+    set Dip = 60
+    set Dip direction = 150
+  end
+  subsection J3
+    set Point = -1.2, 0, 6
+    set Dip = 65
+    set Dip direction = 270
+  end
+end
+subsection Materials
+  set Names = rock
+end
+subsection Stages
+  set Names = dig
+  subsection dig
+    set Kind = quasi-static
+  end
+end
+"""
+
+
+def coarse_mesh():
+    """Planes bound 15.80 m3, by the corners where they meet; the mesh more."""
+    pathlib.Path("s.prm").write_text(COARSE_WEDGE, encoding="utf-8")
+    done = validate("s.prm")
+    assert done.returncode == 0, done.stderr
+    text = done.stdout.decode("utf-8")
+    warnings = [line for line in text.splitlines()
+                if line.startswith("Warning: The mesh ")]
+    assert any("instead of 15.8 m3" in line for line in warnings), warnings
+    # a study says it, too, on its one mesh
+    study = ["Study/Names=phi", "Study/phi/Entry=Joints/J1/Friction angle",
+             "Study/phi/Distribution=uniform", "Study/phi/Minimum=20",
+             "Study/phi/Maximum=40", "Study/Samples=4"]
+    done = run(["--study", "s.prm", "--output", "o"]
+               + [word for entry in study for word in ("--set", entry)])
+    assert done.returncode == 0, done.stderr
+    results = json.loads(pathlib.Path("o/study.json").read_text("utf-8"))
+    assert any("instead of 15.8 m3" in text for text in results["warnings"])
+    # joints in their planes are not warned of
+    done = validate("s.prm", ["Mesh/Snap=0"])
+    assert done.returncode == 0, done.stderr
+    assert b"Warning: The mesh " not in done.stdout, done.stdout
+
+
 def main():
     case = globals()[sys.argv[3]]
     with tempfile.TemporaryDirectory() as folder:

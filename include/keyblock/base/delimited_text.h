@@ -40,6 +40,10 @@ namespace Keyblock
    */
   DelimitedText read_delimited_text(const std::string &file_name,
                                     const std::string &entry);
+
+  /** A line of a table as RFC 4180 has it: commas between @p fields, quotes
+   * where they are needed, CR LF at the end. */
+  std::string csv_line(const std::vector<std::string> &fields);
 } // namespace Keyblock
 
 #endif

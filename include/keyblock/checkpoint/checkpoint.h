@@ -83,12 +83,13 @@ namespace Keyblock
   /**
    * The first entry, like `Joints/base/Dip`, in which two scenes differ
    * (Scene::used_entries), and its values in both; entries that begin with one
-   * of @p changeable do not count. Empty: none.
+   * of @p changeable do not count, unless they are in @p fixed. Empty: none.
    */
   std::array<std::string, 3>
   find_difference(const std::string &saved,
                   const std::string &present,
-                  const std::vector<std::string> &changeable);
+                  const std::vector<std::string> &changeable,
+                  const std::vector<std::string> &fixed);
 } // namespace Keyblock
 
 #endif

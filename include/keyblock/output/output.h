@@ -104,6 +104,10 @@ namespace Keyblock
                        const std::vector<unsigned int> &removal_stage,
                        const Geostress *geostress) const;
 
+    /** Write blocks.csv, a line for each finite block with its least factor,
+     * and factors.csv, one for each factor (collective; RFC 4180). */
+    void write_tables(const std::vector<unsigned int> &removal_stage) const;
+
     /** The files in solution.pvd: rock, interface, rock, ... */
     std::vector<VtuRecord> records;
 

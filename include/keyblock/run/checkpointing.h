@@ -32,6 +32,9 @@ namespace Keyblock
     void save_if_due();
     void save_and_stop(const StopRequest &request);
 
+    /** Keep the present state, the end of a stage (name_of_kept_stage()). */
+    void keep_stage();
+
     /** Go on from @p file, called @p name. */
     void resume(StateFile &file, const std::string &name);
 
@@ -45,6 +48,9 @@ namespace Keyblock
 
   private:
     void save();
+
+    /** Write the run to the file @p name; why that failed, or empty. */
+    std::string write(const std::string &name);
 
     /** name_last_checkpoint(), or that there is none. */
     std::string say_where_to_continue() const;
@@ -64,12 +70,24 @@ namespace Keyblock
     double last_saved = 0.; ///< wall time of the last checkpoint [s]
   };
 
+  /** File in the output folder with the end of a stage, @p number from 1. */
+  std::string name_of_kept_stage(const unsigned int number);
+
+  /** What a state is read for: to go on, or to find factors in it. */
+  enum class StateUse
+  {
+    restart,
+    factors
+  };
+
   /** Throw InputError unless a @p file called @p name was written by a run of
-   * the same scene, as far as it had come. */
+   * the same scene, as far as it had come, but for entries that do not matter
+   * to its @p use. */
   template <int dim>
   void check_origin(StateFile &file,
                     const std::string &name,
-                    const Scene<dim> &scene);
+                    const Scene<dim> &scene,
+                    const StateUse use);
 
   /** The same for the mesh. */
   template <int dim>

@@ -42,7 +42,8 @@ namespace Keyblock
     {
       SplitMesh<dim> split;
       Blocks<dim> blocks;
-      bool shares_faces = false; ///< joints with each other
+      bool shares_faces = false;         ///< joints with each other
+      std::vector<std::string> warnings; ///< warnings_of_coarse_mesh()
     };
 
     /** Values of the variables in all samples: by variable. */

@@ -42,8 +42,9 @@ namespace Keyblock
   struct RunRecord
   {
     StageProgress<dim> present;
-    Snapshot<dim> before; ///< the state the present stage began with, if it
-                          ///< wants safety factors
+    Snapshot<dim> before;    ///< the state the present stage began with, if it
+                             ///< wants safety factors or is kept
+    bool has_before = false; ///< whether that is there
     std::vector<StageReport> stage_reports;
     std::vector<SafetyFactor> safety_factors;
     RunReport report;

@@ -2,6 +2,7 @@
 #ifndef keyblock_run_simulation_h
 #define keyblock_run_simulation_h
 
+#include <keyblock/run/kept_states.h>
 #include <keyblock/run/rank_group_study.h>
 #include <keyblock/run/stage_recorder.h>
 #include <keyblock/run/stage_runner.h>
@@ -21,12 +22,18 @@ namespace Keyblock
                const std::string &output_folder,
                const std::string &checkpoint = "");
 
-    /** Mesh, blocks and set-up, without time steps and without output. */
+    /** Mesh, blocks and set-up without output, and what a run will take, by a
+     * second of its first steps. */
     void validate();
 
     /** From the start, or from the checkpoint, to the summary. A signal lets it
      * write a checkpoint and throw StopRequest. */
     void run();
+
+    /** Safety factors that the scene asks for now, of states that a run of it
+     * has kept; no stage is stepped.
+     * @param source folder of that run, or file of a state */
+    void find_factors(const std::string &source);
 
     /** What the run works on, for tests and tools that look at the result. */
     const Model<dim> &
@@ -60,6 +67,9 @@ namespace Keyblock
     void set_up();
     void print_head(std::ostream &out);
 
+    /** Time and memory of a run (collective). */
+    void print_estimate();
+
     /** What mass scaling does in the present stage, in words. */
     std::string mass_scaling_of_stage() const;
     void open_output();
@@ -68,9 +78,13 @@ namespace Keyblock
     void complete_stage();
     void finish();
 
+    /** Factors of @p states, in the order of stages. */
+    void find_factors(const std::vector<KeptState> &states);
+
     Model<dim> model;
     std::string scene_file;
     std::vector<std::string> overrides; ///< of its entries
+    bool has_chosen_folder;             ///< for output, by its user
     std::string folder;                 ///< of output, with '/' at its end
     std::string command;                ///< that starts this run anew
     std::string checkpoint;             ///< to continue from, or empty

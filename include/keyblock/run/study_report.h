@@ -21,13 +21,14 @@ namespace Keyblock
     unsigned int n_failed  = 0;  ///< of those, below the threshold
     double failed_volume   = 0.; ///< [m^dim]
     double rigid_factor    = 0.; ///< the least by limit equilibrium alone
+    bool is_coarse         = false; ///< warnings_of_coarse_mesh() has some
 
     /** Least factor by block, where all samples have the same blocks. */
     std::vector<double> factors;
   };
 
   /** Numbers of a sample that do not belong to single blocks. */
-  constexpr unsigned int n_sample_figures = 7;
+  constexpr unsigned int n_sample_figures = 8;
 
   /** The results of a study, for people and as JSON. */
   template <int dim>
@@ -37,6 +38,7 @@ namespace Keyblock
     /**
      * @param blocks of all samples; null: each has its own
      * @param values of the variables by variable and sample
+     * @param mesh_warnings of the mesh that all samples share, if they do
      * @param length of tunnel that a sample stands for [m]; 0: not known
      * @param seconds that the samples took, but for the @p n_resumed first
      */
@@ -44,6 +46,7 @@ namespace Keyblock
                 const Blocks<dim> *blocks,
                 const std::vector<std::vector<double>> &values,
                 const std::vector<SampleResult> &results,
+                const std::vector<std::string> &mesh_warnings,
                 const double length,
                 const double seconds,
                 const unsigned int n_resumed);
@@ -64,6 +67,9 @@ namespace Keyblock
     /** Probability that a block (by index) fails, over all samples. */
     ProbabilityEstimate probability_of_block(const unsigned int block) const;
 
+    /** What the mesh, or those of samples, have changed of blocks. */
+    std::vector<std::string> warnings() const;
+
     /** Finite least factors of the samples. */
     std::vector<double> finite_factors() const;
 
@@ -75,6 +81,7 @@ namespace Keyblock
     const Blocks<dim> *blocks;
     const std::vector<std::vector<double>> &values;
     const std::vector<SampleResult> &results;
+    std::vector<std::string> mesh_warnings;
     double length, seconds;
     unsigned int n_resumed;
     double mean_failed = 0., mean_volume = 0.; ///< per sample

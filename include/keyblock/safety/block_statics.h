@@ -16,6 +16,7 @@ namespace Keyblock
     BlockSurroundings<dim> around;
     BlockSupport<dim> support;
     LimitEquilibrium<dim> limit;
+    SupportDemand demand; ///< of SafetySettings::wanted
 
     /** What is special, and what was left out. */
     std::vector<std::string> remarks;

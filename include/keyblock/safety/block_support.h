@@ -4,6 +4,7 @@
 
 #include <keyblock/rock/bolt_chain.h>
 #include <keyblock/safety/block_faces.h>
+#include <keyblock/safety/support_demand.h>
 
 namespace Keyblock
 {
@@ -75,16 +76,6 @@ namespace Keyblock
                                            const Tensor<1, dim> &load,
                                            const BlockSupport<dim> &support,
                                            const bool is_passive);
-
-  /** What a wanted factor of a block asks for besides the support it has. */
-  struct SupportDemand
-  {
-    double force    = 0.; ///< against the free faces; infinite: none does [N]
-    double pressure = 0.; ///< the same, uniform on the free faces [Pa]
-
-    /** The same by bolts of the scene's sets normal to the free faces. */
-    std::vector<std::pair<std::string, unsigned int>> numbers;
-  };
 
   /** Demand of @p block (index) for a @p factor; nothing if it has that. */
   template <int dim>

@@ -3,6 +3,7 @@
 #define keyblock_safety_safety_factor_h
 
 #include <keyblock/safety/strength_trial.h>
+#include <keyblock/safety/support_demand.h>
 
 namespace Keyblock
 {
@@ -41,7 +42,8 @@ namespace Keyblock
     // the two cheap answers
     std::string limit_mode, limit_remark;
     double limit_factor = 0.;
-    double stress_ratio = 0.; ///< on the faces it slides on; 0: none
+    double stress_ratio = 0.;     ///< on the faces it slides on; 0: none
+    SupportDemand support_demand; ///< by limit equilibrium
 
     double
     value() const

@@ -17,6 +17,7 @@ namespace Keyblock
     std::vector<std::string> overrides;
     std::string output;
     std::string restart; ///< checkpoint to continue from
+    std::string factors; ///< folder or file of states to find factors from
     bool is_validation = false;
     bool is_study      = false; ///< of probabilities, in place of a run
 

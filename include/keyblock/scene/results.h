@@ -66,6 +66,7 @@ namespace Keyblock
     unsigned int vtu_count        = 5;
     bool write_vtu                = true;
     double checkpoint_interval    = 600.;
+    bool keeps_stages             = false; ///< states at their ends
 
     void declare(ParameterHandler &prm);
   };

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_scene_dropped_names_h
+#define keyblock_scene_dropped_names_h
+
+#include <keyblock/scene/text.h>
+
+namespace Keyblock
+{
+  /**
+   * Leave out the subsections of names that the file's list, `Names`, has and
+   * an override takes out of it, as --set "Joint sets/Names=" does: the file
+   * need not be changed. Subsections that the file's own list does not have
+   * stay, so that a wrong name is found.
+   */
+  void drop_names_taken_out(SceneText &scene);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/blocks/mesh_fidelity.h>
+
+#include <keyblock/base/number_text.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Distance of a face from its joint's plane over the size of its cell
+     * that is not warned of [-]. */
+    constexpr double largest_shift = 0.5;
+
+    /** Difference of a block's volume from the exact one that is not warned
+     * of [-]. */
+    constexpr double largest_difference = 0.05;
+
+    constexpr unsigned int most_names = 5;
+
+    /** Where the mesh has a face of a block off its joint. */
+    template <int dim>
+    struct Shift
+    {
+      double distance    = 0.; ///< [m]
+      double in_cells    = 0.; ///< over the size of the cell [-]
+      unsigned int joint = none;
+      Point<dim> place;
+    };
+
+    /** Names, of which only the first few are listed. */
+    std::string
+    list_some(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (unsigned int i = 0; i < names.size() && i < most_names; ++i)
+        text += (i ? ", " : "") + names[i];
+      return text + (names.size() > most_names ? ", ..." : "");
+    }
+
+    /** The largest shift of each joint, over the size of the cells, on faces
+     * of blocks that can move. */
+    template <int dim>
+    std::vector<Shift<dim>>
+    measure_shifts(const Scene<dim> &scene,
+                   const SplitMesh<dim> &split,
+                   const Blocks<dim> &blocks)
+    {
+      const Mesh<dim> &mesh = split.mesh;
+      std::vector<Shift<dim>> shifts(scene.joints.size());
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        {
+          const unsigned int b = split.block_of_cell[c];
+          // joints of rock that stays welded do not move
+          if (b == none || (blocks.blocks[b].is_infinite &&
+                            scene.contact.weld_infinite_blocks))
+            continue;
+          const double size = std::pow(mesh.cell_volume(c), 1. / dim);
+          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+            {
+              const unsigned int j = mesh.joint[c][f];
+              if (j == none)
+                continue;
+              for (const unsigned int v : mesh.face_vertices(c, f))
+                {
+                  const double distance =
+                    std::abs(scene.joints[j]->distance(mesh.vertices[v]));
+                  if (distance > shifts[j].in_cells * size)
+                    shifts[j] = {distance,
+                                 distance / size,
+                                 j,
+                                 mesh.vertices[v]};
+                }
+            }
+        }
+      return shifts;
+    }
+
+    template <int dim>
+    std::string
+    warning_of_shifts(const Scene<dim> &scene,
+                      const std::vector<Shift<dim>> &shifts)
+    {
+      Shift<dim> most;
+      std::vector<std::string> names;
+      for (const Shift<dim> &shift : shifts)
+        if (shift.in_cells > largest_shift)
+          {
+            names.push_back(scene.joints[shift.joint]->name);
+            if (shift.in_cells > most.in_cells)
+              most = shift;
+          }
+      if (names.empty())
+        return "";
+      std::string place;
+      for (unsigned int d = 0; d < dim; ++d)
+        place += (d ? ", " : "") + text_of(most.place[d], 3);
+      return "The mesh has moved faces of blocks off the planes of their "
+             "joints (" +
+             list_some(names) + "), the most on " +
+             scene.joints[most.joint]->name + ", by " +
+             text_of(most.distance, 3) + " m at (" + place + "), " +
+             text_of(most.in_cells, 2) +
+             " of the size of the cell there; lower 'Mesh/Size' or 'Mesh/Size "
+             "at excavation', or set 'Mesh/Cells across blocks'.";
+    }
+
+    template <int dim>
+    std::string
+    warning_of_volumes(const Blocks<dim> &blocks)
+    {
+      const Block<dim> *most = nullptr;
+      double largest         = largest_difference;
+      std::vector<std::string> ids;
+      for (const Block<dim> &block : blocks.blocks)
+        {
+          if (block.is_infinite || !block.exact.is_known)
+            continue;
+          const double difference =
+            std::abs(block.volume / block.exact.volume - 1.);
+          if (difference <= largest_difference)
+            continue;
+          ids.push_back(std::to_string(block.id));
+          if (difference > largest)
+            {
+              largest = difference;
+              most    = &block;
+            }
+        }
+      if (ids.empty())
+        return "";
+      const std::string unit = dim == 2 ? " m2" : " m3";
+      return "The mesh gives block " + std::to_string(most->id) + " " +
+             text_of(most->volume, 4) + unit + " instead of " +
+             text_of(most->exact.volume, 4) + unit +
+             " between the planes of its joints" +
+             (ids.size() > 1
+                ? " (more than 5 % off are blocks " + list_some(ids) + ")"
+                : "") +
+             ", and its factor by strength reduction is found with that; lower "
+             "'Mesh/Size' or 'Mesh/Size at excavation', or set 'Mesh/Cells "
+             "across blocks'.";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_coarse_mesh(const Scene<dim> &scene,
+                          const SplitMesh<dim> &split,
+                          const Blocks<dim> &blocks)
+  {
+    std::vector<std::string> warnings;
+    for (const std::string &warning :
+         {warning_of_shifts(scene, measure_shifts(scene, split, blocks)),
+          warning_of_volumes(blocks)})
+      if (!warning.empty())
+        warnings.push_back(warning);
+    return warnings;
+  }
+
+  template std::vector<std::string>
+  warnings_of_coarse_mesh(const Scene<2> &,
+                          const SplitMesh<2> &,
+                          const Blocks<2> &);
+  template std::vector<std::string>
+  warnings_of_coarse_mesh(const Scene<3> &,
+                          const SplitMesh<3> &,
+                          const Blocks<3> &);
+} // namespace Keyblock

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// blocks.csv and factors.csv, for spreadsheets.
+#include <keyblock/base/delimited_text.h>
+#include <keyblock/base/expression.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/blocks/block_measures.h>
+#include <keyblock/blocks/free_faces.h>
+#include <keyblock/output/output.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    using Outcome = SafetyFactor::Outcome;
+    using Fields  = std::vector<std::string>;
+
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /** A number, or nothing if it is not positive. */
+    std::string
+    positive(const double value)
+    {
+      return value > 0. ? exact_text(value) : "";
+    }
+
+    std::string
+    limit_factor_of(const SafetyFactor &factor)
+    {
+      return std::isfinite(factor.limit_factor)
+               ? exact_text(factor.limit_factor)
+               : "stable";
+    }
+
+    /** A number by which the most dangerous factor of a block is found. */
+    double
+    size_of(const SafetyFactor &factor)
+    {
+      double alone = infinity;
+      if (factor.outcome == Outcome::falls_freely)
+        alone = 0.;
+      else if (factor.outcome == Outcome::bracketed)
+        alone = factor.value();
+      else if (factor.outcome == Outcome::undecided)
+        alone =
+          factor.undecided_lower > 0. ? factor.undecided_lower : factor.lower;
+      else if (factor.outcome != Outcome::immovable)
+        alone = factor.lower;
+      return factor.group.empty()
+               ? alone
+               : std::min(alone,
+                          0.5 * (factor.group_lower + factor.group_upper));
+    }
+
+    /** The least factor of a block (index), of equal ones the last; null: none
+     * was looked for. */
+    const SafetyFactor *
+    least_factor(const std::vector<SafetyFactor> &factors,
+                 const unsigned int block)
+    {
+      const SafetyFactor *least = nullptr;
+      for (const SafetyFactor &factor : factors)
+        if (factor.block == block &&
+            (least == nullptr || size_of(factor) <= size_of(*least)))
+          least = &factor;
+      return least;
+    }
+
+    /** Titles of what factor_fields() and demand_fields() give. */
+    template <int dim>
+    Fields
+    factor_titles()
+    {
+      const std::string per_metre = dim == 2 ? " per m" : "";
+      return {"outcome",
+              "factor",
+              "lower",
+              "upper",
+              "undecided lower",
+              "undecided upper",
+              "failure mode",
+              "limit equilibrium",
+              "limit equilibrium mode",
+              "remark",
+              "stress ratio",
+              "group",
+              "group factor",
+              "group lower",
+              "group upper",
+              "support for factor",
+              "support (N" + per_metre + ")",
+              "support pressure (Pa)",
+              "support bolts"};
+    }
+
+    Fields
+    demand_fields(const SupportDemand &demand)
+    {
+      std::string bolts;
+      for (const auto &[set, number] : demand.numbers)
+        bolts +=
+          (bolts.empty() ? "" : "; ") + std::to_string(number) + " " + set;
+      if (demand.factor > 0. && std::isinf(demand.force))
+        return {exact_text(demand.factor), "out of reach", "out of reach", ""};
+      if (demand.factor > 0.)
+        return {exact_text(demand.factor),
+                exact_text(demand.force),
+                exact_text(demand.pressure),
+                bolts};
+      return Fields(4);
+    }
+
+    Fields
+    factor_fields(const SafetyFactor &factor)
+    {
+      const bool is_closed = factor.outcome == Outcome::bracketed;
+      std::string group;
+      for (const unsigned int id : factor.group)
+        group += (group.empty() ? "" : " ") + std::to_string(id);
+      Fields fields = {
+        describe_outcome(factor),
+        is_closed ? exact_text(factor.value()) : "",
+        positive(factor.lower),
+        is_closed ? positive(factor.upper) : "",
+        factor.undecided_upper > 0. ? positive(factor.undecided_lower) : "",
+        positive(factor.undecided_upper),
+        factor.failure_mode,
+        limit_factor_of(factor),
+        factor.limit_mode,
+        factor.limit_remark,
+        positive(factor.stress_ratio),
+        group,
+        group.empty()
+          ? ""
+          : positive(0.5 * (factor.group_lower + factor.group_upper)),
+        group.empty() ? "" : positive(factor.group_lower),
+        group.empty() ? "" : positive(factor.group_upper)};
+      for (const std::string &field : demand_fields(factor.support_demand))
+        fields.push_back(field);
+      return fields;
+    }
+
+    /** Size and place of a block's free faces in the stage that exposes it. */
+    template <int dim>
+    class Exposure
+    {
+    public:
+      Exposure(const Scene<dim> &scene, const SplitMesh<dim> &split)
+        : scene(scene)
+        , split(split)
+      {}
+
+      /** Area of the free faces, and roof, wall or floor by their mean outward
+       * normal; empty without. */
+      Fields
+      describe(const Block<dim> &block, const unsigned int index)
+      {
+        if (block.exposed_stage == none)
+          return {"", ""};
+        std::unique_ptr<FreeFaces<dim>> &free = by_stage[block.exposed_stage];
+        if (free == nullptr)
+          free = std::make_unique<FreeFaces<dim>>(
+            Ground<dim>{scene, split, block.exposed_stage, nullptr});
+        double area = 0.;
+        Tensor<1, dim> sum;
+        for (const unsigned int i : free->of_block(index))
+          {
+            const Tensor<1, dim> part =
+              split.mesh.face_area_vector(free->faces[i].cell,
+                                          free->faces[i].face);
+            area += part.norm();
+            sum += part;
+          }
+        return {exact_text(area), place_of(sum, block.centroid)};
+      }
+
+    private:
+      std::string
+      place_of(const Tensor<1, dim> &normal, const Point<dim> &at) const
+      {
+        if (scene.initial_state.gravity.empty() || normal.norm() == 0.)
+          return "";
+        const Tensor<1, dim> down = Expression<dim>(scene.initial_state.gravity,
+                                                    dim,
+                                                    "Initial state/Gravity")
+                                      .vector(at, 0.);
+        if (down.norm() == 0.)
+          return "";
+        const double along = normal * down / (normal.norm() * down.norm());
+        return along > std::sqrt(0.5)    ? "roof"
+               : along < -std::sqrt(0.5) ? "floor"
+                                         : "wall";
+      }
+
+      const Scene<dim> &scene;
+      const SplitMesh<dim> &split;
+      std::map<unsigned int, std::unique_ptr<FreeFaces<dim>>> by_stage;
+    };
+
+    template <int dim>
+    std::string
+    name_of_stage(const Scene<dim> &scene, const unsigned int number)
+    {
+      return number < 2 ? "the start" : scene.stages[number - 2]->name;
+    }
+
+    template <int dim>
+    bool
+    is_listed(const Block<dim> &block)
+    {
+      return !block.is_infinite && !block.is_rigid;
+    }
+
+    template <int dim>
+    std::string
+    blocks_table(const Scene<dim> &scene,
+                 const SplitMesh<dim> &split,
+                 const Blocks<dim> &blocks,
+                 const std::vector<SafetyFactor> &factors,
+                 const std::vector<unsigned int> &removal_stage)
+    {
+      const std::string per_metre = dim == 2 ? " per m" : "";
+      Fields titles               = {"block",
+                                     "class",
+                                     "exposed since",
+                                     "place",
+                                     "free area (m2" + per_metre + ")",
+                                     "removable",
+                                     "volume (m3" + per_metre + ")",
+                                     "volume of mesh (m3" + per_metre + ")",
+                                     "weight (N" + per_metre + ")",
+                                     "width (m)",
+                                     "cells across",
+                                     "joints",
+                                     "removed in",
+                                     "factor after"};
+      const Fields more           = factor_titles<dim>();
+      titles.insert(titles.end(), more.begin(), more.end());
+      std::string text    = csv_line(titles);
+      const double weight = weight_per_mass(scene);
+      Exposure<dim> exposure(scene, split);
+      for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+        {
+          const Block<dim> &block = blocks.blocks[b];
+          if (!is_listed(block))
+            continue;
+          std::string joints;
+          for (const auto &[joint, area] : block.joint_area)
+            joints += (joints.empty() ? "" : " ") + scene.joints[joint]->name;
+          const Fields exposed       = exposure.describe(block, b);
+          const SafetyFactor *factor = least_factor(factors, b);
+          Fields fields              = {std::to_string(block.id),
+                                        to_string(block.class_of_stage.back()),
+                           block.exposed_stage == none
+                                          ? ""
+                                          : name_of_stage(scene, block.exposed_stage),
+                                        exposed[1],
+                                        exposed[0],
+                           block.is_removable ? "yes" : "no",
+                                        exact_text(block.exact.is_known ? block.exact.volume
+                                                           : block.volume),
+                                        exact_text(block.volume),
+                                        exact_text(weight * block.exact_mass()),
+                                        exact_text(block.width),
+                                        exact_text(block.cells_across()),
+                                        joints,
+                           b < removal_stage.size() && removal_stage[b] > 1
+                                          ? name_of_stage(scene, removal_stage[b])
+                                          : "",
+                           factor == nullptr ? "" : factor->stage};
+          const Fields found =
+            factor == nullptr ? Fields(more.size()) : factor_fields(*factor);
+          fields.insert(fields.end(), found.begin(), found.end());
+          text += csv_line(fields);
+        }
+      return text;
+    }
+
+    template <int dim>
+    std::string
+    factors_table(const Blocks<dim> &blocks,
+                  const std::vector<SafetyFactor> &factors)
+    {
+      Fields titles     = {"block", "stage"};
+      const Fields more = factor_titles<dim>();
+      titles.insert(titles.end(), more.begin(), more.end());
+      titles.emplace_back("trials");
+      std::string text = csv_line(titles);
+      for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+        for (const SafetyFactor &factor : factors)
+          if (factor.block == b)
+            {
+              Fields fields      = {std::to_string(blocks.blocks[b].id),
+                                    factor.stage};
+              const Fields found = factor_fields(factor);
+              fields.insert(fields.end(), found.begin(), found.end());
+              fields.push_back(std::to_string(factor.trials.size()));
+              text += csv_line(fields);
+            }
+      return text;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Output<dim>::write_tables(
+    const std::vector<unsigned int> &removal_stage) const
+  {
+    const auto write = [&](const std::string &name, const auto &table) {
+      const std::string file_name = folder + name;
+      bool is_written             = true;
+      if (numbering.communicator.is_root())
+        {
+          std::ofstream out(file_name, std::ios::binary);
+          out << table();
+          is_written = bool(out.flush());
+        }
+      numbering.communicator.assert_written(is_written, file_name);
+    };
+    write("blocks.csv", [&]() {
+      return blocks_table(scene, split, blocks, factors, removal_stage);
+    });
+    write("factors.csv", [&]() { return factors_table(blocks, factors); });
+  }
+
+  template void
+  Output<2>::write_tables(const std::vector<unsigned int> &) const;
+  template void
+  Output<3>::write_tables(const std::vector<unsigned int> &) const;
+} // namespace Keyblock

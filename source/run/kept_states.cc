@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/checkpointing.h>
+#include <keyblock/run/kept_states.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Files of states that @p source means (collective). */
+    std::vector<std::string>
+    list_files(const Communicator &communicator,
+               const std::string &source,
+               const unsigned int n_stages)
+    {
+      std::string list;
+      communicator.on_root([&]() {
+        std::error_code error;
+        AssertThrow(std::filesystem::exists(source, error),
+                    InputError("The folder or file '" + source +
+                               "' of --factors does not exist; name the "
+                               "output folder of a run, or the file of a "
+                               "state."));
+        if (!std::filesystem::is_directory(source, error))
+          {
+            list = source + '\n';
+            return;
+          }
+        for (unsigned int n = 1; n <= n_stages; ++n)
+          {
+            const std::string name =
+              (std::filesystem::path(source) / name_of_kept_stage(n)).string();
+            if (std::filesystem::exists(name, error))
+              list += name + '\n';
+          }
+        AssertThrow(!list.empty(),
+                    InputError("The folder '" + source +
+                               "' of --factors has no state of a stage of "
+                               "this scene (stage_1.h5, ...); run it with "
+                               "--set \"Output/Keep stages=true\", or name a "
+                               "checkpoint file of a finished stage."));
+      });
+      std::istringstream lines(communicator.text_of_root(list));
+      std::vector<std::string> files;
+      for (std::string line; std::getline(lines, line);)
+        files.push_back(line);
+      return files;
+    }
+
+    /** The state in a @p file. Throws InputError if it cannot answer. */
+    template <int dim>
+    KeptState
+    look_at(const Communicator &communicator,
+            const std::string &file_name,
+            const Scene<dim> &scene)
+    {
+      StateFile file(communicator, file_name);
+      check_origin(file, file_name, scene, StateUse::factors);
+      KeptState state;
+      state.file       = file_name;
+      bool is_reported = false, has_before = false;
+      std::vector<unsigned int> removal_stage;
+      file.exchange("run/stage", state.stage);
+      file.exchange("run/is_reported", is_reported);
+      file.exchange("run/has_before", has_before);
+      file.exchange("run/removal_stage", removal_stage);
+      const std::string &name = scene.stages[state.stage]->name;
+      state.is_wanted         = scene.safety.wants_stage(name);
+      AssertThrow(is_reported,
+                  InputError("The checkpoint '" + file_name +
+                             "' is of the middle of the stage '" + name +
+                             "', at whose end factors are looked for; go on "
+                             "from it by --restart first."));
+      AssertThrow(has_before || !state.is_wanted ||
+                    std::find(removal_stage.begin(),
+                              removal_stage.end(),
+                              state.stage + 2) == removal_stage.end(),
+                  InputError("The checkpoint '" + file_name +
+                             "' lacks the beginning of the stage '" + name +
+                             "', from which the factors of blocks that failed "
+                             "in it are found; run the scene with 'Output/Keep "
+                             "stages', or leave that stage out of 'Safety "
+                             "factor/Stages'."));
+      return state;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<KeptState>
+  list_kept_states(const Communicator &communicator,
+                   const std::string &source,
+                   const Scene<dim> &scene)
+  {
+    AssertThrow(scene.safety.is_wanted() &&
+                  scene.contact.method != ContactMethod::none,
+                InputError("The command line has --factors, but the scene "
+                           "asks for no factor; set 'Safety factor/Blocks' to "
+                           "all, exposed, critical or numbers of blocks, and "
+                           "leave 'Contact/Method' at one that computes "
+                           "joints."));
+    std::vector<KeptState> states;
+    for (const std::string &file :
+         list_files(communicator, source, scene.stages.size()))
+      states.push_back(look_at(communicator, file, scene));
+    for (const std::string &name : scene.safety.stages)
+      AssertThrow(std::any_of(states.begin(),
+                              states.end(),
+                              [&](const KeptState &state) {
+                                return scene.stages[state.stage]->name == name;
+                              }),
+                  InputError("The entry 'Safety factor/Stages' names '" + name +
+                             "', whose end is not in '" + source +
+                             "' of --factors; name stages that it has, or run "
+                             "the scene with 'Output/Keep stages'."));
+    std::vector<KeptState> used;
+    for (const KeptState &state : states)
+      if (state.is_wanted || &state == &states.back())
+        used.push_back(state);
+    return used;
+  }
+
+  template std::vector<KeptState>
+  list_kept_states(const Communicator &, const std::string &, const Scene<2> &);
+  template std::vector<KeptState>
+  list_kept_states(const Communicator &, const std::string &, const Scene<3> &);
+} // namespace Keyblock
