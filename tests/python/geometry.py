@@ -4,6 +4,8 @@
 
 usage: geometry.py CASE PRM [KEYBLOCK]     CASE: a function of this file
 """
+import contextlib
+import io
 import math
 import pathlib
 import re
@@ -145,6 +147,13 @@ def limit():
           math.tan(math.radians(30)) / math.tan(math.radians(20)), 1e-9)
     check_raises(keyblock.Error, ["stage 'toss'", "start, rest"], lambda: keyblock.sweep(
         incline, {"Joints/base/Friction angle": [20]}, stage="toss"))
+    other = keyblock.Scene(PRM / "verification" / "blocks_cube_3.prm")
+    check_raises(keyblock.Error, ["blocks_cube_3.prm", "other joints"],
+                 lambda: keyblock.find_blocks(incline).limit_equilibrium(other))
+    with contextlib.redirect_stdout(io.StringIO()) as screen:
+        keyblock.validate(incline, verbose=True)
+    check_that("what is said goes where Python's output does",
+               "The scene is valid." in screen.getvalue())
 
 
 def program():
