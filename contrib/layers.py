@@ -17,7 +17,7 @@ from script_tools import ROOT
 
 def rooms_in_order():
     text = (ROOT / "source" / "CMakeLists.txt").read_text(encoding="utf-8")
-    return re.findall(r"^add_room\((\w+)", text, re.MULTILINE)
+    return re.findall(r"^(?:add_room|  include)\((\w+)", text, re.MULTILINE)
 
 
 def includes_of(path):

@@ -25,7 +25,7 @@ set_target_properties(keyblock_library PROPERTIES OUTPUT_NAME keyblock
 install(TARGETS keyblock_library EXPORT keyblock_targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
 install(DIRECTORY include/keyblock DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  COMPONENT library)
+  COMPONENT library PATTERN "python" EXCLUDE)
 install(EXPORT keyblock_targets NAMESPACE Keyblock:: DESTINATION ${package_folder}
   COMPONENT library)
 include(CMakePackageConfigHelpers)
@@ -50,6 +50,13 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # of keyblock-report
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-matplotlib")
+if(PYTHON_MODULE)
+  set(version ${PYTHON_VERSION_OF_MODULE})
+  string(REGEX REPLACE ".*\\." "" minor ${version})
+  math(EXPR next "${minor} + 1")
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
+    "python3 (>= ${version}), python3 (<< 3.${next}), python3-numpy")
+endif()
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Keyblock developers <keyblock@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

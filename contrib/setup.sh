@@ -4,14 +4,15 @@
 # Says on standard error what it does, and how far it is.
 # usage: contrib/setup.sh [BUILD_FOLDER]      (default: build)
 # environment: BUILD_TYPE (Release), WARNINGS_AS_ERRORS (OFF), SANITIZE (OFF),
-# JOBS (all cores)
+# PYTHON_MODULE (as before, at first OFF), JOBS (all cores)
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${1:-$root/build}
 packages="libdeal.ii-dev libgmsh-dev libboost-program-options-dev
   nlohmann-json3-dev zlib1g-dev cmake g++ make
   clang-format python3 python3-matplotlib openmpi-bin python3-jsonschema
-  python3-sphinx python3-myst-parser libjs-mathjax"
+  python3-sphinx python3-myst-parser libjs-mathjax
+  pybind11-dev python3-dev python3-numpy"
 
 say() {
   echo "$*" >&2
@@ -42,7 +43,8 @@ fi
 [ -e "$build/CMakeCache.txt" ] || say "Configuring"
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE="${BUILD_TYPE:-Release}" \
   -DWARNINGS_AS_ERRORS="${WARNINGS_AS_ERRORS:-OFF}" \
-  -DSANITIZE="${SANITIZE:-OFF}" >"$root/cmake.log" 2>&1 ||
+  -DSANITIZE="${SANITIZE:-OFF}" \
+  ${PYTHON_MODULE:+-DPYTHON_MODULE="$PYTHON_MODULE"} >"$root/cmake.log" 2>&1 ||
   { cat "$root/cmake.log"; exit 1; }
 mv "$root/cmake.log" "$build/cmake.log"
 # files that are not there yet, or that make finds to be old

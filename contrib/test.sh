@@ -5,7 +5,7 @@
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${BUILD:-$root/build}
-WARNINGS_AS_ERRORS=ON "$root/contrib/setup.sh" "$build"
+WARNINGS_AS_ERRORS=ON PYTHON_MODULE=ON "$root/contrib/setup.sh" "$build"
 "$root/contrib/check_format.sh"
 cd "$build"
 exec ctest --output-on-failure -j "${JOBS:-$(nproc)}" --timeout 120 "$@"

@@ -36,5 +36,5 @@ tar -C "$root" --exclude='./build*' --exclude='./.git' -c . |
   tar -C "$system/keyblock" -x
 chroot "$system" env JOBS="${JOBS:-$(nproc)}" HOME=/root LC_ALL=C.UTF-8 \
   TMPDIR=/tmp sh -c '
-    cd /keyblock && contrib/setup.sh && cd build &&
+    cd /keyblock && PYTHON_MODULE=ON contrib/setup.sh && cd build &&
     ctest --output-on-failure -j "$JOBS" --timeout 120 "$@"' sh "$@"

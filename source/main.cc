@@ -3,6 +3,7 @@
 
 #include <keyblock/base/communicator.h>
 #include <keyblock/base/last_resort.h>
+#include <keyblock/base/stop_request.h>
 #include <keyblock/run/probability_study.h>
 #include <keyblock/run/simulation.h>
 #include <keyblock/scene/command_line.h>
@@ -18,6 +19,7 @@ namespace
   {
     if (arguments.is_study)
       {
+        Keyblock::watch_signals();
         Keyblock::ProbabilityStudy<dim>(world,
                                         arguments.scene,
                                         arguments.overrides,
@@ -31,8 +33,12 @@ namespace
                                          arguments.output,
                                          arguments.restart);
     if (arguments.is_validation)
-      simulation.validate();
-    else if (!arguments.factors.empty())
+      {
+        simulation.validate();
+        return;
+      }
+    Keyblock::watch_signals();
+    if (!arguments.factors.empty())
       simulation.find_factors(arguments.factors);
     else
       simulation.run();

@@ -104,7 +104,7 @@ def comments_on_theory():
 
 def faults_of_maps():
     text = (ROOT / "source" / "CMakeLists.txt").read_text(encoding="utf-8")
-    rooms = re.findall(r"^add_room\((\w+)", text, re.MULTILINE)
+    rooms = re.findall(r"^(?:add_room|  include)\((\w+)", text, re.MULTILINE)
     for path in MAPS:
         listed = re.findall(r"^\| `(\w+)` \|", path.read_text(encoding="utf-8"),
                             re.MULTILINE)

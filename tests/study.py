@@ -122,6 +122,14 @@ def main():
         if abs(float(values[2]) / factor - 1) > 1e-6:
             faults.append(f"row '{row}' does not have the weaker joint")
             break
+    # what moves a joint needs a mesh for each sample, without columns by block
+    drawn = study(keyblock, scene, folder / "moved", "Study/Samples=1",
+                  "Study/friction/Entry=Joints/base/Dip",
+                  "Study/friction/Distribution=sequence",
+                  "Study/friction/Minimum=0")[0].splitlines()
+    factor = math.tan(math.radians(30)) / math.tan(math.radians(28))
+    if "factor_1" in drawn[1] or abs(float(drawn[2].split(",")[2]) / factor - 1) > 1e-6:
+        faults.append(f"a dip that varies has '{drawn[1]}' and '{drawn[2]}'")
     faults += faults_of_runs(keyblock, scene, folder)
     if faults:
         sys.exit("; ".join(faults))

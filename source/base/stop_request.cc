@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/interrupt_scope.h>
 #include <keyblock/base/stop_request.h>
-
 
 #include <csignal>
 
@@ -46,5 +46,24 @@ namespace Keyblock
     const int signal = communicator.max(signal_received());
     if (signal > 0)
       throw StopRequest{signal};
+  }
+
+
+
+  InterruptScope::InterruptScope()
+  {
+    received                = 0;
+    struct sigaction action = {};
+    action.sa_handler       = note;
+    action.sa_flags         = SA_RESTART;
+    sigaction(SIGINT, &action, &before);
+  }
+
+
+
+  InterruptScope::~InterruptScope()
+  {
+    sigaction(SIGINT, &before, nullptr);
+    received = 0;
   }
 } // namespace Keyblock

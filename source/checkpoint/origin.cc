@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Whether a checkpoint is of this scene and mesh.
 #include <keyblock/checkpoint/checkpoint.h>
+#include <keyblock/scene/entries.h>
 
 #include <algorithm>
 #include <cstring>
@@ -38,52 +39,14 @@ namespace Keyblock
 
 
 
-  namespace
-  {
-    /** Values by entry, like `Joints/base/Dip`, in their order. */
-    std::vector<std::pair<std::string, std::string>>
-    parse(const std::string &entries)
-    {
-      const auto trimmed = [](const std::string &text) {
-        const auto begin = text.find_first_not_of(' ');
-        return begin == std::string::npos
-                 ? ""
-                 : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-      };
-      std::vector<std::pair<std::string, std::string>> values;
-      std::vector<std::string> sections;
-      std::istringstream lines(entries);
-      for (std::string line; std::getline(lines, line);)
-        {
-          line             = trimmed(line);
-          const auto equal = line.find('=');
-          if (line.compare(0, 11, "subsection ") == 0)
-            sections.push_back(line.substr(11) + '/');
-          else if (line == "end")
-            sections.pop_back();
-          else if (line.compare(0, 4, "set ") == 0 &&
-                   equal != std::string::npos)
-            {
-              std::string name;
-              for (const std::string &section : sections)
-                name += section;
-              values.emplace_back(name + trimmed(line.substr(4, equal - 4)),
-                                  trimmed(line.substr(equal + 1)));
-            }
-        }
-      return values;
-    }
-  } // namespace
-
-
-
   std::array<std::string, 3>
   find_difference(const std::string &saved,
                   const std::string &present,
                   const std::vector<std::string> &changeable,
                   const std::vector<std::string> &fixed)
   {
-    const auto old_values = parse(saved), new_values = parse(present);
+    const auto old_values = list_entries(saved),
+               new_values = list_entries(present);
     const std::map<std::string, std::string> before(old_values.begin(),
                                                     old_values.end());
     const std::map<std::string, std::string> now(new_values.begin(),

@@ -50,6 +50,8 @@ namespace Keyblock
   void
   Checkpointing<dim>::save()
   {
+    if (folder.empty())
+      return;
     finite_check.check_state();
     const std::string name    = folder + "checkpoint.h5";
     const std::string failure = write(name);
@@ -151,7 +153,8 @@ namespace Keyblock
   Checkpointing<dim>::save_and_stop(const StopRequest &request)
   {
     save();
-    monitors.write_csv(folder + "history.csv");
+    if (!folder.empty())
+      monitors.write_csv(folder + "history.csv");
     model.out << "Stopped by a signal (" << strsignal(request.signal) << ")."
               << say_where_to_continue() << std::endl;
   }

@@ -141,10 +141,11 @@ namespace Keyblock
     for (const std::vector<double> &row : history.rows)
       for (unsigned int c = 0; c < row.size() && message.empty(); ++c)
         if (!std::isfinite(row[c]))
-          message = "The value of '" + history.columns[c] + "' is " +
-                    text_of(row[c]) + " at step " + text_of(row[1]) +
-                    " (time " + text_of(row[2]) + " s); see '" + folder +
-                    "history.csv'.";
+          message =
+            "The value of '" + history.columns[c] + "' is " + text_of(row[c]) +
+            " at step " + text_of(row[1]) + " (time " + text_of(row[2]) +
+            " s)" +
+            (folder.empty() ? "." : "; see '" + folder + "history.csv'.");
     message = model.communicator.text_of_root(message);
     AssertThrow(message.empty(), ComputationError(message));
   }
@@ -157,7 +158,8 @@ namespace Keyblock
   {
     if (model.scene.output.write_vtu)
       output.write_vtu(model.step->time);
-    monitors.write_csv(folder + "history.csv");
+    if (!folder.empty())
+      monitors.write_csv(folder + "history.csv");
     throw ComputationError(
       "The " + what + " is not finite at step " +
       std::to_string(model.step->n_steps) + " (time " +
@@ -165,11 +167,14 @@ namespace Keyblock
       (block == none
          ? ""
          : " in block " + std::to_string(model.blocks.blocks[block].id)) +
-      "; the last state is in '" + folder +
-      (model.scene.output.write_vtu ? "solution.pvd" : "history.csv") +
+      (folder.empty()
+         ? ""
+         : "; the last state is in '" + folder +
+             (model.scene.output.write_vtu ? "solution.pvd" : "history.csv") +
+             "'") +
       (model.step->n_steps == 0
-         ? "'. Check the numbers of 'Initial state', 'Materials' and loads."
-         : "'. Lower 'Time stepping/Safety', or raise 'Damping ratio'."));
+         ? ". Check the numbers of 'Initial state', 'Materials' and loads."
+         : ". Lower 'Time stepping/Safety', or raise 'Damping ratio'."));
   }
 
   template class FiniteCheck<2>;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/blocks/bolt_layout.h>
-#include <keyblock/blocks/liner_layout.h>
+#include <keyblock/blocks/block_geometry.h>
 #include <keyblock/run/model.h>
 #include <keyblock/scene/step_count.h>
 
 #include <iostream>
-#include <tuple>
 
 namespace Keyblock
 {
@@ -25,13 +23,11 @@ namespace Keyblock
   void
   Model<dim>::make_geometry()
   {
-    Mesh<dim> mesh;
-    std::tie(mesh, blocks) = make_mesh_for_blocks(communicator, scene, out);
-    quality                = measure_quality(mesh);
-    mesh_report            = mesh.report;
-    split                  = split_mesh(mesh, blocks, scene);
-    split.bolts            = lay_out_bolts(scene, split);
-    split.liners           = lay_out_liners(scene, split);
+    BlockGeometry<dim> made = make_block_geometry(communicator, scene, out);
+    quality                 = made.quality;
+    mesh_report             = made.report;
+    blocks                  = std::move(made.blocks);
+    split                   = std::move(made.split);
   }
 
 

@@ -2,12 +2,9 @@
 // Samples of a scene, shared among the ranks and judged one by one.
 #include <keyblock/base/number_text.h>
 #include <keyblock/base/stop_request.h>
-#include <keyblock/blocks/block_resolution.h>
-#include <keyblock/blocks/bolt_layout.h>
-#include <keyblock/blocks/liner_layout.h>
-#include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/run/probability_study.h>
 #include <keyblock/scene/check_parts.h>
+#include <keyblock/scene/entries.h>
 #include <keyblock/scene/solid.h>
 #include <keyblock/scene/text.h>
 
@@ -16,8 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <limits>
-#include <set>
 
 namespace Keyblock
 {
@@ -28,45 +25,6 @@ namespace Keyblock
 
     /** The same where samples are run. */
     constexpr unsigned int runs_per_batch = 1;
-
-    /** What follows the last slash of an entry. */
-    std::string
-    last_of(const std::string &entry)
-    {
-      return entry.substr(entry.rfind('/') + 1);
-    }
-
-    /** Whether an entry of a joint or a set says how strong it is. */
-    bool
-    is_strength(const std::string &name)
-    {
-      JointStrength strength;
-      dealii::ParameterHandler prm;
-      strength.declare_strength(prm);
-      try
-        {
-          prm.get(name);
-        }
-      catch (const dealii::ExceptionBase &)
-        {
-          return false;
-        }
-      return true;
-    }
-
-    /** Whether an entry changes neither mesh nor blocks. */
-    bool
-    leaves_geometry(const std::string &entry)
-    {
-      static const std::set<std::string> sections = {
-        "Water", "Tractions", "Safety factor", "Initial state", "Stages"};
-      const std::string section = entry.substr(0, entry.find('/'));
-      return sections.count(section) > 0 ||
-             ((section == "Joints" || section == "Joint sets") &&
-              is_strength(last_of(entry))) ||
-             entry == "Contact/Default friction angle";
-    }
-
   } // namespace
 
 
@@ -152,22 +110,13 @@ namespace Keyblock
 
 
   template <int dim>
-  typename ProbabilityStudy<dim>::Geometry
+  BlockGeometry<dim>
   ProbabilityStudy<dim>::make_geometry(const Scene<dim> &sample) const
   {
     // each rank for itself
-    const Communicator alone(MPI_COMM_SELF);
-    const dealii::ConditionalOStream silent(std::cout, false);
-    Geometry result;
-    Mesh<dim> mesh;
-    std::tie(mesh, result.blocks) = make_mesh_for_blocks(alone, sample, silent);
-    result.shares_faces           = !mesh.report.merged.empty();
-    result.split                  = split_mesh(mesh, result.blocks, sample);
-    result.split.bolts            = lay_out_bolts(sample, result.split);
-    result.split.liners           = lay_out_liners(sample, result.split);
-    result.warnings =
-      warnings_of_coarse_mesh(sample, result.split, result.blocks);
-    return result;
+    return make_block_geometry(Communicator(MPI_COMM_SELF),
+                               sample,
+                               dealii::ConditionalOStream(std::cout, false));
   }
 
 
@@ -272,12 +221,11 @@ namespace Keyblock
   void
   ProbabilityStudy<dim>::run()
   {
-    watch_signals();
     const double start = MPI_Wtime();
     if (!changes_geometry())
-      geometry = std::make_unique<Geometry>(make_geometry(scene));
+      geometry = std::make_unique<BlockGeometry<dim>>(make_geometry(scene));
     // the weaker of two joints rules where they share faces
-    if (geometry && geometry->shares_faces)
+    if (geometry && !geometry->report.merged.empty())
       geometry = nullptr;
     header = make_header();
     read_samples();

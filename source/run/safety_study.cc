@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/blocks/block_resolution.h>
 #include <keyblock/run/safety_study.h>
 #include <keyblock/run/stage_runner.h>
 #include <keyblock/safety/block_statics.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <map>
 
 namespace Keyblock
@@ -242,6 +240,86 @@ namespace Keyblock
 
 
   template <int dim>
+  SafetyFactor
+  SafetyStudy<dim>::find_factor(StrengthReductionSearch<dim> &search,
+                                const unsigned int block)
+  {
+    SafetyFactor result =
+      record.present.removal_stage[block] == record.present.number()
+        ? factor_of_failed_block(search, block)
+        : factor_of_standing_block(search, block);
+    result.stage = model.scene.stages[record.present.index]->name;
+    return result;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  SafetyStudy<dim>::find_block(const unsigned int id) const
+  {
+    const auto &blocks       = model.blocks.blocks;
+    const std::string number = std::to_string(id);
+    AssertThrow(model.contact != nullptr,
+                InputError("Block " + number +
+                           " has no safety factor, because 'Contact/Method' is "
+                           "none; let joints have contact."));
+    unsigned int b = 0;
+    while (b < blocks.size() && blocks[b].id != id)
+      ++b;
+    AssertThrow(b < blocks.size(),
+                InputError("There is no block " + number +
+                           " whose factor could be found; the ids of blocks "
+                           "are 1 to " +
+                           std::to_string(blocks.size()) + "."));
+    AssertThrow(!blocks[b].is_infinite && !blocks[b].is_rigid,
+                InputError("Block " + number + " is " +
+                           (blocks[b].is_rigid ? "rigid" : "infinite") +
+                           " and has no safety factor; ask for that of a "
+                           "finite block."));
+    const unsigned int removal = record.present.removal_stage[b];
+    AssertThrow(removal == 0 || removal >= record.present.number(),
+                InputError("Block " + number +
+                           " failed in an earlier stage and was taken away; "
+                           "ask for its factor after that stage."));
+    AssertThrow(removal == 0 || !record.before.fields.mass.empty(),
+                InputError("The factor of block " + number +
+                           ", which failed in this stage, needs the state "
+                           "before it, which is not in the checkpoint; begin "
+                           "the run anew."));
+    return b;
+  }
+
+
+
+  template <int dim>
+  SafetyFactor
+  SafetyStudy<dim>::find_factor_of(const unsigned int id)
+  {
+    const unsigned int b      = find_block(id);
+    const Snapshot<dim> after = take_snapshot(model.parts());
+    StrengthReductionSearch<dim> search(
+      model.scene, model.split, model.blocks, *model.numbering, model.parts());
+    SafetyFactor result;
+    try
+      {
+        result = find_factor(search, b);
+      }
+    catch (const StopRequest &)
+      {
+        // all ranks are stopped together, as recall() asks for
+        recall(after, model.parts());
+        throw;
+      }
+    recall(after, model.parts());
+    finite_check.check_factor(result);
+    model.count_cells();
+    return result;
+  }
+
+
+
+  template <int dim>
   void
   SafetyStudy<dim>::find_remaining_factors(const RankGroups &groups)
   {
@@ -252,12 +330,8 @@ namespace Keyblock
       {
         for (const unsigned int b : list_blocks_of_rank_group(groups))
           {
-            SafetyFactor result =
-              record.present.removal_stage[b] == record.present.number()
-                ? factor_of_failed_block(search, b)
-                : factor_of_standing_block(search, b);
+            const SafetyFactor result = find_factor(search, b);
             recall(after, model.parts());
-            result.stage = model.scene.stages[record.present.index]->name;
             finite_check.check_factor(result);
             record.safety_factors.push_back(result);
             if (model.out.is_active())
@@ -280,69 +354,6 @@ namespace Keyblock
 
 
 
-  template <int dim>
-  void
-  print_factor(std::ostream &out,
-               const SafetyFactor &factor,
-               const Blocks<dim> &blocks,
-               const Scene<dim> &scene)
-  {
-    double seconds = 0.;
-    for (const Trial &trial : factor.trials)
-      seconds += trial.seconds;
-    out << "Factor  block " << blocks.blocks[factor.block].id << " after "
-        << factor.stage << ": " << std::setprecision(5);
-    if (factor.outcome == SafetyFactor::Outcome::bracketed)
-      out << factor.value() << " [" << factor.lower << ", " << factor.upper
-          << "]";
-    else
-      out << describe_outcome(factor);
-    if (factor.undecided_upper > 0.)
-      out << ", undecided from " << factor.undecided_lower << " to "
-          << factor.undecided_upper;
-    if (!factor.failure_mode.empty())
-      out << ", " << factor.failure_mode;
-    if (!factor.group.empty())
-      {
-        out << "; blocks ";
-        for (unsigned int i = 0; i < factor.group.size(); ++i)
-          out << (i > 0 ? ", " : "") << factor.group[i];
-        out << " move together: "
-            << 0.5 * (factor.group_lower + factor.group_upper) << " ["
-            << factor.group_lower << ", " << factor.group_upper << "]";
-      }
-    out << "; limit equilibrium "
-        << (has_initial_stress(scene) ? "without in-situ clamping " : "");
-    if (std::isfinite(factor.limit_factor))
-      out << factor.limit_factor << " ";
-    else
-      out << "above all ";
-    out << "(" << factor.limit_mode << (factor.limit_remark.empty() ? "" : "; ")
-        << factor.limit_remark << ")";
-    if (factor.stress_ratio > 0.)
-      out << ", stress ratio " << factor.stress_ratio;
-    const Block<dim> &block = blocks.blocks[factor.block];
-    unsigned int n_broken   = 0;
-    for (const Trial &trial : factor.trials)
-      if (trial.is_stable && !trial.is_of_group && trial.factor == factor.lower)
-        n_broken = trial.n_broken;
-    if (n_broken > 0)
-      out << "; " << n_broken << " bonds broke in the last that held";
-    if (is_too_coarse(block, scene))
-      out << "; only " << std::setprecision(2) << block.cells_across()
-          << " cells across, not " << scene.meshing.cells_across;
-    out << "; " << factor.trials.size() << " trials, " << std::setprecision(3)
-        << seconds << " s" << std::endl;
-  }
-
   template class SafetyStudy<2>;
   template class SafetyStudy<3>;
-  template void print_factor(std::ostream &,
-                             const SafetyFactor &,
-                             const Blocks<2> &,
-                             const Scene<2> &);
-  template void print_factor(std::ostream &,
-                             const SafetyFactor &,
-                             const Blocks<3> &,
-                             const Scene<3> &);
 } // namespace Keyblock

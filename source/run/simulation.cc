@@ -6,11 +6,8 @@
 #include <keyblock/run/static_stage.h>
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/scene/network_output.h>
-#include <keyblock/verification/checks.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <iomanip>
 
 namespace Keyblock
 {
@@ -127,32 +124,34 @@ namespace Keyblock
 
   template <int dim>
   void
+  Simulation<dim>::write_nothing()
+  {
+    folder.clear();
+    model.scene.output.write_vtu           = false;
+    model.scene.output.checkpoint_interval = 0.;
+  }
+
+
+
+  template <int dim>
+  void
   Simulation<dim>::run()
   {
-    watch_signals();
-    groups = std::make_unique<RankGroups>(model.communicator,
-                                          model.scene.safety.rank_groups);
-    std::unique_ptr<StateFile> file;
-    if (!checkpoint.empty())
-      {
-        file = std::make_unique<StateFile>(model.communicator, checkpoint);
-        check_origin(*file, checkpoint, model.scene, StateUse::restart);
-      }
-    model.make_geometry();
-    if (file)
-      check_mesh(*file, checkpoint, model.split);
-    set_up();
-    if (groups->n() > 1)
-      group_study = std::make_unique<RankGroupStudy<dim>>(
-        *groups, model, *parts, scene_file, overrides);
-    open_output();
+    start();
+    while (has_stage_left())
+      run_stage();
+    finish();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::do_part(const std::function<void()> &part)
+  {
     try
       {
-        if (file)
-          parts->checkpointing.resume(*file, checkpoint);
-        file.reset();
-        run_stages();
-        finish();
+        part();
       }
     catch (const StopRequest &request)
       {
@@ -172,9 +171,92 @@ namespace Keyblock
 
   template <int dim>
   void
+  Simulation<dim>::start()
+  {
+    groups = std::make_unique<RankGroups>(model.communicator,
+                                          model.scene.safety.rank_groups);
+    std::unique_ptr<StateFile> file;
+    if (!checkpoint.empty())
+      {
+        file = std::make_unique<StateFile>(model.communicator, checkpoint);
+        check_origin(*file, checkpoint, model.scene, StateUse::restart);
+      }
+    model.make_geometry();
+    if (file)
+      check_mesh(*file, checkpoint, model.split);
+    set_up();
+    if (groups->n() > 1)
+      group_study = std::make_unique<RankGroupStudy<dim>>(
+        *groups, model, *parts, scene_file, overrides);
+    open_output();
+    do_part([&]() {
+      if (file)
+        {
+          parts->checkpointing.resume(*file, checkpoint);
+          next_stage   = parts->record.present.index;
+          is_under_way = true;
+          return;
+        }
+      establish_initial_state(model);
+      model.step->sample_start();
+      parts->finite_check.check_state();
+      parts->monitors.sample_start(*model.step);
+      if (model.scene.output.write_vtu)
+        parts->output.write_vtu(model.step->time);
+    });
+  }
+
+
+
+  template <int dim>
+  bool
+  Simulation<dim>::has_stage_left() const
+  {
+    return next_stage < model.scene.stages.size();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::run_stage()
+  {
+    do_part([&]() {
+      if (!is_under_way)
+        begin_stage(next_stage);
+      is_under_way = true;
+      complete_stage();
+      is_under_way = false;
+      ++next_stage;
+    });
+  }
+
+
+
+  template <int dim>
+  SafetyFactor
+  Simulation<dim>::find_factor(const unsigned int block)
+  {
+    AssertThrow(next_stage > 0 && !is_under_way,
+                InputError("The factor of block " + std::to_string(block) +
+                           " was asked for before a stage was run to its end; "
+                           "run one first."));
+    return parts->safety.find_factor_of(block);
+  }
+
+
+
+  template <int dim>
+  void
   Simulation<dim>::open_output()
   {
     model.communicator.on_root([&]() {
+      if (folder.empty())
+        {
+          if (model.out.is_active())
+            print_head(model.out.get_stream());
+          return;
+        }
       std::error_code error;
       std::filesystem::create_directories(folder, error);
       AssertThrow(!error,
@@ -203,34 +285,6 @@ namespace Keyblock
 
   template <int dim>
   void
-  Simulation<dim>::run_stages()
-  {
-    unsigned int next = 0;
-    if (checkpoint.empty())
-      {
-        establish_initial_state(model);
-        model.step->sample_start();
-        parts->finite_check.check_state();
-        parts->monitors.sample_start(*model.step);
-        if (model.scene.output.write_vtu)
-          parts->output.write_vtu(model.step->time);
-      }
-    else
-      {
-        complete_stage();
-        next = parts->record.present.index + 1;
-      }
-    for (; next < model.scene.stages.size(); ++next)
-      {
-        begin_stage(next);
-        complete_stage();
-      }
-  }
-
-
-
-  template <int dim>
-  void
   Simulation<dim>::begin_stage(const unsigned int index)
   {
     const Stage &stage = *model.scene.stages[index];
@@ -244,7 +298,7 @@ namespace Keyblock
     progress.wants_factors =
       model.contact != nullptr && model.scene.safety.wants_stage(stage.name);
     parts->record.has_before =
-      progress.wants_factors || model.scene.output.keeps_stages;
+      progress.wants_factors || keeps_before || model.scene.output.keeps_stages;
     parts->record.before =
       parts->record.has_before ? take_snapshot(model.parts()) : Snapshot<dim>();
     parts->output.stage = progress.number();
@@ -290,68 +344,6 @@ namespace Keyblock
       parts->safety.find_remaining_factors(*groups);
     if (present.wants_factors && model.scene.output.write_vtu)
       parts->output.rewrite_rock(model.step->time);
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::finish()
-  {
-    RunRecord<dim> &record = parts->record;
-    RunReport &report      = record.report;
-    const History &history = parts->monitors.history;
-    CheckValues checks;
-    RockState<dim> rock;
-    if (model.scene.checks.needs_rock())
-      rock = gather_rock(
-        model.scene, model.split, *model.numbering, model.cells, model.fields);
-    model.communicator.on_root([&]() {
-      if (!model.scene.stages.empty())
-        checks = evaluate_checks<dim>({model.scene,
-                                       model.blocks,
-                                       history,
-                                       parts->monitors.block_of_monitor,
-                                       record.stage_reports,
-                                       rock});
-    });
-    report.steps          = model.step->n_steps;
-    report.time_step      = model.step->dt;
-    report.simulated_time = model.step->time;
-    report.wall_time      = MPI_Wtime() - record.wall_start;
-    report.contact_time   = model.step->contact_seconds;
-    report.force_time     = model.step->force_seconds;
-    report.mass_scaling   = model.conditions->active_cells.mass_scaling;
-    report.bolts  = list_figures(model.conditions->report_bolts(), model.scene);
-    report.liners = model.conditions->report_liners();
-    report.skipped_steps = model.communicator.sum(model.step->n_skipped);
-    report.capped_groups =
-      model.communicator.sum(model.contact ? model.contact->tally.n_capped : 0);
-    report.solved_groups = model.communicator.sum(
-      model.contact ? model.contact->tally.n_solved : 0.);
-    parts->monitors.write_csv(folder + "history.csv");
-    parts->output.write_summary(model.quality,
-                                model.mesh_report,
-                                report,
-                                record.stage_reports,
-                                history,
-                                checks,
-                                record.safety_factors,
-                                record.present.removal_stage,
-                                model.geostress.get());
-    parts->output.write_tables(record.present.removal_stage);
-    parts->finite_check.check_history();
-    if (report.capped_groups > 0)
-      model.out << "Warning: " << report.capped_groups << " contact groups of "
-                << report.solved_groups
-                << " in this run were left at 'Contact/Maximum iterations', "
-                   "not solved to "
-                   "'Contact/Tolerance'.\n";
-    for (const auto &[name, value] : checks)
-      model.out << "Check   " << name << " = " << std::setprecision(9) << value
-                << '\n';
-    model.out << "Output  " << folder << "  (" << std::setprecision(3)
-              << report.wall_time << " s)" << std::endl;
   }
 
   template class Simulation<2>;

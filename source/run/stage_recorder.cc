@@ -48,7 +48,7 @@ namespace Keyblock
   StageRecorder<dim>::sampled(const StageProgress<dim> &progress)
   {
     monitors.sample(*model.step, progress.index);
-    if (MPI_Wtime() < next_history)
+    if (folder.empty() || MPI_Wtime() < next_history)
       return;
     monitors.append_csv(folder + "history.csv");
     next_history = MPI_Wtime() + history_interval;
@@ -69,9 +69,14 @@ namespace Keyblock
 
   template <int dim>
   void
-  StageRecorder<dim>::save_point(StageProgress<dim> &)
+  StageRecorder<dim>::save_point(StageProgress<dim> &progress)
   {
     book_time();
+    if (watcher)
+      {
+        watcher(progress);
+        loop_start = MPI_Wtime();
+      }
     checkpointing.save_if_due();
   }
 

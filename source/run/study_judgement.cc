@@ -14,35 +14,29 @@ namespace Keyblock
   template <int dim>
   typename ProbabilityStudy<dim>::BlockFactors
   ProbabilityStudy<dim>::judge_blocks(const Scene<dim> &sample,
-                                      const Geometry &g) const
+                                      const BlockGeometry<dim> &g) const
   {
     const auto &all = g.blocks.blocks;
     BlockFactors found{
       std::vector<double>(all.size(), std::numeric_limits<double>::infinity()),
       std::vector<unsigned int>(all.size(), 0),
       std::vector<bool>(all.size(), false)};
-    for (unsigned int number = 1; number < sample.stages.size() + 2; ++number)
-      {
-        if (number > 1 && !is_changing(sample, number))
-          continue;
-        const Ground<dim> ground{sample, g.split, number, nullptr};
-        const FreeFaces<dim> free(ground);
-        for (unsigned int b = 0; b < all.size(); ++b)
+    for_each_exposed_block<dim>(
+      sample,
+      g.split,
+      g.blocks,
+      [&](const Ground<dim> &ground,
+          const FreeFaces<dim> &free,
+          const unsigned int b) {
+        found.is_exposed[b] = true;
+        const double factor =
+          judge_block(ground, free, g.blocks, b, 0.).limit.factor;
+        if (factor < found.factor[b])
           {
-            const auto &classes = all[b].class_of_stage;
-            if (classes[std::min<std::size_t>(number, classes.size() - 1)] !=
-                BlockClass::exposed)
-              continue;
-            found.is_exposed[b] = true;
-            const double factor =
-              judge_block(ground, free, g.blocks, b, 0.).limit.factor;
-            if (factor < found.factor[b])
-              {
-                found.factor[b] = factor;
-                found.stage[b]  = number;
-              }
+            found.factor[b] = factor;
+            found.stage[b]  = ground.stage_number;
           }
-      }
+      });
     return found;
   }
 
@@ -98,11 +92,11 @@ namespace Keyblock
                    scene_file,
                    overrides_of(index));
     const Scene<dim> &sample = joints.empty() ? changed : scene;
-    Geometry own;
+    BlockGeometry<dim> own;
     if (!geometry)
       own = make_geometry(sample);
-    const Geometry &g = geometry ? *geometry : own;
-    const auto &all   = g.blocks.blocks;
+    const BlockGeometry<dim> &g = geometry ? *geometry : own;
+    const auto &all             = g.blocks.blocks;
 
     BlockFactors found = judge_blocks(sample, g);
     const auto least   = [&]() {

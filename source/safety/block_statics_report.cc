@@ -106,29 +106,24 @@ namespace Keyblock
   {
     std::vector<std::unique_ptr<BlockStatics<dim>>> last(blocks.blocks.size());
     std::ostringstream rows;
-    for (unsigned int number = 1; number < scene.stages.size() + 2; ++number)
-      {
-        if (number > 1 && !is_changing(scene, number))
-          continue;
-        const Ground<dim> ground{scene, split, number, nullptr};
-        const FreeFaces<dim> free(ground);
-        for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
-          {
-            const auto &classes = blocks.blocks[b].class_of_stage;
-            if (classes[std::min<std::size_t>(number, classes.size() - 1)] !=
-                BlockClass::exposed)
-              continue;
-            auto statics = std::make_unique<BlockStatics<dim>>(
-              judge_block(ground, free, blocks, b, 0.));
-            if (!last[b] || !agree(*last[b], *statics))
-              print_row(rows,
-                        blocks.blocks[b].id,
-                        number == 1 ? "the start"
-                                    : scene.stages[number - 2]->name,
-                        *statics);
-            last[b] = std::move(statics);
-          }
-      }
+    for_each_exposed_block<dim>(
+      scene,
+      split,
+      blocks,
+      [&](const Ground<dim> &ground,
+          const FreeFaces<dim> &free,
+          const unsigned int b) {
+        auto statics = std::make_unique<BlockStatics<dim>>(
+          judge_block(ground, free, blocks, b, 0.));
+        if (!last[b] || !agree(*last[b], *statics))
+          print_row(rows,
+                    blocks.blocks[b].id,
+                    ground.stage_number == 1
+                      ? "the start"
+                      : scene.stages[ground.stage_number - 2]->name,
+                    *statics);
+        last[b] = std::move(statics);
+      });
     if (rows.str().empty())
       return;
     out << "Limit equilibrium of rigid blocks between fixed neighbours, "

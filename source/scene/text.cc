@@ -91,16 +91,23 @@ namespace Keyblock
   {
     constexpr std::size_t largest_text = std::size_t(1) << 26; // [bytes]
 
-    /** The bytes of a file. Those that can be read only once, and by one
-     * process only (pipes), are kept. */
+    /** Texts by the name that stands for them: of pipes, which can be read only
+     * once, and by one process only, and of scenes that are in no file. */
+    std::map<std::string, std::string> &
+    kept_texts()
+    {
+      static std::map<std::string, std::string> texts;
+      return texts;
+    }
+
+    /** The bytes of a file. */
     std::string
     read_bytes(const Communicator &communicator,
                const std::string &file_name,
                const std::string &what)
     {
-      static std::map<std::string, std::string> pipes;
-      const auto kept = pipes.find(file_name);
-      if (kept != pipes.end())
+      const auto kept = kept_texts().find(file_name);
+      if (kept != kept_texts().end())
         return kept->second;
       std::string text;
       std::vector<unsigned int> is_pipe(1, 0);
@@ -125,7 +132,7 @@ namespace Keyblock
       text = communicator.text_of_root(text);
       communicator.broadcast(is_pipe);
       if (is_pipe[0])
-        pipes[file_name] = text;
+        kept_texts()[file_name] = text;
       return text;
     }
 
@@ -318,6 +325,22 @@ namespace Keyblock
       scene.overrides.push_back({assignment, text});
     }
   } // namespace
+
+
+
+  SceneInMemory::SceneInMemory(const std::string &text)
+  {
+    static unsigned int n_made = 0;
+    scene_name                 = "text " + std::to_string(++n_made);
+    kept_texts()[scene_name]   = text;
+  }
+
+
+
+  SceneInMemory::~SceneInMemory()
+  {
+    kept_texts().erase(scene_name);
+  }
 
 
 

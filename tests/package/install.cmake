@@ -1,6 +1,7 @@
 # Installs a build, runs the program that it put there, and builds and runs a
 # project that uses its library.
-# usage: cmake -DBUILD=FOLDER -DFOLDER=FOLDER -DPROJECT=FOLDER -P install.cmake
+# usage: cmake -DBUILD=FOLDER -DFOLDER=FOLDER -DPROJECT=FOLDER [-DPYTHON=FILE]
+#   -P install.cmake       PYTHON: that of the module, if it is built
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE code
     OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -30,6 +31,14 @@ foreach(file bash-completion/completions/keyblock keyblock/summary.schema.json
     message(FATAL_ERROR "share/${file} is missing")
   endif()
 endforeach()
+if(PYTHON)
+  file(GLOB folder ${FOLDER}/usr/lib/python3*/dist-packages)
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${folder} ${PYTHON} -c
+    "print(__import__('keyblock').Scene('${FOLDER}/usr/share/keyblock/prm/tutorial/sliding_block.prm'))")
+  if(NOT output MATCHES "sliding_block.prm', 2D")
+    message(FATAL_ERROR "${output}")
+  endif()
+endif()
 run(${CMAKE_COMMAND} -S ${PROJECT} -B ${FOLDER}/user
   -DCMAKE_PREFIX_PATH=${FOLDER}/usr -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${FOLDER}/user)

@@ -15,7 +15,7 @@ namespace Keyblock
   class Checkpointing
   {
   public:
-    /** @param folder of output, with '/' at its end
+    /** @param folder of output, with '/' at its end; empty: nothing is saved
      * @param command that starts the run anew
      * @param wall_start from which the interval of checkpoints counts [s] */
     Checkpointing(Model<dim> &model,

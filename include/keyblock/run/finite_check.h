@@ -39,7 +39,7 @@ namespace Keyblock
     const Model<dim> &model;
     Monitors<dim> &monitors;
     Output<dim> &output;
-    std::string folder; ///< of output, with '/' at its end
+    std::string folder; ///< of output, with '/' at its end, or empty
   };
 } // namespace Keyblock
 

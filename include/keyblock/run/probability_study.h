@@ -2,7 +2,7 @@
 #ifndef keyblock_run_probability_study_h
 #define keyblock_run_probability_study_h
 
-#include <keyblock/blocks/interface.h>
+#include <keyblock/blocks/block_geometry.h>
 #include <keyblock/run/study_report.h>
 
 #include <memory>
@@ -37,15 +37,6 @@ namespace Keyblock
     void run();
 
   private:
-    /** Blocks and the mesh that has them. */
-    struct Geometry
-    {
-      SplitMesh<dim> split;
-      Blocks<dim> blocks;
-      bool shares_faces = false;         ///< joints with each other
-      std::vector<std::string> warnings; ///< warnings_of_coarse_mesh()
-    };
-
     /** Values of the variables in all samples: by variable. */
     void draw();
 
@@ -60,7 +51,7 @@ namespace Keyblock
      * Throws InputError. */
     void set_strengths(const unsigned int index) const;
 
-    Geometry make_geometry(const Scene<dim> &sample) const;
+    BlockGeometry<dim> make_geometry(const Scene<dim> &sample) const;
 
     /** Overrides that make a sample of the scene. */
     std::vector<std::string> overrides_of(const unsigned int index) const;
@@ -74,7 +65,7 @@ namespace Keyblock
     };
 
     BlockFactors judge_blocks(const Scene<dim> &sample,
-                              const Geometry &geometry) const;
+                              const BlockGeometry<dim> &geometry) const;
 
     /** Run a sample and put the factors by strength reduction in place of those
      * by limit equilibrium. */
@@ -111,7 +102,7 @@ namespace Keyblock
      * else empty. */
     std::vector<Joint<dim> *> joints;
     std::string header;
-    std::unique_ptr<Geometry> geometry; ///< null: one for each sample
+    std::unique_ptr<BlockGeometry<dim>> geometry; ///< null: one for each sample
     std::vector<std::vector<double>> values;
     std::vector<SampleResult> results;
     unsigned int n_resumed = 0; ///< samples that were there

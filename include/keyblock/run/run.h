@@ -14,7 +14,7 @@ namespace Keyblock
   template <int dim>
   struct Run
   {
-    /** @param folder of output, with '/' at its end
+    /** @param folder of output, with '/' at its end; empty: nothing is written
      * @param command that starts the run anew
      * @param wall_start when the run began [s]
      * Throws InputError. */

@@ -25,6 +25,11 @@ namespace Keyblock
      * the same afterwards. */
     void find_remaining_factors(const RankGroups &groups);
 
+    /** Find the factor of the block with this id after the present stage,
+     * whatever the scene asks for. The state is the same afterwards; nothing
+     * is recorded. Throws InputError if the block can have none. */
+    SafetyFactor find_factor_of(const unsigned int id);
+
   private:
     std::vector<unsigned int>
     list_blocks_of_rank_group(const RankGroups &groups) const;
@@ -34,6 +39,15 @@ namespace Keyblock
      * are asked for. */
     std::vector<unsigned int>
     select_critical(const std::vector<unsigned int> &blocks) const;
+
+    /** Factor of a block (by index) after the present stage; the state is that
+     * of a trial afterwards. */
+    SafetyFactor find_factor(StrengthReductionSearch<dim> &search,
+                             const unsigned int block);
+
+    /** Index of the block with this id. Throws InputError if it cannot have a
+     * factor after the present stage. */
+    unsigned int find_block(const unsigned int id) const;
 
     /** Factor of a block that was removed in the stage. */
     SafetyFactor factor_of_failed_block(StrengthReductionSearch<dim> &search,

@@ -6,6 +6,8 @@
 #include <keyblock/run/progress_line.h>
 #include <keyblock/run/stage_observer.h>
 
+#include <functional>
+
 namespace Keyblock
 {
   /** Writes down what happens in a stage: histories, VTU, progress on the
@@ -27,6 +29,11 @@ namespace Keyblock
     void save_point(StageProgress<dim> &progress) override;
     void ended(StageProgress<dim> &progress, const Stage &stage) override;
 
+    /** Called where the state could be saved, if it is set: whoever looks on
+     * while a stage is run. What it throws breaks the stage off, which can go
+     * on afterwards. */
+    std::function<void(const StageProgress<dim> &)> watcher;
+
   private:
     bool writes_vtu() const;
     void write_state();
@@ -46,7 +53,7 @@ namespace Keyblock
     Output<dim> &output;
     Checkpointing<dim> &checkpointing;
     RunRecord<dim> &record;
-    std::string folder;        ///< of output, with '/' at its end
+    std::string folder;        ///< of output, with '/' at its end, or empty
     double loop_start   = 0.;  ///< wall time [s]
     double next_history = 0.;  ///< wall time of the next append_csv() [s]
     StageAdvance last_printed; ///< at the last line of progress

@@ -5,6 +5,7 @@
 #include <keyblock/safety/block_rotation.h>
 #include <keyblock/safety/block_support.h>
 
+#include <functional>
 #include <iosfwd>
 
 namespace Keyblock
@@ -47,6 +48,19 @@ namespace Keyblock
                                 const Blocks<dim> &blocks,
                                 const unsigned int block,
                                 const double time);
+
+  /** Something to be done for a block (by index) that has a free face. */
+  template <int dim>
+  using ExposedBlockAction = std::function<
+    void(const Ground<dim> &, const FreeFaces<dim> &, const unsigned int)>;
+
+  /** Call @p action for each block with a free face, at the start and after
+   * each stage that changes anything. */
+  template <int dim>
+  void for_each_exposed_block(const Scene<dim> &scene,
+                              const SplitMesh<dim> &split,
+                              const Blocks<dim> &blocks,
+                              const ExposedBlockAction<dim> &action);
 
   /** Whether the rock is under stress before anything is excavated, which limit
    * equilibrium leaves out. */

@@ -28,6 +28,28 @@ namespace Keyblock
                      const std::string &source,
                      const bool skip_unknown = false);
 
+  /** The text of a scene that is in no file. For as long as this lives its name
+   * can be given in place of that of a file; what it includes is looked for
+   * where the program runs. */
+  class SceneInMemory
+  {
+  public:
+    /** @param text the same on all ranks */
+    explicit SceneInMemory(const std::string &text);
+    ~SceneInMemory();
+    SceneInMemory(const SceneInMemory &)            = delete;
+    SceneInMemory &operator=(const SceneInMemory &) = delete;
+
+    const std::string &
+    name() const
+    {
+      return scene_name;
+    }
+
+  private:
+    std::string scene_name;
+  };
+
   /** What a scene says of joints by their name. */
   struct JointPassage
   {

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Limit equilibrium over values of entries."""
+import dataclasses
+import itertools
+
+import numpy
+
+from . import _core
+
+
+@dataclasses.dataclass(frozen=True)
+class Sample:
+    """One combination of values.
+
+    index: its place in the arrays of the Sweep.
+    values: of the entries, by "Section/Entry".
+    results: list of LimitEquilibrium, all blocks with a free face by stage.
+    """
+    index: tuple
+    values: dict
+    results: list
+
+    @property
+    def least(self):
+        """The LimitEquilibrium with the least factor; None: nothing is free."""
+        return min(self.results, key=lambda one: one.factor, default=None)
+
+
+@dataclasses.dataclass(frozen=True)
+class Sweep:
+    """What sweep() found.
+
+    entries: tuple of the entries that vary, one for each axis of the arrays.
+    values: their values, a tuple for each axis.
+    factor: least factor of all blocks and stages, one number for each
+        combination; inf: nothing can move.
+    samples: list of Sample; under mpirun those of this rank.
+    """
+    entries: tuple
+    values: tuple
+    factor: numpy.ndarray
+    samples: list
+
+
+def _names(key):
+    return (key,) if isinstance(key, str) else tuple(key)
+
+
+def sweep(scene, entries, *, stage=None, wanted=0.):
+    """Limit equilibrium for all combinations of values of some entries.
+
+    scene: a Scene, or the name of a file.
+    entries: sequences of values by "Section/Entry", as {"Joints/*/Friction
+        angle": [25, 30, 35], "Water/Level": [0, 5]}; several entries that have
+        the same value: a tuple of them.
+    stage: only results after this stage; None: after all.
+    wanted: factor to tell the support for.
+
+    Returns a Sweep. The scene is meshed once where all entries are strengths,
+    loads or water (leaves_geometry()), else for each combination. Under mpirun
+    the ranks share the combinations, each with scenes of its own.
+    Raises Error, also for a combination that cannot be used.
+    """
+    keys = list(entries)
+    if not isinstance(scene, _core.Scene):
+        scene = _core.Scene(scene, alone=True)
+    if not scene.alone:
+        scene = scene.alone_again()
+    if stage is not None and stage not in (*scene.stages, "start"):
+        raise _core.Error(f"The sweep is to look at a stage '{stage}', which the scene "
+                          f"does not have; it has start, {', '.join(scene.stages)}.")
+    values = tuple(tuple(entries[key]) for key in keys)
+    factor = numpy.zeros([len(list_) for list_ in values])
+    stays = all(_core.leaves_geometry(name) for key in keys for name in _names(key))
+    blocks = _core.find_blocks(scene) if stays else None
+    rank, size, samples = _core.rank(), _core.size(), []
+    for number, index in enumerate(itertools.product(*map(range, factor.shape))):
+        if number % size != rank:
+            continue
+        chosen = {name: values[axis][i] for axis, i in enumerate(index)
+                  for name in _names(keys[axis])}
+        changed = scene.with_overrides(chosen)
+        found = blocks if stays else _core.find_blocks(changed)
+        results = [one for one in found.limit_equilibrium(changed, wanted=wanted)
+                   if stage in (None, one.stage)]
+        samples.append(Sample(index, chosen, results))
+        factor[index] = min((one.factor for one in results), default=numpy.inf)
+    if size > 1:
+        factor = _core.sum_over_ranks(factor)
+    return Sweep(tuple(keys), values, factor, samples)

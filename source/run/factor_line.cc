@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What is said of a safety factor on the screen.
+#include <keyblock/blocks/block_resolution.h>
+#include <keyblock/run/safety_study.h>
+#include <keyblock/safety/block_statics.h>
+
+#include <cmath>
+#include <iomanip>
+
+namespace Keyblock
+{
+  template <int dim>
+  void
+  print_factor(std::ostream &out,
+               const SafetyFactor &factor,
+               const Blocks<dim> &blocks,
+               const Scene<dim> &scene)
+  {
+    double seconds = 0.;
+    for (const Trial &trial : factor.trials)
+      seconds += trial.seconds;
+    out << "Factor  block " << blocks.blocks[factor.block].id << " after "
+        << factor.stage << ": " << std::setprecision(5);
+    if (factor.outcome == SafetyFactor::Outcome::bracketed)
+      out << factor.value() << " [" << factor.lower << ", " << factor.upper
+          << "]";
+    else
+      out << describe_outcome(factor);
+    if (factor.undecided_upper > 0.)
+      out << ", undecided from " << factor.undecided_lower << " to "
+          << factor.undecided_upper;
+    if (!factor.failure_mode.empty())
+      out << ", " << factor.failure_mode;
+    if (!factor.group.empty())
+      {
+        out << "; blocks ";
+        for (unsigned int i = 0; i < factor.group.size(); ++i)
+          out << (i > 0 ? ", " : "") << factor.group[i];
+        out << " move together: "
+            << 0.5 * (factor.group_lower + factor.group_upper) << " ["
+            << factor.group_lower << ", " << factor.group_upper << "]";
+      }
+    out << "; limit equilibrium "
+        << (has_initial_stress(scene) ? "without in-situ clamping " : "");
+    if (std::isfinite(factor.limit_factor))
+      out << factor.limit_factor << " ";
+    else
+      out << "above all ";
+    out << "(" << factor.limit_mode << (factor.limit_remark.empty() ? "" : "; ")
+        << factor.limit_remark << ")";
+    if (factor.stress_ratio > 0.)
+      out << ", stress ratio " << factor.stress_ratio;
+    const Block<dim> &block = blocks.blocks[factor.block];
+    unsigned int n_broken   = 0;
+    for (const Trial &trial : factor.trials)
+      if (trial.is_stable && !trial.is_of_group && trial.factor == factor.lower)
+        n_broken = trial.n_broken;
+    if (n_broken > 0)
+      out << "; " << n_broken << " bonds broke in the last that held";
+    if (is_too_coarse(block, scene))
+      out << "; only " << std::setprecision(2) << block.cells_across()
+          << " cells across, not " << scene.meshing.cells_across;
+    out << "; " << factor.trials.size() << " trials, " << std::setprecision(3)
+        << seconds << " s" << std::endl;
+  }
+
+  template void print_factor(std::ostream &,
+                             const SafetyFactor &,
+                             const Blocks<2> &,
+                             const Scene<2> &);
+  template void print_factor(std::ostream &,
+                             const SafetyFactor &,
+                             const Blocks<3> &,
+                             const Scene<3> &);
+} // namespace Keyblock
