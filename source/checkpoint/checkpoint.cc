@@ -70,6 +70,32 @@ namespace Keyblock
     action(pair.weld_tension);
   }
 
+  template <int dim, typename Action>
+  void
+  for_each_number(SpringState<dim> &spring, const Action &action)
+  {
+    for (int d = 0; d < dim; ++d)
+      {
+        action(spring.force[d]);
+        action(spring.stretch[d]);
+      }
+  }
+
+  template <int dim, typename Action>
+  void
+  for_each_number(NodeSpring<dim> &entry, const Action &action)
+  {
+    action(entry.node);
+    action(entry.joint);
+    for_each_number(entry.state, action);
+    for (double &component : entry.normal)
+      action(component);
+    action(entry.offset);
+    action(entry.has_offset);
+    action(entry.stored);
+    action(entry.last_step);
+  }
+
   template <typename Action>
   void
   for_each_number(NodeHistory &entry, const Action &action)
@@ -357,6 +383,8 @@ namespace Keyblock
     exchange_pairs(group + "pair_histories", memory.pair_histories);
     exchange_rows(file, group + "surface_contacts", memory.contacts);
     exchange_rows(file, group + "node_histories", memory.node_histories);
+    exchange_pairs(group + "pair_springs", memory.pair_springs);
+    exchange_rows(file, group + "node_springs", memory.node_springs);
     std::vector<double> normals;
     for (const Vector<dim> &n : memory.normal)
       normals.insert(normals.end(), n.begin(), n.end());

@@ -136,6 +136,94 @@ namespace Keyblock
       return response;
     }
 
+    /**
+     * What strength has to bound if the spring of a point is to take up all of
+     * its motion [N s] (PointSpring::bounded_part), at the present velocities,
+     * of which its present impulse is a part. If all directions have their own
+     * inverse mass, exact.
+     */
+    template <int dim>
+    Vector<dim>
+    elastic_trial(const ContactPoint<dim> &point, const ContactNodes<dim> &nodes)
+    {
+      const PointSpring<dim> &spring = point.spring;
+      const Vector<dim> bounded =
+        spring.bounded_part(point.impulse, point.normal);
+      const Vector<dim> u =
+        add<dim>(relative_velocity<dim>(point, nodes.velocity),
+                 1.,
+                 spring.wanted_velocity(bounded, point.normal));
+      const double w = point_inverse_mass<dim>(point, nodes);
+      return add<dim>(
+        bounded,
+        -1.,
+        scale_parts<dim>(u,
+                         point.normal,
+                         1. / (spring.tau * w + spring.compliance()),
+                         1. / (spring.tau_shear * w +
+                               spring.shear_compliance())));
+    }
+
+    /** As respond(), of a compliant point with some node that is partly held,
+     * for which both directions have one share tau: the fixed point of
+     * b = admissible(b - rho (W' b + u)) as in respond_with_matrix(). */
+    template <int dim>
+    PointResponse<dim>
+    respond_elastically_with_matrix(const ContactPoint<dim> &point,
+                                    const ContactNodes<dim> &nodes)
+    {
+      const PointSpring<dim> &spring = point.spring;
+      Matrix<dim> w                  = inverse_mass_matrix<dim>(point, nodes);
+      const Vector<dim> free_velocity =
+        add<dim>(add<dim>(relative_velocity<dim>(point, nodes.velocity),
+                          -1.,
+                          multiply<dim>(w, point.impulse)),
+                 1.,
+                 add<dim>(multiply<dim>(w, spring.known_impulse(point.normal)),
+                          1.,
+                          spring.wanted_velocity({}, point.normal)));
+      const Vector<dim> &n = point.normal;
+      for (int d = 0; d < dim; ++d)
+        for (int e = 0; e < dim; ++e)
+          w[d][e] =
+            spring.tau * w[d][e] +
+            spring.shear_compliance() * (d == e ? 1. : 0.) +
+            (spring.compliance() - spring.shear_compliance()) * n[d] * n[e];
+      ContactPoint<dim> bounded = point;
+      bounded.impulse = spring.bounded_part(point.impulse, point.normal);
+      PointResponse<dim> response =
+        respond_with_matrix<dim>(bounded, w, free_velocity);
+      response.impulse = spring.whole_impulse(response.impulse, point.normal);
+      return response;
+    }
+
+    /** As respond(), of a compliant point. */
+    template <int dim>
+    PointResponse<dim>
+    respond_elastically(const ContactPoint<dim> &point,
+                        const ContactNodes<dim> &nodes)
+    {
+      if (is_partly_held<dim>(point, nodes))
+        return respond_elastically_with_matrix<dim>(point, nodes);
+      const PointSpring<dim> &spring = point.spring;
+      PointStrength strength         = point.strength;
+      if (strength.dilation > 0.)
+        {
+          // what slips is worth more or less than what opens
+          const double w = point_inverse_mass<dim>(point, nodes);
+          strength.dilation *=
+            spring.tau_shear *
+            (spring.tau_shear * w + spring.shear_compliance()) /
+            (spring.tau * (spring.tau * w + spring.compliance()));
+        }
+      PointResponse<dim> response =
+        admissible_impulse<dim>(elastic_trial<dim>(point, nodes),
+                                point.normal,
+                                strength);
+      response.impulse = spring.whole_impulse(response.impulse, point.normal);
+      return response;
+    }
+
     /** One visit of a point: its new response to the present velocities, of
      * which its present impulse is a part. */
     template <int dim>
@@ -144,6 +232,8 @@ namespace Keyblock
             const ContactNodes<dim> &nodes,
             const double step)
     {
+      if (point.spring.is_elastic)
+        return respond_elastically<dim>(point, nodes);
       // the velocity the point must not have: its own plus what closes the gap
       Vector<dim> u     = relative_velocity<dim>(point, nodes.velocity);
       const double bias = std::max(point.gap, 0.) / step;
@@ -351,8 +441,11 @@ namespace Keyblock
           {
             const Vector<dim> u =
               relative_velocity<dim>(points[p], nodes.velocity);
-            const double w          = point_inverse_mass<dim>(points[p], nodes);
-            const Vector<dim> stick = add<dim>(points[p].impulse, -1. / w, u);
+            const double w = point_inverse_mass<dim>(points[p], nodes);
+            const Vector<dim> stick =
+              points[p].spring.is_elastic ?
+                elastic_trial<dim>(points[p], nodes) :
+                add<dim>(points[p].impulse, -1. / w, u);
             const double excess =
               violation<dim>(stick, points[p].normal, points[p].strength);
             if (worst < 0 || excess > largest)

@@ -90,11 +90,12 @@ namespace Keyblock
   void
   Monitors<dim>::find_target(const Monitor<dim> &monitor)
   {
-    unsigned int node = none, block = none, nearest = none;
+    unsigned int node = none, block = none;
     std::vector<unsigned int> nodes;
-    double least = std::numeric_limits<double>::max();
     if (monitor.kind == MonitorKind::point)
       {
+        unsigned int nearest = none;
+        double least         = std::numeric_limits<double>::max();
         for (unsigned int v = 0; v < split.mesh.vertices.size(); ++v)
           {
             const double d = split.mesh.vertices[v].distance(monitor.location);
@@ -109,30 +110,7 @@ namespace Keyblock
           node = numbering.local_node(nearest);
       }
     if (monitor.kind == MonitorKind::block)
-      {
-        // where it lies in a cell, that one's block, however far its centre is
-        const unsigned int cell = find_cell_at(monitor.location);
-        if (cell != none && split.block_of_cell[cell] != none)
-          block = split.block_of_cell[cell];
-        for (unsigned int c = 0; c < split.mesh.n_cells() && block == none; ++c)
-          {
-            const double d =
-              split.mesh.cell_center(c).distance(monitor.location);
-            if (d < least && split.block_of_cell[c] != none)
-              {
-                least   = d;
-                nearest = c;
-              }
-          }
-        look_for_location(monitor, least);
-        if (nearest != none)
-          block = split.block_of_cell[nearest];
-        AssertThrow(block != none,
-                    InputError("The monitor '" + monitor.name +
-                               "' is of kind block, but there is no block: all "
-                               "rock is excavated later; correct 'Monitors/" +
-                               monitor.name + "/Kind'."));
-      }
+      block = find_block(monitor);
     if (monitor.kind == MonitorKind::region)
       {
         const Expression<dim> region(monitor.region,
@@ -154,6 +132,48 @@ namespace Keyblock
     node_of_monitor.push_back(node);
     block_of_monitor.push_back(block);
     nodes_of_monitor.push_back(nodes);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Monitors<dim>::find_block(const Monitor<dim> &monitor)
+  {
+    if (monitor.block > 0)
+      {
+        const unsigned int n_blocks = blocks.blocks.size();
+        AssertThrow(monitor.block <= n_blocks,
+                    InputError("The monitor '" + monitor.name +
+                               "' is of block " +
+                               std::to_string(monitor.block) +
+                               ", but there are " + std::to_string(n_blocks) +
+                               " in the block table; correct 'Monitors/" +
+                               monitor.name + "/Block'."));
+        return monitor.block - 1;
+      }
+    // where it lies in a cell, that one's block, however far its centre is
+    const unsigned int cell = find_cell_at(monitor.location);
+    if (cell != none && split.block_of_cell[cell] != none)
+      return split.block_of_cell[cell];
+    unsigned int nearest = none;
+    double least         = std::numeric_limits<double>::max();
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      {
+        const double d = split.mesh.cell_center(c).distance(monitor.location);
+        if (d < least && split.block_of_cell[c] != none)
+          {
+            least   = d;
+            nearest = c;
+          }
+      }
+    look_for_location(monitor, least);
+    AssertThrow(nearest != none,
+                InputError("The monitor '" + monitor.name +
+                           "' is of kind block, but there is no block: all "
+                           "rock is excavated later; correct 'Monitors/" +
+                           monitor.name + "/Kind'."));
+    return split.block_of_cell[nearest];
   }
 
 
@@ -259,7 +279,10 @@ namespace Keyblock
         if (monitor->kind == MonitorKind::block)
           add_scalars({"rotation [rad]",
                        "angular_momentum [N m s]",
-                       "mean_stress_trace [Pa]"});
+                       "mean_stress_trace [Pa]",
+                       "slip [m]",
+                       "largest_slip [m]",
+                       "opening [m]"});
       }
     for (unsigned int i = 0; i < n_recorded_energies; ++i)
       columns.push_back("energy." + Energies::terms()[i].name + " [J]");
@@ -290,7 +313,10 @@ namespace Keyblock
         if (monitor.kind == MonitorKind::joint)
           sample_joint(monitor, row);
         else if (monitor.kind == MonitorKind::block)
-          sample_block(block_of_monitor[m], row);
+          {
+            sample_block(block_of_monitor[m], row);
+            sample_block_motion(block_of_monitor[m], row);
+          }
         else if (monitor.kind == MonitorKind::support)
           sample_support(monitor, row);
         else if (monitor.kind == MonitorKind::region)
