@@ -22,7 +22,6 @@ LONG = {
     "include/keyblock/scene/choices.h": "a list of words",
     "source/rock/cell_kernels.cc": "compiled as a whole for each instruction set",
     "source/mesh/refinement.cc": "one class around deal.II's Triangulation",
-    "source/contact/solver.cc": "inlined as a whole into its sweeps",
 }
 
 

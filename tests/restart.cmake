@@ -94,7 +94,7 @@ keyblock_restart(compliant_joints verification/incline_3d
   ARGUMENTS ${compliant})
 keyblock_restart(compliant_joints_2 verification/incline_3d RANKS 2
   ARGUMENTS --ranks 2 ${compliant})
-keyblock_restart(compliant_joints_other_ranks verification/joint_wave RANKS 2
+keyblock_restart(compliant_joints_other_ranks verification/newmark RANKS 2
   ARGUMENTS --ranks 1 2 --tolerance 1e-8 ${compliant})
 # with turning normals, and born under stress, with stages and factors
 keyblock_restart(compliant_joints_large verification/toppling_slides_and_topples

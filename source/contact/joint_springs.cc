@@ -15,9 +15,9 @@ namespace Keyblock
     double
     share_of(const double squared_frequency_times_step)
     {
-      return squared_frequency_times_step <= resolved_stiffness ?
-               0.5 :
-               1. - 0.5 * resolved_stiffness / squared_frequency_times_step;
+      return squared_frequency_times_step <= resolved_stiffness
+               ? 0.5
+               : 1. - 0.5 * resolved_stiffness / squared_frequency_times_step;
     }
   } // namespace
 
@@ -103,11 +103,8 @@ namespace Keyblock
     if (!is_elastic(pair))
       return;
     const Pair<dim> &p = interface.pairs[pair];
-    point.spring       = make_spring(p.joint,
-                               p.area,
-                               inverse_mass,
-                               is_partly_held,
-                               memory.pair_springs[pair]);
+    point.spring       = make_spring(
+      p.joint, p.area, inverse_mass, is_partly_held, memory.pair_springs[pair]);
     point.gap = dot<dim>(memory.pair_springs[pair].stretch, point.normal);
   }
 
@@ -145,12 +142,11 @@ namespace Keyblock
     if (!is_any || !joint.is_compliant() || p.area <= 0.)
       return;
     SpringState<dim> &spring = memory.pair_springs[pair];
-    spring.force = add<dim>(Vector<dim>{}, 1. / present.kick, impulse);
-    spring.stretch =
-      scale_parts<dim>(spring.force,
-                       memory.normal[pair],
-                       -1. / (joint.normal * p.area),
-                       -1. / (joint.shear * p.area));
+    spring.force   = add<dim>(Vector<dim>{}, 1. / present.kick, impulse);
+    spring.stretch = scale_parts<dim>(spring.force,
+                                      memory.normal[pair],
+                                      -1. / (joint.normal * p.area),
+                                      -1. / (joint.shear * p.area));
   }
 
 

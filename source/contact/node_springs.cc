@@ -11,7 +11,9 @@ namespace Keyblock
     /** Where that of a node on a joint is, or is to be inserted. */
     template <typename Springs>
     auto
-    place_in(Springs &springs, const unsigned int node, const unsigned int joint)
+    place_in(Springs &springs,
+             const unsigned int node,
+             const unsigned int joint)
     {
       return std::lower_bound(springs.begin(),
                               springs.end(),
@@ -61,7 +63,7 @@ namespace Keyblock
     const unsigned int g = topology.group_of_node[node];
     if (g == none)
       return 0.;
-    const unsigned int v    = surface.vertex_of_node[node];
+    const unsigned int v = surface.vertex_of_node[node];
     double sum = 0., largest = 0.;
     const auto [begin, end] = topology.pairs_of_group(g);
     for (unsigned int p = begin; p < end; ++p)
@@ -85,9 +87,9 @@ namespace Keyblock
     double largest = 0.;
     for (const NodeSpring<dim> &spring : memory.node_springs)
       largest = std::max(largest,
-                         spring.has_offset ?
-                           -spring.offset :
-                           -dot<dim>(spring.state.stretch, spring.normal));
+                         spring.has_offset
+                           ? -spring.offset
+                           : -dot<dim>(spring.state.stretch, spring.normal));
     return largest;
   }
 
@@ -157,9 +159,9 @@ namespace Keyblock
     if (spring.last_step == memory.n_steps && norm<dim>(spring.normal) > 0.)
       return dot<dim>(spring.state.stretch, spring.normal) - contact.point.gap;
     const NodeSpring<dim> *const partner = find_partner(contact);
-    return partner != nullptr && partner->has_offset ?
-             partner->offset :
-             std::max(0., -contact.point.gap);
+    return partner != nullptr && partner->has_offset
+             ? partner->offset
+             : std::max(0., -contact.point.gap);
   }
 
 
@@ -197,7 +199,7 @@ namespace Keyblock
                   [&](const unsigned int node) {
                     return projection[node] != nullptr;
                   });
-    point.spring = make_spring(contact.joint,
+    point.spring        = make_spring(contact.joint,
                                area_of(contact.slave, contact.joint),
                                point_inverse_mass<dim>(point, nodes.view),
                                is_partly_held,
@@ -228,13 +230,9 @@ namespace Keyblock
   JointSprings<dim>::be_born(const SurfaceContact<dim> &contact,
                              NodeSpring<dim> &spring) const
   {
-    const Vector<dim> &n = contact.point.normal;
-    const PointSpring<dim> stiff =
-      make_spring(contact.joint,
-                  area_of(contact.slave, contact.joint),
-                  0.,
-                  false,
-                  {});
+    const Vector<dim> &n         = contact.point.normal;
+    const PointSpring<dim> stiff = make_spring(
+      contact.joint, area_of(contact.slave, contact.joint), 0., false, {});
     spring.state.force =
       add<dim>(Vector<dim>{}, 1. / present.kick, contact.point.impulse);
     spring.state.stretch = scale_parts<dim>(spring.state.force,
@@ -276,8 +274,7 @@ namespace Keyblock
                               point.status,
                               point.strength);
         if (point.status == ContactStatus::sliding)
-          spring.offset -=
-            point.strength.dilation * norm<dim>(change.slip);
+          spring.offset -= point.strength.dilation * norm<dim>(change.slip);
         spring.state  = change.after;
         spring.stored = point.spring.energy(change.after.force, point.normal);
       }

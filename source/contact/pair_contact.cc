@@ -180,8 +180,8 @@ namespace Keyblock
         const SinglePair &single = single_pairs[i];
         PairState<dim> &s        = memory.state[single.pair];
         const unsigned int pm = dim * single.minus, pp = dim * single.plus;
-        const double wm = fields.inverse_mass[single.minus];
-        const double wp = fields.inverse_mass[single.plus];
+        const double wm       = fields.inverse_mass[single.minus];
+        const double wp       = fields.inverse_mass[single.plus];
         const bool is_elastic = springs.is_elastic(single.pair);
         if (s.is_removed || (wm + wp == 0. && !is_elastic) ||
             memory
@@ -191,8 +191,9 @@ namespace Keyblock
           strength.of_pair(single.pair, s.is_intact, step.kick);
         if (is_elastic || !stick(single, strength_now, step))
           solve_alone(single, strength_now, step);
-        const bool is_cluster =
-          !is_elastic && s.status == ContactStatus::sticking && wm > 0. && wp > 0.;
+        const bool is_cluster = !is_elastic &&
+                                s.status == ContactStatus::sticking &&
+                                wm > 0. && wp > 0.;
         fields.is_in_cluster[single.minus] = is_cluster;
         fields.is_in_cluster[single.plus]  = is_cluster;
         for (int d = 0; d < dim; ++d)

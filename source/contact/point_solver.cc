@@ -47,8 +47,8 @@ namespace Keyblock
       add<dim>(relative_velocity<dim>(point, old_velocity),
                1.,
                relative_velocity<dim>(point, new_velocity));
-    const double r_n     = dot<dim>(point.impulse, point.normal);
-    const double all     = -0.5 * dot<dim>(point.impulse, mean);
+    const double r_n = dot<dim>(point.impulse, point.normal);
+    const double all = -0.5 * dot<dim>(point.impulse, mean);
     if (point.spring.is_elastic)
       {
         book_spring(point, all, relative_velocity<dim>(point, new_velocity));
@@ -68,18 +68,15 @@ namespace Keyblock
                                 const Vector<dim> &velocity)
   {
     const PointSpring<dim> &spring = point.spring;
-    const SpringChange<dim> change =
-      advance_spring<dim>(spring,
-                          point.impulse,
-                          point.normal,
-                          velocity,
-                          point.status,
-                          point.strength);
-    const double stored =
-      spring.energy(change.after.force, point.normal) -
-      spring.energy(spring.before.force, point.normal);
-    const double friction =
-      -dot<dim>(point.impulse, change.slip) / spring.kick;
+    const SpringChange<dim> change = advance_spring<dim>(spring,
+                                                         point.impulse,
+                                                         point.normal,
+                                                         velocity,
+                                                         point.status,
+                                                         point.strength);
+    const double stored = spring.energy(change.after.force, point.normal) -
+                          spring.energy(spring.before.force, point.normal);
+    const double friction = -dot<dim>(point.impulse, change.slip) / spring.kick;
     const bool dilates =
       point.strength.dilation > 0. && point.status == ContactStatus::sliding;
     tally.work.elastic += stored;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/contact/solver.h>
-#include <keyblock/law/friction.h>
+#include <keyblock/contact/point_response.h>
 
 #include <algorithm>
 #include <limits>
@@ -60,170 +59,6 @@ namespace Keyblock
 
   namespace
   {
-    template <int dim>
-    using Matrix = std::array<std::array<double, dim>, dim>;
-
-    /** Whether some node of the point is held in some directions only. */
-    template <int dim>
-    bool
-    is_partly_held(const ContactPoint<dim> &point,
-                   const ContactNodes<dim> &nodes)
-    {
-      for (int k = 0; k < point.n_nodes; ++k)
-        if (nodes.projection_of(point.node[k]) != nullptr)
-          return true;
-      return false;
-    }
-
-    /** Inverse mass matrix W = sum a_k^2 P_k / m_k of a point. */
-    template <int dim>
-    Matrix<dim>
-    inverse_mass_matrix(const ContactPoint<dim> &point,
-                        const ContactNodes<dim> &nodes)
-    {
-      Matrix<dim> w{};
-      for (int k = 0; k < point.n_nodes; ++k)
-        {
-          const double factor = point.weight[k] * point.weight[k] *
-                                nodes.inverse_mass[point.node[k]];
-          const double *p = nodes.projection_of(point.node[k]);
-          for (int d = 0; d < dim; ++d)
-            for (int e = 0; e < dim; ++e)
-              w[d][e] += factor * (p ? p[dim * d + e] : (d == e ? 1. : 0.));
-        }
-      return w;
-    }
-
-    template <int dim>
-    Vector<dim>
-    multiply(const Matrix<dim> &w, const Vector<dim> &x)
-    {
-      Vector<dim> y{};
-      for (int d = 0; d < dim; ++d)
-        y[d] = dot<dim>(w[d], x);
-      return y;
-    }
-
-    /**
-     * Response of a point with different inverse masses by direction: the fixed
-     * point of r = admissible(r - rho (W r + u)), rho = 1 / trace W, which
-     * contracts for symmetric W. Held directions keep their impulse.
-     */
-    template <int dim>
-    PointResponse<dim>
-    respond_with_matrix(const ContactPoint<dim> &point,
-                        const Matrix<dim> &w,
-                        const Vector<dim> &free_velocity)
-    {
-      double trace = 0.;
-      for (int d = 0; d < dim; ++d)
-        trace += w[d][d];
-      PointResponse<dim> response{point.impulse, point.status};
-      for (int iteration = 0; iteration < 5000; ++iteration)
-        {
-          const Vector<dim> velocity =
-            add<dim>(free_velocity, 1., multiply<dim>(w, response.impulse));
-          const PointResponse<dim> next = admissible_impulse<dim>(
-            add<dim>(response.impulse, -1. / trace, velocity),
-            point.normal,
-            point.strength);
-          const double change =
-            norm<dim>(add<dim>(next.impulse, -1., response.impulse));
-          response = next;
-          if (change <= 1e-13 * norm<dim>(next.impulse))
-            break;
-        }
-      return response;
-    }
-
-    /**
-     * What strength has to bound if the spring of a point is to take up all of
-     * its motion [N s] (PointSpring::bounded_part), at the present velocities,
-     * of which its present impulse is a part. If all directions have their own
-     * inverse mass, exact.
-     */
-    template <int dim>
-    Vector<dim>
-    elastic_trial(const ContactPoint<dim> &point, const ContactNodes<dim> &nodes)
-    {
-      const PointSpring<dim> &spring = point.spring;
-      const Vector<dim> bounded =
-        spring.bounded_part(point.impulse, point.normal);
-      const Vector<dim> u =
-        add<dim>(relative_velocity<dim>(point, nodes.velocity),
-                 1.,
-                 spring.wanted_velocity(bounded, point.normal));
-      const double w = point_inverse_mass<dim>(point, nodes);
-      return add<dim>(
-        bounded,
-        -1.,
-        scale_parts<dim>(u,
-                         point.normal,
-                         1. / (spring.tau * w + spring.compliance()),
-                         1. / (spring.tau_shear * w +
-                               spring.shear_compliance())));
-    }
-
-    /** As respond(), of a compliant point with some node that is partly held,
-     * for which both directions have one share tau: the fixed point of
-     * b = admissible(b - rho (W' b + u)) as in respond_with_matrix(). */
-    template <int dim>
-    PointResponse<dim>
-    respond_elastically_with_matrix(const ContactPoint<dim> &point,
-                                    const ContactNodes<dim> &nodes)
-    {
-      const PointSpring<dim> &spring = point.spring;
-      Matrix<dim> w                  = inverse_mass_matrix<dim>(point, nodes);
-      const Vector<dim> free_velocity =
-        add<dim>(add<dim>(relative_velocity<dim>(point, nodes.velocity),
-                          -1.,
-                          multiply<dim>(w, point.impulse)),
-                 1.,
-                 add<dim>(multiply<dim>(w, spring.known_impulse(point.normal)),
-                          1.,
-                          spring.wanted_velocity({}, point.normal)));
-      const Vector<dim> &n = point.normal;
-      for (int d = 0; d < dim; ++d)
-        for (int e = 0; e < dim; ++e)
-          w[d][e] =
-            spring.tau * w[d][e] +
-            spring.shear_compliance() * (d == e ? 1. : 0.) +
-            (spring.compliance() - spring.shear_compliance()) * n[d] * n[e];
-      ContactPoint<dim> bounded = point;
-      bounded.impulse = spring.bounded_part(point.impulse, point.normal);
-      PointResponse<dim> response =
-        respond_with_matrix<dim>(bounded, w, free_velocity);
-      response.impulse = spring.whole_impulse(response.impulse, point.normal);
-      return response;
-    }
-
-    /** As respond(), of a compliant point. */
-    template <int dim>
-    PointResponse<dim>
-    respond_elastically(const ContactPoint<dim> &point,
-                        const ContactNodes<dim> &nodes)
-    {
-      if (is_partly_held<dim>(point, nodes))
-        return respond_elastically_with_matrix<dim>(point, nodes);
-      const PointSpring<dim> &spring = point.spring;
-      PointStrength strength         = point.strength;
-      if (strength.dilation > 0.)
-        {
-          // what slips is worth more or less than what opens
-          const double w = point_inverse_mass<dim>(point, nodes);
-          strength.dilation *=
-            spring.tau_shear *
-            (spring.tau_shear * w + spring.shear_compliance()) /
-            (spring.tau * (spring.tau * w + spring.compliance()));
-        }
-      PointResponse<dim> response =
-        admissible_impulse<dim>(elastic_trial<dim>(point, nodes),
-                                point.normal,
-                                strength);
-      response.impulse = spring.whole_impulse(response.impulse, point.normal);
-      return response;
-    }
-
     /** One visit of a point: its new response to the present velocities, of
      * which its present impulse is a part. */
     template <int dim>
@@ -443,9 +278,9 @@ namespace Keyblock
               relative_velocity<dim>(points[p], nodes.velocity);
             const double w = point_inverse_mass<dim>(points[p], nodes);
             const Vector<dim> stick =
-              points[p].spring.is_elastic ?
-                elastic_trial<dim>(points[p], nodes) :
-                add<dim>(points[p].impulse, -1. / w, u);
+              points[p].spring.is_elastic
+                ? elastic_trial<dim>(points[p], nodes)
+                : add<dim>(points[p].impulse, -1. / w, u);
             const double excess =
               violation<dim>(stick, points[p].normal, points[p].strength);
             if (worst < 0 || excess > largest)

@@ -188,10 +188,10 @@ namespace Keyblock
             s.impulse         = point.impulse;
             s.status          = point.status;
             s.is_intact       = point.is_intact;
-            springs.take_up_pair(
-              pairs[i - memory.contacts.size()],
-              point,
-              relative_velocity<dim>(point, nodes.velocity.data()));
+            springs.take_up_pair(pairs[i - memory.contacts.size()],
+                                 point,
+                                 relative_velocity<dim>(point,
+                                                        nodes.velocity.data()));
           }
         for (int k = 0; k < point.n_nodes; ++k)
           for (int d = 0; d < dim; ++d)
@@ -256,7 +256,8 @@ namespace Keyblock
       {
         const ContactPoint<dim> &point = contact.point;
         const double w = point_inverse_mass<dim>(point, nodes.view);
-        if (point.spring.is_elastic || point.gap >= 0. || point.status == ContactStatus::open || w == 0.)
+        if (point.spring.is_elastic || point.gap >= 0. ||
+            point.status == ContactStatus::open || w == 0.)
           continue;
         is_needed = true;
         for (int k = 0; k < point.n_nodes; ++k)

@@ -102,8 +102,8 @@ namespace Keyblock
             const Pair<dim> &pair    = interface.pairs[p];
             const unsigned int minus = numbering.local_node(pair.minus),
                                plus  = numbering.local_node(pair.plus);
-            const bool is_of_block   = block_of_node[minus] == block ||
-                                     block_of_node[plus] == block;
+            const bool is_of_block =
+              block_of_node[minus] == block || block_of_node[plus] == block;
             if (!is_of_block || block_of_node[minus] == block_of_node[plus] ||
                 contact->remember().state[p].is_removed)
               continue;

@@ -85,7 +85,8 @@ namespace Keyblock
       const std::map<std::string, Quantity> quantities = {{"m", Q::length},
                                                           {"deg", Q::angle},
                                                           {"Pa", Q::stress},
-                                                          {"Pa/m", Q::stiffness},
+                                                          {"Pa/m",
+                                                           Q::stiffness},
                                                           {"", Q::number}};
       const std::vector<JointLawEntry> &entries        = joint_law_entries();
       for (unsigned int i = 0; i < entries.size(); ++i)

@@ -59,7 +59,7 @@ namespace Keyblock
    * kick; the strength of the joint bounds F. The impulse of the kick h is
    * r = h ((1 - tau) F_before + tau F). With tau = 1/2 that keeps energy to
    * round-off, with tau = 1 it is implicit and tends to the rigid point as the
-   * stiffness grows (doc/theory.md, section 7).
+   * stiffness grows (doc/theory.md, section 15).
    */
   template <int dim>
   struct PointSpring
@@ -119,24 +119,20 @@ namespace Keyblock
     Vector<dim>
     wanted_velocity(const Vector<dim> &bounded, const Vector<dim> &n) const
     {
-      return add<dim>(scale_parts<dim>(before.stretch,
-                                       n,
-                                       1. / (tau * step),
-                                       1. / (tau_shear * step)),
-                      1.,
-                      scale_parts<dim>(bounded,
-                                       n,
-                                       compliance(),
-                                       shear_compliance()));
+      return add<dim>(
+        scale_parts<dim>(
+          before.stretch, n, 1. / (tau * step), 1. / (tau_shear * step)),
+        1.,
+        scale_parts<dim>(bounded, n, compliance(), shear_compliance()));
     }
 
     /** Energy stored under a force [J]. */
     double
     energy(const Vector<dim> &force, const Vector<dim> &n) const
     {
-      return 0.5 * dot<dim>(
-                     force,
-                     scale_parts<dim>(force, n, 1. / normal, 1. / shear));
+      return 0.5 *
+             dot<dim>(force,
+                      scale_parts<dim>(force, n, 1. / normal, 1. / shear));
     }
   };
 
@@ -179,12 +175,11 @@ namespace Keyblock
     if (status == ContactStatus::sticking)
       return change;
     // what strength has not let the force take up has slipped for good
-    const Vector<dim> wanted  = add<dim>(spring.before.stretch,
-                                        spring.tau_shear * spring.step,
-                                        velocity);
-    const Vector<dim> elastic = add<dim>(
-      Vector<dim>{}, -1. / spring.shear, after.force);
-    change.slip = scale_parts<dim>(add<dim>(wanted, -1., elastic), n, 0., 1.);
+    const Vector<dim> wanted =
+      add<dim>(spring.before.stretch, spring.tau_shear * spring.step, velocity);
+    const Vector<dim> elastic =
+      add<dim>(Vector<dim>{}, -1. / spring.shear, after.force);
+    change.slip   = scale_parts<dim>(add<dim>(wanted, -1., elastic), n, 0., 1.);
     after.stretch = add<dim>(after.stretch, -1., change.slip);
     after.stretch =
       add<dim>(after.stretch, -strength.dilation * norm<dim>(change.slip), n);

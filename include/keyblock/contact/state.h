@@ -167,7 +167,7 @@ namespace Keyblock
     bool is_large        = false;
     bool keeps_ledger    = true;
     double weld_share    = 0.; ///< of the stage's former welds that is left [-]
-    bool is_settling     = false; ///< bodies are at rest and stay where they are
+    bool is_settling = false;  ///< bodies are at rest and stay where they are
   };
 } // namespace Keyblock
 
