@@ -125,7 +125,7 @@ namespace
 BOOST_AUTO_TEST_CASE(compliant_point)
 {
   for (const double tau : {0.5, 0.8})
-    for (const double shear : {1e3, 1e5})
+    for (const double shear : {1e3, 1e6})
       {
         CompliantPoint one(3e5, shear, tau), other(3e5, shear, tau);
         one.solve(false);
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(compliant_point)
           }
         for (int d = 0; d < 2; ++d)
           BOOST_TEST(std::abs(other.points[0].impulse[d] - point.impulse[d]) <
-                     1e-9 * norm<2>(point.impulse));
+                     1e-7 * norm<2>(point.impulse));
       }
 }
 
