@@ -21,7 +21,6 @@ MOST_LINES, MOST_LINES_OF_FUNCTION = 400, 100
 LONG = {
     "include/keyblock/scene/choices.h": "a list of words",
     "source/rock/cell_kernels.cc": "compiled as a whole for each instruction set",
-    "source/contact/solver.cc": "inlined as a whole into its sweeps",
 }
 
 

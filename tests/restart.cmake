@@ -87,3 +87,17 @@ keyblock_restart(free_field verification/free_field ARGUMENTS
   --set "Stages/shake/Duration=0.3")
 keyblock_restart(free_field_2 verification/free_field RANKS 2
   ARGUMENTS --ranks 2 --set "Stages/shake/Duration=0.3")
+# springs of pairs, and of nodes that have slid
+set(compliant --set "Joints/*/Normal stiffness=1e9"
+  --set "Joints/*/Shear stiffness=5e8")
+keyblock_restart(compliant_joints verification/incline_3d
+  ARGUMENTS ${compliant})
+keyblock_restart(compliant_joints_2 verification/incline_3d RANKS 2
+  ARGUMENTS --ranks 2 ${compliant})
+keyblock_restart(compliant_joints_other_ranks verification/newmark RANKS 2
+  ARGUMENTS --ranks 1 2 --tolerance 1e-8 ${compliant})
+# with turning normals, and born under stress, with stages and factors
+keyblock_restart(compliant_joints_large verification/toppling_slides_and_topples
+  ARGUMENTS ${compliant})
+keyblock_restart(compliant_joints_two_stages verification/roof_block_falls
+  ARGUMENTS ${two_stages} ${compliant})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The state of a run from the ranks to lists over the whole mesh, and back.
 #include <keyblock/checkpoint/checkpoint.h>
+#include <keyblock/checkpoint/contact_numbers.h>
 
 #include <keyblock/checkpoint/state_rows.h>
 
@@ -40,74 +41,6 @@ namespace Keyblock
                              "out to start anew."));
     }
   } // namespace
-
-
-
-  template <typename Action>
-  void
-  for_each_number(JointHistory &history, const Action &action)
-  {
-    action(history.slip);
-    action(history.dilation);
-    action(history.damage);
-  }
-
-  template <int dim, typename Action>
-  void
-  for_each_number(PairState<dim> &pair, const Action &action)
-  {
-    for (double &component : pair.impulse)
-      action(component);
-    action(pair.status);
-    action(pair.is_intact);
-    action(pair.is_converted);
-    action(pair.is_welded);
-    action(pair.is_removed);
-    action(pair.has_opened);
-    action(pair.bend_shear);
-    action(pair.bend_tension);
-    action(pair.weld_shear);
-    action(pair.weld_tension);
-  }
-
-  template <typename Action>
-  void
-  for_each_number(NodeHistory &entry, const Action &action)
-  {
-    action(entry.node);
-    action(entry.joint);
-    for_each_number(entry.history, action);
-  }
-
-  template <int dim, typename Action>
-  void
-  for_each_number(SurfaceContact<dim> &contact, const Action &action)
-  {
-    ContactPoint<dim> &point = contact.point;
-    action(contact.slave);
-    action(contact.face);
-    action(contact.joint);
-    action(contact.master_block);
-    action(contact.is_ridge);
-    action(point.n_nodes);
-    for (int k = 0; k < point.max_nodes; ++k)
-      {
-        action(point.node[k]);
-        action(point.weight[k]);
-      }
-    for (int d = 0; d < dim; ++d)
-      {
-        action(point.normal[d]);
-        action(point.impulse[d]);
-      }
-    action(point.gap);
-    action(point.strength.static_friction);
-    action(point.strength.kinetic_friction);
-    action(point.strength.cohesion);
-    action(point.strength.tension);
-    action(point.is_intact);
-    action(point.status);
-  }
 
 
 
@@ -357,6 +290,8 @@ namespace Keyblock
     exchange_pairs(group + "pair_histories", memory.pair_histories);
     exchange_rows(file, group + "surface_contacts", memory.contacts);
     exchange_rows(file, group + "node_histories", memory.node_histories);
+    exchange_pairs(group + "pair_springs", memory.pair_springs);
+    exchange_rows(file, group + "node_springs", memory.node_springs);
     std::vector<double> normals;
     for (const Vector<dim> &n : memory.normal)
       normals.insert(normals.end(), n.begin(), n.end());

@@ -55,14 +55,29 @@ namespace Keyblock
     , areas(topology, strength, nodes, fields, memory)
     , history(topology, strength, areas, nodes, fields, memory)
     , solver(scene, tally)
-    , pairs(topology, strength, nodes.projection, solver, fields, memory)
-    , multi_pairs(topology, strength, cells, nodes, solver, fields, memory)
+    , springs(topology, strength, nodes, solver, memory)
+    , pairs(topology,
+            strength,
+            nodes.projection,
+            solver,
+            springs,
+            fields,
+            memory)
+    , multi_pairs(topology,
+                  strength,
+                  cells,
+                  nodes,
+                  solver,
+                  springs,
+                  fields,
+                  memory)
     , detection(search,
                 topology,
                 strength,
                 nodes,
                 areas,
                 history,
+                springs,
                 multi_pairs,
                 fields,
                 memory)
@@ -74,6 +89,7 @@ namespace Keyblock
                multi_pairs,
                nodes,
                solver,
+               springs,
                memory)
     , sums(search, topology, nodes, fields, memory)
   {
@@ -102,6 +118,7 @@ namespace Keyblock
   {
     strength.weld_share = step.weld_share;
     tally.n_iterations  = 0;
+    springs.begin_step(step);
     multi_pairs.estimate_tractions();
     if (step.is_large && memory.n_steps % normals_interval == 0)
       detection.refresh_normals();
@@ -191,6 +208,7 @@ namespace Keyblock
   {
     memory = past;
     keep_histories();
+    springs.allocate();
     memory.is_search_due     = true;
     memory.next_normal_check = memory.n_steps;
     multi_pairs.list_nodes();

@@ -15,6 +15,7 @@ namespace Keyblock
                                           const SurfaceNodes<dim> &nodes,
                                           ContactAreas<dim> &areas,
                                           ContactHistory<dim> &history,
+                                          JointSprings<dim> &springs,
                                           MultiPairContact<dim> &multi_pairs,
                                           Fields<dim> &fields,
                                           ContactMemory<dim> &memory)
@@ -29,6 +30,7 @@ namespace Keyblock
     , nodes(nodes)
     , areas(areas)
     , history(history)
+    , springs(springs)
     , multi_pairs(multi_pairs)
     , fields(fields)
     , memory(memory)
@@ -39,7 +41,8 @@ namespace Keyblock
   void
   ContactDetection<dim>::refresh_normals()
   {
-    const std::vector<double> position = nodes.gather_positions();
+    const std::vector<double> position         = nodes.gather_positions();
+    const std::vector<Vector<dim>> old_normals = memory.normal;
     for (Vector<dim> &n : memory.normal)
       n.fill(0.);
     std::map<std::array<unsigned int, 2>, unsigned int> face_at;
@@ -59,6 +62,7 @@ namespace Keyblock
           sum = add<dim>(sum, 1., surface.face_normal(position, f));
         memory.normal[p] = add<dim>(Vector<dim>{}, 1. / norm<dim>(sum), sum);
       }
+    springs.turn_pairs(old_normals);
   }
 
 
@@ -145,6 +149,9 @@ namespace Keyblock
     std::vector<JointHistory> histories;
     if (strength.has_memory)
       histories = gather_pair_histories(topology, memory);
+    std::vector<SpringState<dim>> stretched;
+    if (springs.are_any())
+      stretched = gather_pair_springs(topology, memory);
     for (unsigned int p = 0; p < memory.state.size(); ++p)
       {
         const unsigned int g = topology.group_of_pair[p];
@@ -154,6 +161,10 @@ namespace Keyblock
           memory.pair_histories[p] = histories[p];
         if (strength.has_memory && converted[p] && !all[p].is_converted)
           history.pass_on(p);
+        if (springs.are_any() && !memory.is_surface_contact_group[g])
+          memory.pair_springs[p] = stretched[p];
+        if (converted[p])
+          springs.pass_on(p);
         memory.state[p].is_converted = converted[p];
       }
   }

@@ -13,6 +13,7 @@ namespace Keyblock
                                           const CellArrays<dim> &cells,
                                           SurfaceNodes<dim> &nodes,
                                           PointSolver<dim> &solver,
+                                          JointSprings<dim> &springs,
                                           Fields<dim> &fields,
                                           ContactMemory<dim> &memory)
     : topology(topology)
@@ -22,6 +23,7 @@ namespace Keyblock
     , strength(strength)
     , nodes(nodes)
     , solver(solver)
+    , springs(springs)
     , fields(fields)
     , memory(memory)
     , tractions(topology, cells, pairs)
@@ -164,6 +166,13 @@ namespace Keyblock
     if (memory.state[pair].status == ContactStatus::sticking &&
         !scene.contact.is_published_variant())
       point.gap = 0.;
+    if (springs.are_any())
+      springs.put_into_pair(pair,
+                            nodes.inverse_mass[point.node[0]] +
+                              nodes.inverse_mass[point.node[1]],
+                            nodes.projection[point.node[0]] != nullptr ||
+                              nodes.projection[point.node[1]] != nullptr,
+                            point);
     return point;
   }
 
@@ -191,7 +200,7 @@ namespace Keyblock
     for (unsigned int p = begin; p < end; ++p)
       if (!memory.state[p].is_removed &&
           (memory.state[p].status != ContactStatus::sticking ||
-           memory.state[p].is_converted))
+           memory.state[p].is_converted || springs.is_elastic(p)))
         return false;
     return true;
   }
@@ -273,6 +282,8 @@ namespace Keyblock
     group.recover_impulses(topology, needed.data(), memory.state);
     if (!bears(group, step))
       return false;
+    for (unsigned int p = begin; p < end && springs.are_any(); ++p)
+      springs.take_up_rigid(p, memory.state[p].impulse);
     // nodes in surface contacts are damped with all others, before contact, and
     // so is a cluster that was none in the step before
     move_together(group,
@@ -314,7 +325,7 @@ namespace Keyblock
              {interface.pairs[p].minus, interface.pairs[p].plus})
           w += nodes.inverse_mass[surface.node_of_vertex[v]];
         if (memory.state[p].is_removed || memory.state[p].is_converted ||
-            w == 0.)
+            (w == 0. && !springs.is_elastic(p)))
           continue;
         points.push_back(as_point(p, step.kick));
         if (memory.state[p].status == ContactStatus::sticking)
@@ -332,6 +343,10 @@ namespace Keyblock
         memory.state[members[i]].impulse   = points[i].impulse;
         memory.state[members[i]].status    = points[i].status;
         memory.state[members[i]].is_intact = points[i].is_intact;
+        springs.take_up_pair(members[i],
+                             points[i],
+                             relative_velocity<dim>(points[i],
+                                                    nodes.velocity.data()));
         if (is_booked)
           solver.book(points[i],
                       nodes.old_velocity.data(),

@@ -12,6 +12,7 @@ namespace Keyblock
                                 const ContactStrength<dim> &strength,
                                 const std::vector<const double *> &projection,
                                 PointSolver<dim> &solver,
+                                JointSprings<dim> &springs,
                                 Fields<dim> &fields,
                                 ContactMemory<dim> &memory)
     : topology(topology)
@@ -19,6 +20,7 @@ namespace Keyblock
     , scene(topology.scene)
     , strength(strength)
     , solver(solver)
+    , springs(springs)
     , fields(fields)
     , memory(memory)
     , point(1)
@@ -81,6 +83,8 @@ namespace Keyblock
     for (int d = 0; d < dim; ++d)
       v[pm + d] = v[pp + d] = common[d];
     s.impulse = impulse;
+    if (springs.are_any())
+      springs.take_up_rigid(single.pair, impulse);
     // a gap that closed in the step before still moved in it
     bool moved = false;
     for (int d = 0; d < dim; ++d)
@@ -131,11 +135,17 @@ namespace Keyblock
     p.strength  = strength_now;
     p.impulse =
       add<dim>(Vector<dim>{}, step.kick / memory.last_kick, s.impulse);
+    springs.put_into_pair(single.pair,
+                          fields.inverse_mass[single.plus] +
+                            fields.inverse_mass[single.minus],
+                          false,
+                          p);
     broken[0] = strength.of_pair(single.pair, false, step.kick);
     solver.solve(point, broken, nodes, step.step, !strength.is_tied);
     s.impulse   = p.impulse;
     s.is_intact = p.is_intact;
     s.status    = p.status;
+    springs.take_up_pair(single.pair, p, relative_velocity<dim>(p, v));
     if (step.keeps_ledger &&
         topology.numbering.is_owned(interface.pairs[single.pair].minus))
       solver.book(p, fields.old_velocity.data(), v);
@@ -170,18 +180,20 @@ namespace Keyblock
         const SinglePair &single = single_pairs[i];
         PairState<dim> &s        = memory.state[single.pair];
         const unsigned int pm = dim * single.minus, pp = dim * single.plus;
-        const double wm = fields.inverse_mass[single.minus];
-        const double wp = fields.inverse_mass[single.plus];
-        if (s.is_removed || wm + wp == 0. ||
+        const double wm       = fields.inverse_mass[single.minus];
+        const double wp       = fields.inverse_mass[single.plus];
+        const bool is_elastic = springs.is_elastic(single.pair);
+        if (s.is_removed || (wm + wp == 0. && !is_elastic) ||
             memory
               .is_surface_contact_group[topology.group_of_pair[single.pair]])
           continue;
         const PointStrength strength_now =
           strength.of_pair(single.pair, s.is_intact, step.kick);
-        if (!stick(single, strength_now, step))
+        if (is_elastic || !stick(single, strength_now, step))
           solve_alone(single, strength_now, step);
-        const bool is_cluster =
-          s.status == ContactStatus::sticking && wm > 0. && wp > 0.;
+        const bool is_cluster = !is_elastic &&
+                                s.status == ContactStatus::sticking &&
+                                wm > 0. && wp > 0.;
         fields.is_in_cluster[single.minus] = is_cluster;
         fields.is_in_cluster[single.plus]  = is_cluster;
         for (int d = 0; d < dim; ++d)

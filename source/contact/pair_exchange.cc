@@ -64,6 +64,30 @@ namespace Keyblock
     return result;
   }
 
+  template <int dim>
+  std::vector<SpringState<dim>>
+  gather_pair_springs(const PairTopology<dim> &topology,
+                      const ContactMemory<dim> &memory)
+  {
+    std::vector<SpringState<dim>> result = memory.pair_springs;
+    std::vector<double> packed(2 * dim * result.size(), 0.);
+    for (unsigned int p = 0; p < result.size(); ++p)
+      if (topology.is_primary(topology.group_of_pair[p]))
+        for (int d = 0; d < dim; ++d)
+          {
+            packed[2 * dim * p + d]       = result[p].force[d];
+            packed[2 * dim * p + dim + d] = result[p].stretch[d];
+          }
+    topology.numbering.communicator.sum_lists(packed);
+    for (unsigned int p = 0; p < result.size(); ++p)
+      for (int d = 0; d < dim; ++d)
+        {
+          result[p].force[d]   = packed[2 * dim * p + d];
+          result[p].stretch[d] = packed[2 * dim * p + dim + d];
+        }
+    return result;
+  }
+
   template std::vector<PairState<2>>
   gather_pair_states(const PairTopology<2> &, const ContactMemory<2> &);
   template std::vector<PairState<3>>
@@ -72,4 +96,8 @@ namespace Keyblock
   gather_pair_histories(const PairTopology<2> &, const ContactMemory<2> &);
   template std::vector<JointHistory>
   gather_pair_histories(const PairTopology<3> &, const ContactMemory<3> &);
+  template std::vector<SpringState<2>>
+  gather_pair_springs(const PairTopology<2> &, const ContactMemory<2> &);
+  template std::vector<SpringState<3>>
+  gather_pair_springs(const PairTopology<3> &, const ContactMemory<3> &);
 } // namespace Keyblock

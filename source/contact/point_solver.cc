@@ -47,13 +47,52 @@ namespace Keyblock
       add<dim>(relative_velocity<dim>(point, old_velocity),
                1.,
                relative_velocity<dim>(point, new_velocity));
-    const double r_n     = dot<dim>(point.impulse, point.normal);
-    const double all     = -0.5 * dot<dim>(point.impulse, mean);
+    const double r_n = dot<dim>(point.impulse, point.normal);
+    const double all = -0.5 * dot<dim>(point.impulse, mean);
+    if (point.spring.is_elastic)
+      {
+        book_spring(point, all, relative_velocity<dim>(point, new_velocity));
+        return;
+      }
     const double closure = -0.5 * r_n * dot<dim>(point.normal, mean);
     const bool dilates =
       point.strength.dilation > 0. && point.status == ContactStatus::sliding;
     (dilates ? tally.work.dilation : tally.work.closure) += closure;
     tally.work.friction += all - closure;
+  }
+
+  template <int dim>
+  void
+  PointSolver<dim>::book_spring(const ContactPoint<dim> &point,
+                                const double work,
+                                const Vector<dim> &velocity)
+  {
+    const PointSpring<dim> &spring = point.spring;
+    const SpringChange<dim> change = advance_spring<dim>(spring,
+                                                         point.impulse,
+                                                         point.normal,
+                                                         velocity,
+                                                         point.status,
+                                                         point.strength);
+    const double stored = spring.energy(change.after.force, point.normal) -
+                          spring.energy(spring.before.force, point.normal);
+    const double friction = -dot<dim>(point.impulse, change.slip) / spring.kick;
+    const bool dilates =
+      point.strength.dilation > 0. && point.status == ContactStatus::sliding;
+    tally.work.elastic += stored;
+    tally.work.friction += friction;
+    (dilates ? tally.work.dilation : tally.work.closure) +=
+      work - stored - friction;
+  }
+
+
+
+  template <int dim>
+  void
+  PointSolver<dim>::book_spring_energy(const double energy)
+  {
+    tally.work.elastic += energy;
+    tally.work.closure -= energy;
   }
 
   template class PointSolver<2>;

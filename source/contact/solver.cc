@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/contact/solver.h>
-#include <keyblock/law/friction.h>
+#include <keyblock/contact/point_response.h>
 
 #include <algorithm>
 #include <limits>
@@ -60,82 +59,6 @@ namespace Keyblock
 
   namespace
   {
-    template <int dim>
-    using Matrix = std::array<std::array<double, dim>, dim>;
-
-    /** Whether some node of the point is held in some directions only. */
-    template <int dim>
-    bool
-    is_partly_held(const ContactPoint<dim> &point,
-                   const ContactNodes<dim> &nodes)
-    {
-      for (int k = 0; k < point.n_nodes; ++k)
-        if (nodes.projection_of(point.node[k]) != nullptr)
-          return true;
-      return false;
-    }
-
-    /** Inverse mass matrix W = sum a_k^2 P_k / m_k of a point. */
-    template <int dim>
-    Matrix<dim>
-    inverse_mass_matrix(const ContactPoint<dim> &point,
-                        const ContactNodes<dim> &nodes)
-    {
-      Matrix<dim> w{};
-      for (int k = 0; k < point.n_nodes; ++k)
-        {
-          const double factor = point.weight[k] * point.weight[k] *
-                                nodes.inverse_mass[point.node[k]];
-          const double *p = nodes.projection_of(point.node[k]);
-          for (int d = 0; d < dim; ++d)
-            for (int e = 0; e < dim; ++e)
-              w[d][e] += factor * (p ? p[dim * d + e] : (d == e ? 1. : 0.));
-        }
-      return w;
-    }
-
-    template <int dim>
-    Vector<dim>
-    multiply(const Matrix<dim> &w, const Vector<dim> &x)
-    {
-      Vector<dim> y{};
-      for (int d = 0; d < dim; ++d)
-        y[d] = dot<dim>(w[d], x);
-      return y;
-    }
-
-    /**
-     * Response of a point with different inverse masses by direction: the fixed
-     * point of r = admissible(r - rho (W r + u)), rho = 1 / trace W, which
-     * contracts for symmetric W. Held directions keep their impulse.
-     */
-    template <int dim>
-    PointResponse<dim>
-    respond_with_matrix(const ContactPoint<dim> &point,
-                        const Matrix<dim> &w,
-                        const Vector<dim> &free_velocity)
-    {
-      double trace = 0.;
-      for (int d = 0; d < dim; ++d)
-        trace += w[d][d];
-      PointResponse<dim> response{point.impulse, point.status};
-      for (int iteration = 0; iteration < 5000; ++iteration)
-        {
-          const Vector<dim> velocity =
-            add<dim>(free_velocity, 1., multiply<dim>(w, response.impulse));
-          const PointResponse<dim> next = admissible_impulse<dim>(
-            add<dim>(response.impulse, -1. / trace, velocity),
-            point.normal,
-            point.strength);
-          const double change =
-            norm<dim>(add<dim>(next.impulse, -1., response.impulse));
-          response = next;
-          if (change <= 1e-13 * norm<dim>(next.impulse))
-            break;
-        }
-      return response;
-    }
-
     /** One visit of a point: its new response to the present velocities, of
      * which its present impulse is a part. */
     template <int dim>
@@ -144,6 +67,8 @@ namespace Keyblock
             const ContactNodes<dim> &nodes,
             const double step)
     {
+      if (point.spring.is_elastic)
+        return respond_elastically<dim>(point, nodes);
       // the velocity the point must not have: its own plus what closes the gap
       Vector<dim> u     = relative_velocity<dim>(point, nodes.velocity);
       const double bias = std::max(point.gap, 0.) / step;
@@ -351,8 +276,11 @@ namespace Keyblock
           {
             const Vector<dim> u =
               relative_velocity<dim>(points[p], nodes.velocity);
-            const double w          = point_inverse_mass<dim>(points[p], nodes);
-            const Vector<dim> stick = add<dim>(points[p].impulse, -1. / w, u);
+            const double w = point_inverse_mass<dim>(points[p], nodes);
+            const Vector<dim> stick =
+              points[p].spring.is_elastic
+                ? elastic_trial<dim>(points[p], nodes)
+                : add<dim>(points[p].impulse, -1. / w, u);
             const double excess =
               violation<dim>(stick, points[p].normal, points[p].strength);
             if (worst < 0 || excess > largest)

@@ -124,7 +124,8 @@ namespace Keyblock
         square = std::max(square, way);
       }
     search.evaluate(nodes.position,
-                    reach + history.largest_dilation(),
+                    reach + history.largest_dilation() +
+                      springs.largest_offset(),
                     std::sqrt(square),
                     memory.contacts);
     drop_removed_blocks();
@@ -145,6 +146,8 @@ namespace Keyblock
                                                      areas.pressure_at(contact),
                                                      step.kick);
       }
+    springs.put_into_contacts(step.keeps_ledger &&
+                              topology.numbering.communicator.is_root());
   }
 
 

@@ -17,6 +17,7 @@ namespace Keyblock
                                         MultiPairContact<dim> &pairs_on_nodes,
                                         SurfaceNodes<dim> &nodes,
                                         PointSolver<dim> &solver,
+                                        JointSprings<dim> &springs,
                                         ContactMemory<dim> &memory)
     : search(search)
     , topology(topology)
@@ -29,6 +30,7 @@ namespace Keyblock
     , pairs_on_nodes(pairs_on_nodes)
     , nodes(nodes)
     , solver(solver)
+    , springs(springs)
     , memory(memory)
   {}
 
@@ -186,6 +188,10 @@ namespace Keyblock
             s.impulse         = point.impulse;
             s.status          = point.status;
             s.is_intact       = point.is_intact;
+            springs.take_up_pair(pairs[i - memory.contacts.size()],
+                                 point,
+                                 relative_velocity<dim>(point,
+                                                        nodes.velocity.data()));
           }
         for (int k = 0; k < point.n_nodes; ++k)
           for (int d = 0; d < dim; ++d)
@@ -194,6 +200,8 @@ namespace Keyblock
         if (step.keeps_ledger && topology.numbering.communicator.is_root())
           solver.book(point, nodes.old_velocity.data(), nodes.velocity.data());
       }
+    springs.take_up_contacts(step.keeps_ledger &&
+                             topology.numbering.communicator.is_root());
   }
 
 
@@ -216,8 +224,10 @@ namespace Keyblock
     for (const unsigned int p : list_pairs(step))
       {
         const ContactPoint<dim> point = pairs_on_nodes.as_point(p, step.kick);
-        if (point.gap > reach ||
-            point_inverse_mass<dim>(point, nodes.view) == 0.)
+        // a spring closes where it is not stretched, and its way counts
+        if (!point.spring.is_elastic &&
+            (point.gap > reach ||
+             point_inverse_mass<dim>(point, nodes.view) == 0.))
           {
             memory.state[p].impulse = Vector<dim>{};
             if (point.gap > reach)
@@ -246,7 +256,8 @@ namespace Keyblock
       {
         const ContactPoint<dim> &point = contact.point;
         const double w = point_inverse_mass<dim>(point, nodes.view);
-        if (point.gap >= 0. || point.status == ContactStatus::open || w == 0.)
+        if (point.spring.is_elastic || point.gap >= 0. ||
+            point.status == ContactStatus::open || w == 0.)
           continue;
         is_needed = true;
         for (int k = 0; k < point.n_nodes; ++k)

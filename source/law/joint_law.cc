@@ -2,6 +2,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/law/barton_bandis.h>
 #include <keyblock/law/coulomb_joint.h>
+#include <keyblock/law/joint_stiffness.h>
 #include <keyblock/law/slip_weakening.h>
 
 #include <algorithm>
@@ -40,6 +41,8 @@ namespace Keyblock
         for (const JointLawEntry &entry : kind.entries)
           if (!has_entry(entries, entry.name))
             entries.push_back(entry);
+      for (const JointLawEntry &entry : stiffness_entries())
+        entries.push_back(entry);
       return entries;
     }
   } // namespace
@@ -82,13 +85,15 @@ namespace Keyblock
       {
         const JointLawEntry &entry = joint_law_entries()[i];
         AssertThrow(entries.law_values[i] == entry.value ||
-                      has_entry(kind.entries, entry.name),
+                      has_entry(kind.entries, entry.name) ||
+                      has_entry(stiffness_entries(), entry.name),
                     InputError("'" + section + "/" + entry.name +
                                "' is given, but the joint's law is '" +
                                kind.name +
                                "', which does not use it; remove it or choose "
                                "another 'Law'."));
       }
+    const JointStiffness stiffness(entries, section);
     return kind.make(entries, section);
   }
 

@@ -83,6 +83,53 @@ namespace Keyblock
 
   template <int dim>
   void
+  Monitors<dim>::sample_block_motion(const unsigned int block,
+                                     std::vector<double> &row)
+  {
+    const Interface<dim> &interface = split.interface;
+    double largest                  = 0.;
+    std::vector<double> sums(3, 0.); // area, of slip and of opening
+    for (unsigned int g = 0; g < interface.n_groups() && contact; ++g)
+      {
+        // the owner of a group's first vertex has all of its nodes
+        if (!numbering.is_owned(
+              interface.group_vertices[interface.group_begin[g]]))
+          continue;
+        for (unsigned int p = interface.group_pairs_begin[g];
+             p < interface.group_pairs_begin[g + 1];
+             ++p)
+          {
+            const Pair<dim> &pair    = interface.pairs[p];
+            const unsigned int minus = numbering.local_node(pair.minus),
+                               plus  = numbering.local_node(pair.plus);
+            const bool is_of_block =
+              block_of_node[minus] == block || block_of_node[plus] == block;
+            if (!is_of_block || block_of_node[minus] == block_of_node[plus] ||
+                contact->remember().state[p].is_removed)
+              continue;
+            Vector<dim> jump;
+            for (unsigned int d = 0; d < dim; ++d)
+              jump[d] = fields.displacement[dim * plus + d] -
+                        fields.displacement[dim * minus + d];
+            const Vector<dim> &normal = contact->remember().normal[p];
+            const double opening      = dot<dim>(jump, normal);
+            const double slip = norm<dim>(add<dim>(jump, -opening, normal));
+            largest           = std::max(largest, slip);
+            sums[0] += pair.area;
+            sums[1] += pair.area * slip;
+            sums[2] += pair.area * opening;
+          }
+      }
+    numbering.communicator.sum_lists(sums);
+    row.push_back(sums[0] > 0. ? sums[1] / sums[0] : 0.);
+    row.push_back(numbering.communicator.max(largest));
+    row.push_back(sums[0] > 0. ? sums[2] / sums[0] : 0.);
+  }
+
+
+
+  template <int dim>
+  void
   Monitors<dim>::sample_joint(const Monitor<dim> &monitor,
                               std::vector<double> &row)
   {
@@ -160,6 +207,10 @@ namespace Keyblock
                                           std::vector<double> &);
   template void Monitors<3>::sample_block(const unsigned int,
                                           std::vector<double> &);
+  template void Monitors<2>::sample_block_motion(const unsigned int,
+                                                 std::vector<double> &);
+  template void Monitors<3>::sample_block_motion(const unsigned int,
+                                                 std::vector<double> &);
   template void Monitors<2>::sample_joint(const Monitor<2> &,
                                           std::vector<double> &);
   template void Monitors<3>::sample_joint(const Monitor<3> &,

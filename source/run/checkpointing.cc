@@ -239,6 +239,7 @@ namespace Keyblock
                           &model.contact->tally.work.closure,
                           &model.contact->tally.work.penetration,
                           &model.contact->tally.work.dilation,
+                          &model.contact->tally.work.elastic,
                           &n_capped});
     model.contact->tally.n_capped = n_capped;
   }

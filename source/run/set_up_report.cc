@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/blocks/mesh_fidelity.h>
+#include <keyblock/law/joint_stiffness.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/wave_resolution.h>
 #include <keyblock/safety/block_theory.h>
@@ -112,6 +113,27 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** What compliant joints leave out in this scene, or empty. */
+    template <int dim>
+    std::string
+    warning_of_compliant_joints(const Scene<dim> &scene)
+    {
+      if (!are_any_compliant(scene.joints) ||
+          std::none_of(scene.stages.begin(),
+                       scene.stages.end(),
+                       [](const auto &stage) { return stage->is_static(); }))
+        return "";
+      return "Joints have 'Normal stiffness' and 'Shear stiffness', but static "
+             "stages tie all joints, so that what is dug in them does not "
+             "move joints; choose 'Stages/NAME/Kind = quasi-static' to see "
+             "their compliance.";
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<std::string>
   warnings_of_set_up(const Model<dim> &model, const Monitors<dim> &monitors)
@@ -120,7 +142,8 @@ namespace Keyblock
     for (const std::string &warning :
          {warning_of_tension(
             model.communicator, model.scene, model.split, model.cells),
-          warning_of_welded_joints(model.scene, model.split)})
+          warning_of_welded_joints(model.scene, model.split),
+          warning_of_compliant_joints(model.scene)})
       if (!warning.empty())
         warnings.push_back(warning);
     for (const std::string &warning :

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/number_text.h>
+#include <keyblock/law/joint_stiffness.h>
 #include <keyblock/run/stage_reporter.h>
 #include <keyblock/run/static_stage.h>
 
@@ -204,7 +205,11 @@ namespace Keyblock
             << report.largest_overlap << " m inside another block, at (";
         for (unsigned int d = 0; d < dim; ++d)
           out << (d ? ", " : "") << report.overlap_place[d];
-        out << ')' << '\n';
+        out << ')'
+            << (are_any_compliant(model.scene.joints)
+                  ? ", as compliant joints close"
+                  : "")
+            << '\n';
       }
     if (report.through_rock > 0)
       out << "Warning: " << report.through_rock

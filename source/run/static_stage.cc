@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/law/joint_stiffness.h>
 #include <keyblock/run/static_stage.h>
 #include <keyblock/step/equilibrium.h>
 
@@ -61,7 +62,13 @@ namespace Keyblock
       changes_later = changes_later || model.conditions->changes(s + 2);
     const bool is_static =
       model.scene.initial_state.equilibrium == InitialEquilibrium::static_solve;
-    if (!is_static && !changes_later && !model.conditions->releases_supports())
+    // compliant joints are born with the stress of the ground
+    const bool has_springs_under_stress =
+      are_any_compliant(model.scene.joints) &&
+      (!model.scene.initial_state.stress.empty() ||
+       model.scene.initial_state.has_depth_stress());
+    if (!is_static && !changes_later &&
+        !model.conditions->releases_supports() && !has_springs_under_stress)
       return;
     model.step->begin_stage(Stage(), 1);
     model.step->update_forces();

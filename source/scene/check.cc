@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Contradictions between the entries of a scene, found before anything else.
 #include <keyblock/base/errors.h>
+#include <keyblock/law/joint_stiffness.h>
 #include <keyblock/scene/check_parts.h>
 
 #include <algorithm>
@@ -164,6 +165,13 @@ namespace Keyblock
       check_study_variable(*variable);
     check_monitors(*this);
     check_closed_form(*this);
+    for (const auto &joint : joints)
+      require(!contact.is_published_variant() ||
+                !JointStiffness(*joint).is_compliant(),
+              "The joint '" + joint->name +
+                "' has a stiffness, but 'Contact/Method' is published, which "
+                "knows rigid joints only; choose another method or remove "
+                "'Normal stiffness' and 'Shear stiffness'.");
   }
 
   template void Scene<2>::cross_check() const;

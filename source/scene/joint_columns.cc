@@ -19,6 +19,7 @@ namespace Keyblock
       length,
       angle,
       stress,
+      stiffness,
       number
     };
 
@@ -84,6 +85,8 @@ namespace Keyblock
       const std::map<std::string, Quantity> quantities = {{"m", Q::length},
                                                           {"deg", Q::angle},
                                                           {"Pa", Q::stress},
+                                                          {"Pa/m",
+                                                           Q::stiffness},
                                                           {"", Q::number}};
       const std::vector<JointLawEntry> &entries        = joint_law_entries();
       for (unsigned int i = 0; i < entries.size(); ++i)
@@ -125,7 +128,11 @@ namespace Keyblock
         {"gpa", {Quantity::stress, 1e9}},
         {"n/m2", {Quantity::stress, 1.}},
         {"kn/m2", {Quantity::stress, 1e3}},
-        {"mn/m2", {Quantity::stress, 1e6}}};
+        {"mn/m2", {Quantity::stress, 1e6}},
+        {"pa/m", {Quantity::stiffness, 1.}},
+        {"kpa/m", {Quantity::stiffness, 1e3}},
+        {"mpa/m", {Quantity::stiffness, 1e6}},
+        {"gpa/m", {Quantity::stiffness, 1e9}}};
       return known;
     }
 
@@ -186,7 +193,8 @@ namespace Keyblock
         InputError(where + " gives the column '" + title +
                    "' a unit that is not known or does not fit; lengths may "
                    "be in m, km, cm or mm, angles in deg or rad, stresses in "
-                   "Pa, kPa, MPa or GPa."));
+                   "Pa, kPa, MPa or GPa, stiffnesses of joints in these over "
+                   "m."));
       return {known, unit->second.factor};
     }
   } // namespace

@@ -4,7 +4,7 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
-#include <keyblock/law/joint_law.h>
+#include <keyblock/law/joint_stiffness.h>
 #include <keyblock/scene/joint_sets.h>
 #include <keyblock/scene/joint_table.h>
 #include <keyblock/scene/joints.h>
@@ -293,11 +293,16 @@ namespace Keyblock
     void
     add_law(const JointStrength &strength, const Add &add)
     {
-      if (strength.law == joint_law_kinds().front().name)
-        return;
-      add("Law", strength.law);
-      for (const JointLawEntry &entry : joint_law_kind(strength.law).entries)
-        add(entry.name, exact_text(strength.value_of(entry.name)));
+      if (strength.law != joint_law_kinds().front().name)
+        {
+          add("Law", strength.law);
+          for (const JointLawEntry &entry :
+               joint_law_kind(strength.law).entries)
+            add(entry.name, exact_text(strength.value_of(entry.name)));
+        }
+      if (JointStiffness(strength).is_compliant())
+        for (const JointLawEntry &entry : stiffness_entries())
+          add(entry.name, exact_text(strength.value_of(entry.name)));
     }
   } // namespace
 

@@ -2,7 +2,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/base/vtu_file.h>
-#include <keyblock/law/joint_law.h>
+#include <keyblock/law/joint_stiffness.h>
 #include <keyblock/scene/domain_outline.h>
 #include <keyblock/scene/network_output.h>
 
@@ -181,6 +181,25 @@ namespace Keyblock
         fields += "," + exact_text(strength.law_values[i]);
       return fields;
     }
+
+    /** Titles of the columns of stiffness. */
+    std::string
+    stiffness_titles()
+    {
+      std::string titles;
+      for (const JointLawEntry &entry : stiffness_entries())
+        titles += "," + entry.name + " (" + entry.unit + ")";
+      return titles;
+    }
+
+    std::string
+    stiffness_fields(const JointStrength &strength)
+    {
+      std::string fields;
+      for (const JointLawEntry &entry : stiffness_entries())
+        fields += "," + exact_text(strength.value_of(entry.name));
+      return fields;
+    }
   } // namespace
 
 
@@ -202,13 +221,14 @@ namespace Keyblock
     std::set<std::string> laws;
     for (const auto &joint : scene.joints)
       laws.insert(joint->law);
+    const bool is_compliant = are_any_compliant(scene.joints);
     std::ofstream out(file_name);
     out << "name,set,extent," << axes << "dip (deg),dip direction (deg),"
         << (has_normals ? normals : "")
         << "radius (m),vertices (m),friction angle (deg),"
            "kinetic friction angle (deg),cohesion (Pa),tensile strength (Pa),"
            "residual cohesion (Pa),water pressure (Pa)"
-        << law_titles(laws) << '\n';
+        << law_titles(laws) << (is_compliant ? stiffness_titles() : "") << '\n';
     const auto water = [&](const auto &joint) -> std::string {
       if (joint->water_level.empty())
         return joint->water_pressure;
@@ -224,7 +244,8 @@ namespace Keyblock
           << exact_text(joint->cohesion) << ','
           << exact_text(joint->tensile_strength) << ','
           << exact_text(joint->residual_cohesion) << ',' << field(water(joint))
-          << law_fields(*joint, laws) << '\n';
+          << law_fields(*joint, laws)
+          << (is_compliant ? stiffness_fields(*joint) : "") << '\n';
     check_written(bool(out.flush()), file_name);
   }
 

@@ -25,6 +25,11 @@ namespace Keyblock
       "Location",
       location,
       "Place of the monitored point, or a point in the monitored block [m].");
+    prm.add_parameter("Block",
+                      block,
+                      "Number of the monitored block in the block table; 0: "
+                      "the block at Location.",
+                      Integer(0));
     prm.add_parameter("Region",
                       region,
                       "Region: formula of the reference position, positive "

@@ -11,7 +11,7 @@ namespace Keyblock
   {
     return start + external + supports - kinetic - elastic - friction -
            contact_closure - penetration - dilation - stiffness_damping -
-           mass_damping - local_damping - plastic - radiation;
+           mass_damping - local_damping - plastic - radiation - joints;
   }
 
 
@@ -33,6 +33,7 @@ namespace Keyblock
        {"local_damping", &Energies::local_damping},
        {"plastic", &Energies::plastic},
        {"radiation", &Energies::radiation},
+       {"joints", &Energies::joints},
        {"excavated", &Energies::excavated},
        {"start", &Energies::start}}};
     return list;
@@ -251,9 +252,16 @@ namespace Keyblock
       state.plastic_work_at_start = plastic_work();
     mine.plastic   = plastic_work() - state.plastic_work_at_start;
     mine.excavated = state.excavated_energy;
+    if (contact)
+      mine.joints = contact->spring_energy();
     if (step.is_first)
-      state.sums.start =
-        kinetic_before + mine.elastic - 0.5 * step.kick * before;
+      {
+        state.sums.start =
+          kinetic_before + mine.elastic - 0.5 * step.kick * before;
+        if (contact)
+          state.sums.start += mine.joints - contact->tally.work.elastic +
+                              state.contact_work_at_start.elastic;
+      }
     mine.start = state.sums.start;
     if (contact)
       {
@@ -281,7 +289,9 @@ namespace Keyblock
         mine.kinetic +=
           0.5 * fields.mass[node] * fields.velocity[i] * fields.velocity[i];
     mine.elastic = stored_energy(positions);
-    mine.start   = mine.kinetic + mine.elastic;
+    if (contact)
+      mine.joints = contact->spring_energy();
+    mine.start = mine.kinetic + mine.elastic + mine.joints;
     return sum_over_ranks(mine);
   }
 

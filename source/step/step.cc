@@ -147,7 +147,8 @@ namespace Keyblock
     kick                               = 0.5 * dt;
     compute_internal_force();
     predict_nodes(false);
-    contact->solve({kick, dt, 0., scene.time_stepping.is_large(), false, 0.});
+    contact->solve(
+      {kick, dt, 0., scene.time_stepping.is_large(), false, 0., true});
     fields.shifts.clear();
     fields.velocity = velocity;
     stage           = kept;
@@ -291,7 +292,8 @@ namespace Keyblock
                     stage.damps_contact_force ? stage.local_damping : 0.,
                     scene.time_stepping.is_large(),
                     keeps_ledger,
-                    conditions.loads.ramp_share_left()});
+                    conditions.loads.ramp_share_left(),
+                    false});
     contact_seconds += MPI_Wtime() - start;
   }
 

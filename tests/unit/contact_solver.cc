@@ -84,3 +84,101 @@ BOOST_AUTO_TEST_CASE(column_of_nodes)
     BOOST_TEST(std::abs(velocity[2 * i + 1]) < 1e-5);
   BOOST_TEST(std::abs(points[0].impulse[1] - (n - 1.)) < 1e-3);
 }
+
+namespace
+{
+  /** One compliant point under the velocities that are given. */
+  struct CompliantPoint
+  {
+    std::vector<double> velocity{{0.3, -1., 0.05, 0.1}};
+    std::vector<double> inverse_mass{{2., 1.}};
+    std::vector<ContactPoint<2>> points{make_point(0, 1, 0.3, 1.)};
+    std::vector<double> identity{{1., 0., 0., 1.}};
+
+    CompliantPoint(const double normal, const double shear, const double tau)
+    {
+      PointSpring<2> &spring = points[0].spring;
+      spring.is_elastic      = true;
+      spring.normal          = normal;
+      spring.shear           = shear;
+      spring.tau = spring.tau_shear = tau;
+      spring.kick = spring.step = 1e-3;
+      spring.before             = {{{-2., 1.}}, {{1e-5, -2e-5}}};
+    }
+
+    /** @param is_held whether the nodes say which directions they hold: none */
+    void
+    solve(const bool is_held)
+    {
+      const std::vector<const double *> projection(2, identity.data());
+      const ContactNodes<2> nodes{velocity.data(),
+                                  inverse_mass.data(),
+                                  is_held ? &projection : nullptr};
+      solve_group<2>(points, {points[0].strength}, nodes, {1e-3});
+    }
+  };
+} // namespace
+
+// The force is that of the stretch at the share tau of the move as long as the
+// joint bears it, else on its strength, and slip is along it; with the matrix
+// of partly held nodes the same.
+BOOST_AUTO_TEST_CASE(compliant_point)
+{
+  for (const double tau : {0.5, 0.8})
+    for (const double shear : {1e3, 1e6})
+      {
+        CompliantPoint one(3e5, shear, tau), other(3e5, shear, tau);
+        one.solve(false);
+        other.solve(true);
+        const ContactPoint<2> &point = one.points[0];
+        const Vector<2> &n           = point.normal;
+        const Vector<2> c = relative_velocity<2>(point, one.velocity.data());
+        const SpringChange<2> change = advance_spring<2>(
+          point.spring, point.impulse, n, c, point.status, point.strength);
+        const Vector<2> moved =
+          add<2>(point.spring.before.stretch, tau * 1e-3, c);
+        const Vector<2> elastic = scale_parts<2>(moved, n, -3e5, -shear);
+        const Vector<2> force   = change.after.force;
+        const double f_n        = dot<2>(force, n),
+                     f_t        = norm<2>(add<2>(force, -f_n, n));
+        BOOST_TEST(std::abs(f_n - dot<2>(elastic, n)) < 1e-9 * f_n);
+        if (shear < 1e4)
+          {
+            BOOST_TEST((point.status == ContactStatus::sticking));
+            BOOST_TEST(norm<2>(add<2>(force, -1., elastic)) < 1e-9 * f_n);
+          }
+        else
+          {
+            BOOST_TEST((point.status == ContactStatus::sliding));
+            BOOST_TEST(std::abs(f_t - 0.7 * f_n) < 1e-9 * f_n);
+            BOOST_TEST(dot<2>(force, change.slip) < 0.);
+            BOOST_TEST(std::abs(dot<2>(change.slip, n)) < 1e-18);
+          }
+        for (int d = 0; d < 2; ++d)
+          BOOST_TEST(std::abs(other.points[0].impulse[d] - point.impulse[d]) <
+                     1e-7 * norm<2>(point.impulse));
+      }
+}
+
+// As stiffness grows a point without stretch gets the impulse of a rigid one.
+BOOST_AUTO_TEST_CASE(stiff_point)
+{
+  CompliantPoint stiff(1e16, 1e16, 1.), rigid(1., 1., 1.);
+  stiff.points[0].spring.before     = {};
+  rigid.points[0].spring.is_elastic = false;
+  stiff.solve(false);
+  rigid.solve(false);
+  for (int d = 0; d < 2; ++d)
+    BOOST_TEST(
+      std::abs(stiff.points[0].impulse[d] - rigid.points[0].impulse[d]) < 1e-9);
+}
+
+// What turns with a normal keeps its length and its angle with it.
+BOOST_AUTO_TEST_CASE(turned_force)
+{
+  const Vector<3> from{{0., 0., 1.}}, to{{0.6, 0., 0.8}}, v{{1., 2., 3.}};
+  const Vector<3> turned = turn<3>(v, from, to);
+  BOOST_TEST(std::abs(norm<3>(turned) - norm<3>(v)) < 1e-14);
+  BOOST_TEST(std::abs(dot<3>(turned, to) - 3.) < 1e-14);
+  BOOST_TEST(std::abs(turned[1] - 2.) < 1e-14);
+}

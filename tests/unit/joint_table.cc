@@ -114,6 +114,18 @@ BOOST_AUTO_TEST_CASE(table_of_a_spreadsheet)
   BOOST_TEST(joints[2]->dip == 90.);
 }
 
+// stiffnesses have a unit of their own
+BOOST_AUTO_TEST_CASE(table_of_compliant_joints)
+{
+  const auto joints =
+    read<3>("dip,dip direction,x,y,z,extent,normal stiffness (GPa/m),"
+            "Shear stiffness\n"
+            "45,90,0,0,0,infinite,2.5,1e9\n");
+  BOOST_REQUIRE(joints.size() == 1u);
+  BOOST_TEST(joints[0]->value_of("Normal stiffness") == 2.5e9);
+  BOOST_TEST(joints[0]->value_of("Shear stiffness") == 1e9);
+}
+
 // dip = 90 - plunge, dip direction = trend + 180
 BOOST_AUTO_TEST_CASE(table_of_poles)
 {

@@ -129,6 +129,13 @@ namespace Keyblock
      * those that may meet a face. They change when tally.n_searches does. */
     std::vector<unsigned int> list_surface_contact_nodes() const;
 
+    /** Energy in the springs of compliant joints on this rank [J]. */
+    double
+    spring_energy() const
+    {
+      return springs.energy();
+    }
+
     ContactTally tally;
 
   private:
@@ -146,6 +153,7 @@ namespace Keyblock
     ContactAreas<dim> areas;
     ContactHistory<dim> history;
     PointSolver<dim> solver;
+    JointSprings<dim> springs;
     PairContact<dim> pairs;
     MultiPairContact<dim> multi_pairs;
     ContactDetection<dim> detection;

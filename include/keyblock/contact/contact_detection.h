@@ -22,6 +22,7 @@ namespace Keyblock
                      const SurfaceNodes<dim> &nodes,
                      ContactAreas<dim> &areas,
                      ContactHistory<dim> &history,
+                     JointSprings<dim> &springs,
                      MultiPairContact<dim> &multi_pairs,
                      Fields<dim> &fields,
                      ContactMemory<dim> &memory);
@@ -75,6 +76,7 @@ namespace Keyblock
     const SurfaceNodes<dim> &nodes;
     ContactAreas<dim> &areas;
     ContactHistory<dim> &history;
+    JointSprings<dim> &springs;
     MultiPairContact<dim> &multi_pairs;
     Fields<dim> &fields;
     ContactMemory<dim> &memory;

@@ -2,10 +2,8 @@
 #ifndef keyblock_contact_multi_pair_contact_h
 #define keyblock_contact_multi_pair_contact_h
 
+#include <keyblock/contact/joint_springs.h>
 #include <keyblock/contact/pair_cluster.h>
-#include <keyblock/contact/point_solver.h>
-#include <keyblock/contact/strength.h>
-#include <keyblock/contact/surface_nodes.h>
 #include <keyblock/contact/traction_estimate.h>
 
 namespace Keyblock
@@ -26,6 +24,7 @@ namespace Keyblock
                      const CellArrays<dim> &cells,
                      SurfaceNodes<dim> &nodes,
                      PointSolver<dim> &solver,
+                     JointSprings<dim> &springs,
                      Fields<dim> &fields,
                      ContactMemory<dim> &memory);
 
@@ -87,6 +86,7 @@ namespace Keyblock
     const ContactStrength<dim> &strength;
     SurfaceNodes<dim> &nodes;
     PointSolver<dim> &solver;
+    JointSprings<dim> &springs;
     Fields<dim> &fields;
     ContactMemory<dim> &memory;
     std::vector<Group> groups;

@@ -2,8 +2,7 @@
 #ifndef keyblock_contact_pair_contact_h
 #define keyblock_contact_pair_contact_h
 
-#include <keyblock/contact/point_solver.h>
-#include <keyblock/contact/strength.h>
+#include <keyblock/contact/joint_springs.h>
 #include <keyblock/rock/fields.h>
 
 namespace Keyblock
@@ -19,6 +18,7 @@ namespace Keyblock
                 const ContactStrength<dim> &strength,
                 const std::vector<const double *> &projection,
                 PointSolver<dim> &solver,
+                JointSprings<dim> &springs,
                 Fields<dim> &fields,
                 ContactMemory<dim> &memory);
 
@@ -45,6 +45,7 @@ namespace Keyblock
     const Scene<dim> &scene;
     const ContactStrength<dim> &strength;
     PointSolver<dim> &solver;
+    JointSprings<dim> &springs;
     Fields<dim> &fields;
     ContactMemory<dim> &memory;
     std::vector<SinglePair> single_pairs;

@@ -19,6 +19,12 @@ namespace Keyblock
   std::vector<JointHistory>
   gather_pair_histories(const PairTopology<dim> &topology,
                         const ContactMemory<dim> &memory);
+
+  /** The same of pairs' springs. */
+  template <int dim>
+  std::vector<SpringState<dim>>
+  gather_pair_springs(const PairTopology<dim> &topology,
+                      const ContactMemory<dim> &memory);
 } // namespace Keyblock
 
 #endif

@@ -30,7 +30,17 @@ namespace Keyblock
               const double *old_velocity,
               const double *new_velocity);
 
+    /** Add @p energy [J] of springs that has come without work, as that of a
+     * point that takes another's place; negative: gone. */
+    void book_spring_energy(const double energy);
+
   private:
+    /** book() of a compliant point: of the @p work [J] that it took a part is
+     * stored, a part friction, the rest what damps the spring. */
+    void book_spring(const ContactPoint<dim> &point,
+                     const double work,
+                     const Vector<dim> &velocity);
+
     const Scene<dim> &scene;
     ContactTally &tally;
   };

@@ -2,8 +2,7 @@
 #ifndef keyblock_contact_solver_h
 #define keyblock_contact_solver_h
 
-#include <keyblock/base/vector.h>
-#include <keyblock/law/point_strength.h>
+#include <keyblock/contact/point_spring.h>
 
 #include <vector>
 
@@ -26,6 +25,7 @@ namespace Keyblock
     double gap = 0.; ///< [m], positive when open
     PointStrength strength;
     bool is_intact = false;
+    PointSpring<dim> spring; ///< of a compliant joint; then gap does not count
 
     Vector<dim> impulse{}; ///< on the slave [N s]; start value and result
     ContactStatus status = ContactStatus::open;

@@ -37,6 +37,22 @@ namespace Keyblock
     JointHistory history;
   };
 
+  /** The spring of a surface node that slides on a compliant joint. */
+  template <int dim>
+  struct NodeSpring
+  {
+    unsigned int node, joint;
+    SpringState<dim> state; ///< as a slave
+    Vector<dim> normal{};   ///< that state is for, out of the other side
+
+    /** Stretch along the normal minus gap [m], once that is known. */
+    double offset   = 0.;
+    bool has_offset = false;
+
+    double stored          = 0.; ///< energy in the ledger [J]
+    unsigned int last_step = 0;  ///< that it bore in
+  };
+
   /** Which strengths are divided by a trial's reduction factor. */
   struct StrengthReduction
   {
@@ -77,6 +93,10 @@ namespace Keyblock
      */
     std::vector<JointHistory> pair_histories;
     std::vector<NodeHistory> node_histories;
+
+    /** The same of springs, if a joint is compliant. */
+    std::vector<SpringState<dim>> pair_springs;
+    std::vector<NodeSpring<dim>> node_springs;
     unsigned int n_steps = 0;
     double last_kick     = 0.; ///< [s]
 
@@ -125,6 +145,7 @@ namespace Keyblock
     double closure     = 0.;
     double penetration = 0.;
     double dilation    = 0.; ///< negative: it pushes the sides apart
+    double elastic     = 0.; ///< what springs of compliant joints took up
   };
 
   /** What contact has done since the start, on this rank. */
@@ -146,6 +167,7 @@ namespace Keyblock
     bool is_large        = false;
     bool keeps_ledger    = true;
     double weld_share    = 0.; ///< of the stage's former welds that is left [-]
+    bool is_settling = false;  ///< bodies are at rest and stay where they are
   };
 } // namespace Keyblock
 

@@ -25,6 +25,7 @@ namespace Keyblock
                     MultiPairContact<dim> &pairs_on_nodes,
                     SurfaceNodes<dim> &nodes,
                     PointSolver<dim> &solver,
+                    JointSprings<dim> &springs,
                     ContactMemory<dim> &memory);
 
     void solve(const ContactStep &step);
@@ -86,6 +87,7 @@ namespace Keyblock
     MultiPairContact<dim> &pairs_on_nodes;
     SurfaceNodes<dim> &nodes;
     PointSolver<dim> &solver;
+    JointSprings<dim> &springs;
     ContactMemory<dim> &memory;
   };
 } // namespace Keyblock

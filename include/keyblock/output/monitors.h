@@ -82,6 +82,10 @@ namespace Keyblock
   private:
     void find_target(const Monitor<dim> &monitor);
 
+    /** Index into Blocks::blocks of the block that a monitor names, or at its
+     * Location. Throws InputError if there is none. */
+    unsigned int find_block(const Monitor<dim> &monitor);
+
     /** The cell that @p location lies in, or none. */
     unsigned int find_cell_at(const Point<dim> &location) const;
 
@@ -101,6 +105,11 @@ namespace Keyblock
     void sample_nodes(const std::vector<unsigned int> &nodes,
                       std::vector<double> &row);
     void sample_block(const unsigned int block, std::vector<double> &row);
+
+    /** Motion of a block from the rock beside it, over the faces of its joints:
+     * mean slip, largest slip, mean opening [m]. */
+    void sample_block_motion(const unsigned int block,
+                             std::vector<double> &row);
 
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;

@@ -28,6 +28,7 @@ namespace Keyblock
     std::string joint;
     std::string support;
     Point<dim> location;
+    unsigned int block = 0; ///< its number in the block table; 0: by location
 
     void declare(ParameterHandler &prm);
   };

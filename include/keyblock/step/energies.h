@@ -9,10 +9,10 @@
 
 namespace Keyblock
 {
-  constexpr unsigned int n_energy_terms = 15;
+  constexpr unsigned int n_energy_terms = 16;
 
   /** Those that history.csv lists: all but the last two. */
-  constexpr unsigned int n_recorded_energies = 13;
+  constexpr unsigned int n_recorded_energies = 14;
 
   /** Every energy of the ledger [J], per metre of thickness in 2D. Work terms
    * count since the start of the stage; losses are positive. */
@@ -31,6 +31,7 @@ namespace Keyblock
     double local_damping     = 0.;
     double plastic           = 0.; ///< dissipated by plastic strains
     double radiation         = 0.; ///< left through quiet boundaries
+    double joints            = 0.; ///< elastic, in compliant joints, at n + 1/2
     double excavated = 0.; ///< elastic, left with the cells excavated first
     double start     = 0.; ///< kinetic and elastic at the start of the stage
 

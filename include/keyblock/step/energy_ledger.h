@@ -96,13 +96,14 @@ namespace Keyblock
   {
     std::array<double, n_energy_terms> terms = sums.as_array();
     std::vector<double *> shares;
-    shares.reserve(terms.size() + 6);
+    shares.reserve(terms.size() + 7);
     for (double &term : terms)
       shares.push_back(&term);
     for (double *const share : {&contact_work_at_start.friction,
                                 &contact_work_at_start.closure,
                                 &contact_work_at_start.penetration,
                                 &contact_work_at_start.dilation,
+                                &contact_work_at_start.elastic,
                                 &plastic_work_at_start,
                                 &excavated_energy})
       shares.push_back(share);
