@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/lac/full_matrix.h>
-
 #include <keyblock/step/structural_liner.h>
 
 #include <algorithm>
@@ -52,22 +50,6 @@ namespace Keyblock
                        [](const auto &liner) {
                          return liner->is_structural();
                        });
-  }
-
-
-
-  template <int dim>
-  template <typename Action>
-  void
-  StructuralLiners<dim>::for_each_owned(const Anchor &anchor,
-                                        const Action &action) const
-  {
-    split.for_each_carrier(anchor.vertex,
-                           [&](const unsigned int carrier,
-                               const double weight) {
-                             if (numbering.is_owned(carrier))
-                               action(numbering.local_node(carrier), weight);
-                           });
   }
 
 
@@ -145,6 +127,7 @@ namespace Keyblock
                                                 liner.thickness),
                                    lining.points,
                                    faces);
+    deal_out(lining);
   }
 
 
@@ -306,59 +289,6 @@ namespace Keyblock
               twice += moved[p] * lining.shell.force_at(p, moved);
           }
     return 0.5 * twice;
-  }
-
-
-
-  template <int dim>
-  void
-  StructuralLiners<dim>::for_each_stiffness(
-    const typename ForceElement<dim>::AddStiffness &add) const
-  {
-    constexpr unsigned int n = LinerPiece<dim>::n_strains;
-    for (const Lining &lining : linings)
-      if (lining.is_present)
-        for (const LinerPiece<dim> &piece : lining.shell.all_pieces())
-          {
-            // strains by degree of freedom
-            std::map<unsigned int, typename LinerPiece<dim>::Rows> rows;
-            bool is_local      = lining.is_mine[piece.points[0]];
-            unsigned int first = none;
-            for (unsigned int i = 0; i < piece.points.size() && is_local; ++i)
-              for (const unsigned int a :
-                   lining.anchors_of_point[piece.points[i]])
-                split.for_each_carrier(
-                  lining.anchors[a].vertex,
-                  [&](const unsigned int carrier, const double weight) {
-                    const unsigned int node = numbering.local_node(carrier);
-                    if (first == none)
-                      {
-                        first    = node;
-                        is_local = numbering.is_owned(carrier);
-                      }
-                    if (node == none)
-                      is_local = false;
-                    else
-                      for (unsigned int s = 0; s < n; ++s)
-                        rows[node][s] +=
-                          weight * lining.anchors[a].share * piece.rows[i][s];
-                  });
-            if (!is_local)
-              continue;
-            std::vector<unsigned int> dofs;
-            for (const auto &[node, row] : rows)
-              for (unsigned int d = 0; d < dim; ++d)
-                dofs.push_back(dim * node + d);
-            dealii::FullMatrix<double> matrix(dofs.size(), dofs.size());
-            for (unsigned int i = 0; i < dofs.size(); ++i)
-              for (unsigned int j = 0; j < dofs.size(); ++j)
-                for (unsigned int s = 0; s < n; ++s)
-                  for (unsigned int r = 0; r < n; ++r)
-                    matrix(i, j) += piece.area * piece.stiffness[s][r] *
-                                    rows[dofs[i] / dim][s][dofs[i] % dim] *
-                                    rows[dofs[j] / dim][r][dofs[j] % dim];
-            add(dofs, matrix);
-          }
   }
 
 

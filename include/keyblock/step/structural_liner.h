@@ -64,10 +64,12 @@ namespace Keyblock
     double
     stored_energy(const std::vector<double> &displacement) const override;
 
-    /** Pieces that lie on this rank; others, across the ranks' bounds, are left
-     * to the refinements of the solution. */
     void for_each_stiffness(
       const typename ForceElement<dim>::AddStiffness &add) const override;
+
+    /** Pieces across the bounds of ranks, none of which knows all their nodes.
+     */
+    CoupledStiffness coupled_stiffness() const override;
     ForceElementState remember() const override;
     void recall(const ForceElementState &state) override;
 
@@ -97,14 +99,30 @@ namespace Keyblock
       std::vector<Point<dim>> points;
       std::vector<std::vector<unsigned int>> anchors_of_point;
       std::vector<bool> is_mine; ///< point with an owned node
+
+      /** Rank that hands a piece of the shell to static solutions; as many as
+       * ranks: none knows all its nodes. */
+      std::vector<unsigned int> rank_of_piece;
     };
 
     /** Call @p action(local node, weight) for the owned nodes that carry what
      * acts at @p anchor. */
     template <typename Action>
-    void for_each_owned(const Anchor &anchor, const Action &action) const;
+    void
+    for_each_owned(const Anchor &anchor, const Action &action) const
+    {
+      split.for_each_carrier(anchor.vertex,
+                             [&](const unsigned int carrier,
+                                 const double weight) {
+                               if (numbering.is_owned(carrier))
+                                 action(numbering.local_node(carrier), weight);
+                             });
+    }
 
     void build(Lining &lining) const;
+
+    /** Deal out the pieces to the ranks (collective). */
+    void deal_out(Lining &lining) const;
 
     /** Displacement of the points since installed [m]. */
     std::vector<Tensor<1, dim>> displacements(const Lining &lining) const;
