@@ -34,6 +34,12 @@ namespace Keyblock
             {
               lining.anchors.emplace_back();
               lining.anchors.back().vertex = v;
+              split.for_each_carrier(
+                v, [&](const unsigned int carrier, const double weight) {
+                  if (numbering.is_owned(carrier))
+                    lining.anchors.back().carriers.emplace_back(
+                      numbering.local_node(carrier), weight);
+                });
             }
           linings.push_back(std::move(lining));
         }

@@ -81,6 +81,7 @@ namespace Keyblock
     struct Anchor
     {
       unsigned int vertex;
+      std::vector<std::pair<unsigned int, double>> carriers; ///< owned, weight
       unsigned int point = none;   ///< of the faces that are there
       double share       = 0.;     ///< of the point; 0: none is there
       Tensor<1, dim> rest;         ///< displacement when installed [m]
@@ -108,15 +109,11 @@ namespace Keyblock
     /** Call @p action(local node, weight) for the owned nodes that carry what
      * acts at @p anchor. */
     template <typename Action>
-    void
-    for_each_owned(const Anchor &anchor, const Action &action) const
+    static void
+    for_each_owned(const Anchor &anchor, const Action &action)
     {
-      split.for_each_carrier(anchor.vertex,
-                             [&](const unsigned int carrier,
-                                 const double weight) {
-                               if (numbering.is_owned(carrier))
-                                 action(numbering.local_node(carrier), weight);
-                             });
+      for (const auto &[node, weight] : anchor.carriers)
+        action(node, weight);
     }
 
     void build(Lining &lining) const;
