@@ -82,6 +82,15 @@ keyblock_restart(pulse verification/pulse RANKS 2
 # shotcrete that yields under a block that moves off, and is sprayed with the stage
 keyblock_restart(lined_roof verification/lined_roof
   ARGUMENTS --set "Shotcrete/shell/Thickness=0.02" --set "Stages/dig/Maximum steps=3000")
+# a structural liner, on one rank and two, and what a later stage leaves of it
+set(structural --set "Shotcrete/shell/Young modulus=1e9" --set "Stages/Names=dig, again"
+  --set "Excavations/Names=room, side" --set "Excavations/side/Stage=again"
+  --set "Excavations/side/Vertices=1, -1@ 1.5, -1@ 1.5, 0@ 1, 0"
+  --set "Stages/again/Kind=quasi-static" --set "Stages/dig/Maximum steps=2000"
+  --set "Stages/again/Maximum steps=2000" --set "Safety factor/Blocks=none")
+keyblock_restart(structural_liner verification/lined_roof ARGUMENTS ${structural})
+keyblock_restart(structural_liner_2 verification/lined_roof RANKS 2
+  ARGUMENTS --ranks 2 ${structural})
 # ground beside the model that moves
 keyblock_restart(free_field verification/free_field ARGUMENTS
   --set "Stages/shake/Duration=0.3")

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/blocks/lined_faces.h>
 #include <keyblock/blocks/liner_layout.h>
 
 #include <keyblock/base/errors.h>
@@ -98,21 +99,6 @@ namespace Keyblock
                              "'Parts' and 'Region'; correct these, or its "
                              "'Stage'."));
       return faces;
-    }
-
-    /** What was one vertex before the split, by vertex; `none` where there is
-     * no pair. */
-    template <int dim>
-    std::vector<unsigned int>
-    groups_of_vertices(const SplitMesh<dim> &split)
-    {
-      std::vector<unsigned int> group(split.mesh.vertices.size(), none);
-      for (unsigned int g = 0; g < split.interface.n_groups(); ++g)
-        for (unsigned int i = split.interface.group_begin[g];
-             i < split.interface.group_begin[g + 1];
-             ++i)
-          group[split.interface.group_vertices[i]] = g;
-      return group;
     }
 
     /** Rims of a face: its vertices in 2D, its edges in 3D. */
@@ -234,13 +220,14 @@ namespace Keyblock
   lay_out_liners(const Scene<dim> &scene, const SplitMesh<dim> &split)
   {
     std::vector<LaidLiner<dim>> liners;
-    for (const auto &liner : scene.liners)
+    for (unsigned int i = 0; i < scene.liners.size(); ++i)
       {
-        const Ground<dim> ground{scene,
-                                 split,
-                                 scene.stage_number(liner->stage)};
-        const std::vector<CellFace> faces = list_lined_faces(*liner, ground);
-        liners.push_back({find_traces(split, faces), {}});
+        const Liner &liner = *scene.liners[i];
+        const Ground<dim> ground{scene, split, scene.stage_number(liner.stage)};
+        const std::vector<CellFace> faces = list_lined_faces(liner, ground);
+        liners.push_back({find_traces(split, faces), {}, {}});
+        if (liner.is_structural())
+          liners.back().faces = lay_out_faces(scene, split, i, faces);
         for (const CellFace &f : faces)
           for (const unsigned int v : split.mesh.face_vertices(f.cell, f.face))
             liners.back().areas.push_back(

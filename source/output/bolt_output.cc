@@ -143,27 +143,7 @@ namespace Keyblock
   }
 
 
-
-  template <int dim>
-  nlohmann::ordered_json
-  liners_as_json(const std::vector<LinerReport> &liners,
-                 const Scene<dim> &scene)
-  {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const LinerReport &report : liners)
-      list.push_back({{"name", scene.liners[report.liner]->name},
-                      {"stage", scene.liners[report.liner]->stage},
-                      {"area", report.area},
-                      {"trace_length", report.trace_length},
-                      {"shear_resistance", report.strength},
-                      {"largest_load_ratio", report.largest_load},
-                      {"sheared_length", report.sheared}});
-    return list;
-  }
-
 #define INSTANTIATE(dim)                                                       \
-  template nlohmann::ordered_json liners_as_json(                              \
-    const std::vector<LinerReport> &, const Scene<dim> &);                     \
   template std::vector<BoltFigures> list_figures(                              \
     const std::vector<BoltReport<dim>> &, const Scene<dim> &);                 \
   template void write_bolts(const std::string &,                               \

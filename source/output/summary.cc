@@ -306,7 +306,7 @@ namespace Keyblock
       root["geostress"] = geostress_as_json(*geostress);
     root["program"] = program_as_json(numbering.communicator);
     if (!run.liners.empty())
-      root["shotcrete"] = liners_as_json(run.liners, scene);
+      root["shotcrete"] = liners_as_json(run.liners, run.structural, scene);
     if (!run.bolts.empty())
       root["bolts"] = bolts_as_json(run.bolts);
     root["scene"] = {{"name", scene.file},

@@ -177,6 +177,25 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** What structural liners are taken for. */
+    template <int dim>
+    void
+    print_liners(std::ostream &out, const Model<dim> &model)
+    {
+      for (unsigned int i = 0; i < model.split.liners.size(); ++i)
+        if (const auto &faces = model.split.liners[i].faces; !faces.empty())
+          out << "Liner   " << model.scene.liners[i]->name << ": "
+              << faces.size()
+              << " faces of the mesh carry thrust and bend, elastic and bonded "
+                 "to the rock; bending and punching between its nodes are not "
+                 "seen\n";
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   print_set_up(std::ostream &out,
@@ -194,6 +213,7 @@ namespace Keyblock
     if (model.n_cells_global > 0)
       print_stable_step(out, model, report);
     print_mesh_report(out, model.mesh_report, model.scene);
+    print_liners(out, model);
     for (const std::string &warning : warnings)
       out << "Warning: " << warning << '\n';
     out << mass_scaling;

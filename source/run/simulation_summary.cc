@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The end of a run: what it has come to.
+#include <keyblock/output/liner_output.h>
 #include <keyblock/run/simulation.h>
 #include <keyblock/verification/checks.h>
 
@@ -46,6 +47,9 @@ namespace Keyblock
     report.mass_scaling   = model.conditions->active_cells.mass_scaling;
     report.bolts  = list_figures(model.conditions->report_bolts(), model.scene);
     report.liners = model.conditions->report_liners();
+    for (const LinerLoads<dim> &loads :
+         model.conditions->report_structural_liners())
+      report.structural.push_back(list_figures(loads));
     report.skipped_steps = model.communicator.sum(model.step->n_skipped);
     report.capped_groups =
       model.communicator.sum(model.contact ? model.contact->tally.n_capped : 0);

@@ -154,6 +154,10 @@ namespace Keyblock
                   output.records,
                   model.conditions->report_bolts(),
                   model.scene);
+      write_liners(folder,
+                   output.records,
+                   model.conditions->report_structural_liners(),
+                   model.scene);
     });
   }
 

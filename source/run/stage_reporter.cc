@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/number_text.h>
 #include <keyblock/law/joint_stiffness.h>
+#include <keyblock/output/liner_output.h>
 #include <keyblock/run/stage_reporter.h>
 #include <keyblock/run/static_stage.h>
 
@@ -19,6 +20,10 @@ namespace Keyblock
 
     /** Overlaps from this share of the largest displacement on are told [-]. */
     constexpr double notable_overlap = 0.02;
+
+    /** Frequency with structural liners over that without them from which on it
+     * is told [-]. */
+    constexpr double notable_frequency_ratio = 1.01;
 
 
 
@@ -211,6 +216,14 @@ namespace Keyblock
                   : "")
             << '\n';
       }
+    for (const LinerLoads<dim> &loads :
+         model.conditions->report_structural_liners())
+      out << describe(list_figures(loads), *model.scene.liners[loads.liner]);
+    if (model.conditions->frequency_ratio_of_liners > notable_frequency_ratio)
+      out << "        structural liners shorten the stable step by "
+          << std::setprecision(3)
+          << 100. - 100. / model.conditions->frequency_ratio_of_liners
+          << " per cent\n";
     if (report.through_rock > 0)
       out << "Warning: " << report.through_rock
           << " contacts act through the rock of a block." << '\n';

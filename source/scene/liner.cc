@@ -52,6 +52,27 @@ namespace Keyblock
                       density,
                       "Density; its weight is added to the rock's [kg/m3].",
                       not_negative);
+    prm.add_parameter("Young modulus",
+                      young_modulus,
+                      "Young modulus of a structural liner, which carries "
+                      "thrust and bends, bonded to the rock; 0: shear along "
+                      "traces of joints alone [Pa].",
+                      not_negative);
+    prm.add_parameter("Poisson ratio",
+                      poisson_ratio,
+                      "Poisson ratio of a structural liner [-].",
+                      dealii::Patterns::Double(0., 0.499));
+    prm.add_parameter("Compressive strength",
+                      compressive_strength,
+                      "Uniaxial compressive strength of a structural liner; "
+                      "thrust and moment are compared with it. 0: not compared "
+                      "[Pa].",
+                      not_negative);
+    prm.add_parameter("Tensile strength",
+                      tensile_strength,
+                      "Tensile strength of a structural liner; thrust and "
+                      "moment are compared with it. 0: not compared [Pa].",
+                      not_negative);
   }
 
 
@@ -85,10 +106,23 @@ namespace Keyblock
           liner->thickness > 0.,
           "The entry '" + section +
             "/Thickness' is 0; give the thickness of the shotcrete in m.");
-        require(liner->shear_strength > 0.,
+        require(liner->shear_strength > 0. || liner->is_structural(),
                 "The entry '" + section +
                   "/Shear strength' is 0; give the strength of the section in "
-                  "Pa (2e6 for 200 t/m2).");
+                  "Pa (2e6 for 200 t/m2), or a 'Young modulus' if it is a "
+                  "structural liner.");
+        require(liner->is_structural() || (liner->compressive_strength == 0. &&
+                                           liner->tensile_strength == 0.),
+                "The entry '" + section +
+                  "/Young modulus' is 0, but a compressive or tensile strength "
+                  "is given; thrust and moment, which they are compared with, "
+                  "need a Young modulus in Pa.");
+        require(!liner->is_structural() || !scene.time_stepping.is_large(),
+                "The entry '" + section + "/Young modulus' is " +
+                  text_of(liner->young_modulus) +
+                  ", and a structural liner needs 'Time stepping/Kinematics' = "
+                  "small; change that, or set the modulus to 0 for shear along "
+                  "traces of joints alone.");
         if (!liner->region.empty())
           Expression<dim>(liner->region, 1, section + "/Region");
       }

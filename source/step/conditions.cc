@@ -64,6 +64,15 @@ namespace Keyblock
         shotcrete = sprayed.get();
         elements.push_back(std::move(sprayed));
       }
+    if (StructuralLiners<dim>::is_wanted(scene))
+      {
+        auto bonded = std::make_unique<StructuralLiners<dim>>(scene,
+                                                              split,
+                                                              numbering,
+                                                              active_cells);
+        liners      = bonded.get();
+        elements.push_back(std::move(bonded));
+      }
   }
 
 
@@ -161,7 +170,12 @@ namespace Keyblock
     list_moving_nodes();
     stable_step = active_cells.stable_step;
     for (const auto &element : elements)
-      stable_step.add(element->step_bound(fields.inverse_mass));
+      {
+        const double before = stable_step.frequency;
+        stable_step.add(element->step_bound(fields.inverse_mass));
+        if (element.get() == liners)
+          frequency_ratio_of_liners = stable_step.frequency / before;
+      }
   }
 
 

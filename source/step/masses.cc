@@ -142,6 +142,37 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<double>
+  ActiveCells<dim>::squared_frequencies_at(
+    const std::vector<unsigned int> &vertices) const
+  {
+    std::vector<double> at_node(numbering.n_local(), 0.);
+    for (unsigned int c = 0; c < cells.nodes.size(); ++c)
+      {
+        const double scaled = mass_scaling.empty()
+                                ? frequency[c]
+                                : scaling_of(c)->scaled(frequency[c]);
+        // equal steps make the highest of all that of each
+        const double highest = std::min(scaled, stable_step.frequency);
+        for (const unsigned int vertex : split.mesh.cells[cells.mesh_cell[c]])
+          split.for_each_carrier(vertex, [&](const unsigned int v, double) {
+            double &value = at_node[numbering.local_node(v)];
+            value         = std::max(value, highest * highest);
+          });
+      }
+    std::vector<double> result;
+    for (const unsigned int v : vertices)
+      {
+        const unsigned int node = numbering.local_node(v);
+        result.push_back(node == none ? 0. : at_node[node]);
+      }
+    numbering.communicator.max_lists(result);
+    return result;
+  }
+
+
+
+  template <int dim>
   void
   ActiveCells<dim>::hold_frozen_nodes()
   {
@@ -182,6 +213,8 @@ namespace Keyblock
   template void ActiveCells<dim>::set_up_mass_scaling();                       \
   template void ActiveCells<dim>::set_up_weighing_mass();                      \
   template void ActiveCells<dim>::scale_density(const bool);                   \
+  template std::vector<double> ActiveCells<dim>::squared_frequencies_at(       \
+    const std::vector<unsigned int> &) const;                                  \
   template void ActiveCells<dim>::set_damping(const Stage &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -28,6 +28,8 @@ namespace Keyblock
     for (unsigned int i = 0; i < split.liners.size(); ++i)
       for (const LinerTrace<dim> &trace : split.liners[i].traces)
         {
+          if (scene.liners[i]->shear_strength == 0.)
+            continue;
           sections.emplace_back();
           sections.back().liner = i;
           sections.back().trace = trace;

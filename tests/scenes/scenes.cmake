@@ -243,6 +243,16 @@ keyblock_scene(verification/lined_roof REFERENCES lined_roof_twice RANKS 1 2
   "Shotcrete/more/Thickness=0.05" "Shotcrete/more/Shear strength=0.4e6"
   "Shotcrete/more/Shear modulus=1e8" "Shotcrete/more/Density=0")
 keyblock_scene(verification/lined_roof_3d RANKS 1 2)
+# thrust and moment of structural liners
+# a structural liner of which the next stage takes a wall
+keyblock_scene(verification/lined_roof REFERENCES lined_roof_cut RANKS 1 2
+  SET "Shotcrete/shell/Young modulus=1e9" "Stages/Names=dig, again"
+  "Excavations/Names=room, side" "Excavations/side/Stage=again"
+  "Excavations/side/Vertices=1, -1@ 1.5, -1@ 1.5, 0@ 1, 0"
+  "Stages/again/Kind=quasi-static" "Stages/again/Unbalanced ratio=1e-6"
+  "Safety factor/Blocks=none")
+keyblock_scene(verification/lined_tunnel RANKS 1 2)
+keyblock_scene(verification/lined_tunnel_3d RANKS 1 2)
 keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_20 RANKS 1
   SET "Tractions/push/Traction=-20e3@ 0"
   "Initial state/Stress=-20e3@ 0@ -4e3@ 0")

@@ -4,6 +4,7 @@
 
 #include "world.h"
 
+#include <keyblock/blocks/liner_layout.h>
 #include <keyblock/step/step.h>
 
 #include <fstream>
@@ -37,6 +38,7 @@ namespace Keyblock
       const Mesh<2> mesh = make_mesh(world, scene, silent);
       blocks             = find_blocks(mesh, scene);
       split              = split_mesh(mesh, blocks, scene);
+      split.liners       = lay_out_liners(scene, split);
       numbering          = std::make_unique<Numbering<2>>(world, scene, split);
       conditions         = std::make_unique<Conditions<2>>(
         scene, split, *numbering, cells, fields);

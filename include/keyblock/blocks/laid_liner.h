@@ -39,12 +39,36 @@ namespace Keyblock
     double area; ///< [m2]
   };
 
+  /** A face under shotcrete that carries thrust and bends. */
+  template <int dim>
+  struct LinedFace
+  {
+    static constexpr unsigned int n = 1 << (dim - 1);
+
+    /** Of the split mesh: in 2D the way from the first to the second has the
+     * opening on its left, in 3D they turn around the normal into it. */
+    std::array<unsigned int, n> vertices;
+
+    /** What was one vertex before the split has one point; index among the
+     * points of the liner. */
+    std::array<unsigned int, n> points;
+
+    /** Whether its vertices (2D) or edges, from each vertex to the next (3D),
+     * are on a held outer boundary: there the liner goes on as its mirror
+     * image. */
+    std::array<bool, n> is_mirrored;
+
+    unsigned int cell; ///< under it
+    double area;       ///< [m2]; in 2D over 1 m
+  };
+
   /** Shotcrete on a mesh. */
   template <int dim>
   struct LaidLiner
   {
     std::vector<LinerTrace<dim>> traces;
     std::vector<LinerArea> areas;
+    std::vector<LinedFace<dim>> faces; ///< of a structural liner only
   };
 } // namespace Keyblock
 

@@ -21,8 +21,9 @@ namespace Keyblock
 
   /**
    * The shotcrete of the scene as it is sprayed on the faces that are there
-   * after its stage has excavated: what it weighs on each vertex, and the
-   * traces of joints that it covers. Throws InputError if there is no face.
+   * after its stage has excavated: what it weighs on each vertex, the traces of
+   * joints that it covers, and its faces if it is structural. Throws InputError
+   * if there is no face, or if cells of two sizes meet under one that bends.
    */
   template <int dim>
   std::vector<LaidLiner<dim>> lay_out_liners(const Scene<dim> &scene,

@@ -6,7 +6,6 @@
 
 #include <keyblock/base/vtu_file.h>
 #include <keyblock/step/bolts.h>
-#include <keyblock/step/shotcrete.h>
 
 namespace Keyblock
 {
@@ -43,11 +42,6 @@ namespace Keyblock
 
   /** They stand in summary.json so. */
   nlohmann::ordered_json bolts_as_json(const std::vector<BoltFigures> &bolts);
-
-  /** Shotcrete stands there so. */
-  template <int dim>
-  nlohmann::ordered_json liners_as_json(const std::vector<LinerReport> &liners,
-                                        const Scene<dim> &scene);
 } // namespace Keyblock
 
 #endif

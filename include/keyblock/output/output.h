@@ -5,6 +5,7 @@
 #include <keyblock/base/vtu_file.h>
 #include <keyblock/geostress/geostress.h>
 #include <keyblock/output/bolt_output.h>
+#include <keyblock/output/liner_output.h>
 #include <keyblock/output/monitors.h>
 #include <keyblock/safety/safety_factor.h>
 
@@ -59,6 +60,7 @@ namespace Keyblock
     std::vector<MassScaling> mass_scaling; ///< at the end, by block
     std::vector<BoltFigures> bolts;        ///< at the end
     std::vector<LinerReport> liners;       ///< at the end
+    std::vector<LinerFigures> structural;  ///< liners, at the end
     std::vector<std::string> warnings;     ///< of the scene and its set-up
     std::vector<std::string> overrides;    ///< "Section/Entry=value"
   };

@@ -25,6 +25,18 @@ namespace Keyblock
     double shear_modulus  = 10e9;  ///< [Pa]
     double density        = 2400.; ///< [kg/m3]
 
+    // of a liner that carries thrust and bends
+    double young_modulus        = 0.;  ///< 0: it does not [Pa]
+    double poisson_ratio        = 0.2; ///< [-]
+    double compressive_strength = 0.;  ///< 0: not compared [Pa]
+    double tensile_strength     = 0.;  ///< 0: not compared [Pa]
+
+    bool
+    is_structural() const
+    {
+      return young_modulus > 0.;
+    }
+
     void declare(dealii::ParameterHandler &prm);
   };
 

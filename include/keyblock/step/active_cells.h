@@ -88,6 +88,12 @@ namespace Keyblock
      * have inverse mass zero. Gravity is not affected. */
     void scale_density(const bool is_scaled);
 
+    /** Highest frequency, squared, of the cells around each of @p vertices of
+     * the split mesh with the masses in use; what acts on hanging ones acts on
+     * their masters (the same on every rank, collective) [rad^2/s^2]. */
+    std::vector<double>
+    squared_frequencies_at(const std::vector<unsigned int> &vertices) const;
+
     StableStep<dim> stable_step;   ///< of the masses in use
     std::vector<double> frequency; ///< of each deformable cell here [rad/s]
 

@@ -8,6 +8,7 @@
 #include <keyblock/step/loads.h>
 #include <keyblock/step/quiet_boundary.h>
 #include <keyblock/step/shotcrete.h>
+#include <keyblock/step/structural_liner.h>
 #include <keyblock/step/supports.h>
 
 #include <algorithm>
@@ -121,6 +122,13 @@ namespace Keyblock
       return shotcrete ? shotcrete->report() : std::vector<LinerReport>();
     }
 
+    /** What structural liners bear. */
+    std::vector<LinerLoads<dim>>
+    report_structural_liners() const
+    {
+      return liners ? liners->report() : std::vector<LinerLoads<dim>>();
+    }
+
     /** Set fields.load to all loads at @p time. */
     void set_load(const double time);
 
@@ -134,6 +142,9 @@ namespace Keyblock
     ForceElements<dim> elements;
 
     StableStep<dim> stable_step; ///< of the masses in use and all elements
+
+    /** Highest frequency with structural liners over that without them [-]. */
+    double frequency_ratio_of_liners = 1.;
 
   private:
     void make_elements();
@@ -156,6 +167,7 @@ namespace Keyblock
     FarFieldSprings<dim> *far_field = nullptr; ///< one of elements, if any
     Bolts<dim> *bolts               = nullptr; ///< the same
     Shotcrete<dim> *shotcrete       = nullptr; ///< the same
+    StructuralLiners<dim> *liners   = nullptr; ///< the same
     QuietBoundary<dim> *quiet       = nullptr; ///< the same
   };
 } // namespace Keyblock
