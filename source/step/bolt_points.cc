@@ -5,6 +5,15 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Nodes ahead of the present one whose values are asked of the memory:
+     * those of all bolts together do not stay in the caches between steps. */
+    constexpr unsigned int n_ahead = 48;
+  } // namespace
+
+
+
   template <int dim>
   void
   BoltPoints<dim>::clear()
@@ -53,6 +62,9 @@ namespace Keyblock
       {
         for (double *u = work.data(); node < line.end_node; ++node, ++u)
           {
+            if (node + n_ahead < nodes.size())
+              __builtin_prefetch(displacement.data() +
+                                 dim * nodes[node + n_ahead]);
             const double *of_node = displacement.data() + dim * nodes[node];
             *u                    = line.way[0] * of_node[0];
             for (unsigned int d = 1; d < dim; ++d)
@@ -60,10 +72,20 @@ namespace Keyblock
           }
         for (; point < line.end_point; ++point)
           {
-            double sum = 0.;
-            for (; carrier < first_carrier[point + 1]; ++carrier)
-              sum += weight[carrier] * work[slot[carrier]];
-            along[point] = sum;
+            // two sums at once: an addition waits for the one before it
+            const unsigned int end = first_carrier[point + 1];
+            double even = 0., odd = 0.;
+            for (; carrier + 1 < end; carrier += 2)
+              {
+                even += weight[carrier] * work[slot[carrier]];
+                odd += weight[carrier + 1] * work[slot[carrier + 1]];
+              }
+            if (carrier < end)
+              {
+                even += weight[carrier] * work[slot[carrier]];
+                ++carrier;
+              }
+            along[point] = even + odd;
           }
       }
   }
@@ -82,8 +104,13 @@ namespace Keyblock
           for (; carrier < first_carrier[point + 1]; ++carrier)
             work[slot[carrier]] += weight[carrier] * along[point];
         for (const double *f = work.data(); node < line.end_node; ++node, ++f)
-          for (unsigned int d = 0; d < dim; ++d)
-            forces[dim * nodes[node] + d] -= *f * line.way[d];
+          {
+            if (node + n_ahead < nodes.size())
+              __builtin_prefetch(forces.data() + dim * nodes[node + n_ahead],
+                                 1);
+            for (unsigned int d = 0; d < dim; ++d)
+              forces[dim * nodes[node] + d] -= *f * line.way[d];
+          }
       }
   }
 
