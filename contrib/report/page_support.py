@@ -55,6 +55,7 @@ def bolts_section(run, files):
                      1e-3 * max(b["dowel_force"] for _, b in members),
                      1e3 * max(b["largest_bond_slip"] for _, b in members),
                      sum(b["is_broken"] for _, b in members),
+                     sum(b["cut_length"] > 0 for _, b in members),
                      governed(members)])
     text = [f"<h2 id=bolts>{len(bolts)} bolt{'s' if len(bolts) > 1 else ''}"
             f"</h2><p class=faint>At the end of the run; as a table: {files}. "
@@ -64,7 +65,7 @@ def bolts_section(run, files):
             table(["set", "bolts", "cross joints", "largest axial force [kN]",
                    "of bolt", "largest plate force [kN]",
                    "largest dowel force [kN]", "largest bond slip [mm]",
-                   "broken", "governed by"], rows)]
+                   "broken", "cut by later stages", "governed by"], rows)]
     loaded = sorted(enumerate(bolts, 1),
                     key=lambda m: -m[1]["largest_axial_force"])[:N_SHOWN]
     text.append(

@@ -189,12 +189,13 @@ def bolts_csv(run):
              + [f"end {a} (m)" for a in axes]
              + ["largest axial force (N)", "place of largest (m)",
                 "plate force (N)", "largest bond slip (m)", "dowel force (N)",
-                "joints crossed", "broken", "governed by"])
+                "joints crossed", "broken", "cut length (m)", "governed by"])
     return as_csv(names, [
         [n, b["set"], *b["head"], *b["end"], b["largest_axial_force"],
          b["place_of_largest"], b["plate_force"], b["largest_bond_slip"],
          b["dowel_force"], b["joints_crossed"],
-         "yes" if b["is_broken"] else "no", b.get("governed_by")]
+         "yes" if b["is_broken"] else "no", b["cut_length"],
+         b.get("governed_by")]
         for n, b in enumerate(bolts, 1)])
 
 

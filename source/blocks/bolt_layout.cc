@@ -5,6 +5,7 @@
 #include <keyblock/blocks/bolt_pattern.h>
 #include <keyblock/mesh/cell_locator.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,10 @@ namespace Keyblock
 
     /** Halvings by which a crossing is found between two nodes. */
     constexpr unsigned int n_halvings = 45;
+
+    /** Places between two nodes at which a bolt is looked for in rock that is
+     * dug later. */
+    constexpr unsigned int n_between = 7;
 
     /** How far beside a joint a bolt's sides are bound to the rock, over its
      * length. */
@@ -64,6 +69,37 @@ namespace Keyblock
                   InputError(words_of(bolt, set) +
                              " has no grouted part in the rock; shorten "
                              "'Free length'."));
+    }
+
+    /** Whether anything is dug after stage @p number. */
+    template <int dim>
+    bool
+    is_dug_after(const Scene<dim> &scene, const unsigned int number)
+    {
+      return std::any_of(scene.excavations.begin(),
+                         scene.excavations.end(),
+                         [&](const auto &excavation) {
+                           return scene.stage_number(excavation->stage) >
+                                  number;
+                         });
+    }
+
+    /** Cells between a bolt's nodes. */
+    template <int dim>
+    std::vector<unsigned int>
+    list_passed(const Bolt<dim> &bolt, const CellLocator<dim> &rock)
+    {
+      std::vector<unsigned int> passed;
+      for (unsigned int j = 0; j + 1 < bolt.places.size(); ++j)
+        for (unsigned int k = 1; k <= n_between; ++k)
+          {
+            const double share = double(k) / (n_between + 1);
+            passed.push_back(rock
+                               .find(bolt.at((1. - share) * bolt.places[j] +
+                                             share * bolt.places[j + 1]))
+                               .cell);
+          }
+      return passed;
     }
 
     /** The joint of the cell's face nearest to a crossing, and its normal. */
@@ -159,6 +195,8 @@ namespace Keyblock
           {
             divide(set, rock, bolt);
             bolt.crossings = list_crossings(bolt, rock, split);
+            if (is_dug_after(scene, ground.stage_number))
+              bolt.passed = list_passed(bolt, rock);
             bolts.push_back(bolt);
           }
       }
@@ -168,20 +206,44 @@ namespace Keyblock
 
 
   template <int dim>
-  std::vector<bool>
-  list_held_nodes(const Bolt<dim> &bolt, const Ground<dim> &ground)
+  BoltRemains
+  find_remains(const Bolt<dim> &bolt, const Ground<dim> &ground)
   {
-    std::vector<bool> is_held;
+    const unsigned int installed =
+      ground.scene.stage_number(ground.scene.bolts[bolt.set]->stage);
+    // rock around the bolt that is no longer there, or not the same
+    const auto is_dug = [&](const unsigned int cell) {
+      if (cell == none)
+        return false;
+      const unsigned int dug = ground.split.mesh.excavation_stage[cell];
+      return ground.is_excavated(cell) ||
+             (dug > installed && dug <= ground.stage_number);
+    };
+    BoltRemains remains;
+    std::vector<bool> node_is_dug;
     for (const CellPoint<dim> &point : bolt.rock)
-      is_held.push_back(is_there(point, ground));
-    return is_held;
+      {
+        node_is_dug.push_back(is_dug(point.cell));
+        remains.is_held.push_back(point.cell != none && !node_is_dug.back());
+      }
+    const unsigned int n = bolt.places.size() - 1;
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        const auto first = bolt.passed.begin() + j * bolt.passed.size() / n;
+        const auto last =
+          bolt.passed.begin() + (j + 1) * bolt.passed.size() / n;
+        remains.is_cut.push_back(node_is_dug[j] || node_is_dug[j + 1] ||
+                                 std::any_of(first, last, is_dug));
+        if (remains.is_cut.back())
+          remains.cut_length += bolt.places[j + 1] - bolt.places[j];
+      }
+    return remains;
   }
 
 #define INSTANTIATE(dim)                                                       \
   template std::vector<Bolt<dim>> lay_out_bolts(const Scene<dim> &,            \
                                                 const SplitMesh<dim> &);       \
-  template std::vector<bool> list_held_nodes(const Bolt<dim> &,                \
-                                             const Ground<dim> &);
+  template BoltRemains find_remains(const Bolt<dim> &, const Ground<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -21,7 +21,8 @@ namespace Keyblock
       return "bolts_" + dealii::Utilities::int_to_string(number, 4) + ".vtu";
     }
 
-    /** Segments as lines, their forces and the slip at their ends. */
+    /** Segments that are left as lines, their forces and the slip at their
+     * ends. */
     template <int dim>
     VtuGrid
     draw(const std::vector<BoltReport<dim>> &reports, const Scene<dim> &scene)
@@ -42,6 +43,8 @@ namespace Keyblock
             }
           for (unsigned int j = 0; j < r.axial_force.size(); ++j)
             {
+              if (r.is_cut[j])
+                continue;
               lines.add_lattice_cell({first + j, first + j + 1});
               axial.add(r.axial_force[j]);
               dowel.add(r.dowel_force);
@@ -85,6 +88,7 @@ namespace Keyblock
         one.dowel_force = r.dowel_force;
         one.n_crossings = r.bolt->crossings.size();
         one.is_broken   = r.is_broken;
+        one.cut_length  = r.cut_length;
         one.limit       = r.limit;
         figures.push_back(one);
       }
@@ -135,7 +139,8 @@ namespace Keyblock
                         {"largest_bond_slip", bolt.largest_slip},
                         {"dowel_force", bolt.dowel_force},
                         {"joints_crossed", bolt.n_crossings},
-                        {"is_broken", bolt.is_broken}});
+                        {"is_broken", bolt.is_broken},
+                        {"cut_length", bolt.cut_length}});
         if (!bolt.limit.empty())
           list.back()["governed_by"] = bolt.limit;
       }

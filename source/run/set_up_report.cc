@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/number_text.h>
+#include <keyblock/blocks/bolt_layout.h>
 #include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/law/joint_stiffness.h>
 #include <keyblock/run/set_up_report.h>
@@ -109,6 +111,34 @@ namespace Keyblock
                   : "")
             << ".\n";
     }
+
+
+    /** Sets of which later stages dig something. */
+    template <int dim>
+    std::vector<std::string>
+    warnings_of_cut_bolts(const Scene<dim> &scene, const SplitMesh<dim> &split)
+    {
+      const Ground<dim> last = {
+        scene, split, 1 + static_cast<unsigned int>(scene.stages.size())};
+      std::vector<unsigned int> n_cut(scene.bolts.size(), 0);
+      std::vector<double> length(scene.bolts.size(), 0.);
+      for (const Bolt<dim> &bolt : split.bolts)
+        {
+          const double cut = find_remains(bolt, last).cut_length;
+          n_cut[bolt.set] += cut > 0.;
+          length[bolt.set] += cut;
+        }
+      std::vector<std::string> warnings;
+      for (unsigned int s = 0; s < scene.bolts.size(); ++s)
+        if (n_cut[s] > 0)
+          warnings.push_back("Later stages dig rock around " +
+                             std::to_string(n_cut[s]) + " of the bolts of '" +
+                             scene.bolts[s]->name + "' and cut off " +
+                             text_of(length[s], 3) +
+                             " m of them; only what is "
+                             "left in the rock bears from then on.");
+      return warnings;
+    }
   } // namespace
 
 
@@ -146,12 +176,11 @@ namespace Keyblock
           warning_of_compliant_joints(model.scene)})
       if (!warning.empty())
         warnings.push_back(warning);
-    for (const std::string &warning :
-         warnings_of_short_waves(model.scene, model.split.mesh))
-      warnings.push_back(warning);
-    for (const std::string &warning :
-         warnings_of_coarse_mesh(model.scene, model.split, model.blocks))
-      warnings.push_back(warning);
+    for (const std::vector<std::string> &more :
+         {warnings_of_short_waves(model.scene, model.split.mesh),
+          warnings_of_cut_bolts(model.scene, model.split),
+          warnings_of_coarse_mesh(model.scene, model.split, model.blocks)})
+      warnings.insert(warnings.end(), more.begin(), more.end());
     return warnings;
   }
 

@@ -174,8 +174,10 @@ namespace Keyblock
     for (const Bolt<dim> &bolt : ground.split.bolts)
       {
         const BoltSet<dim> &set = *ground.scene.bolts[bolt.set];
-        if (ground.scene.stage_number(set.stage) > ground.stage_number)
+        if (bolt.crossings.empty() ||
+            ground.scene.stage_number(set.stage) > ground.stage_number)
           continue;
+        const BoltRemains remains = find_remains(bolt, ground);
         for (const BoltCrossing<dim> &crossing : bolt.crossings)
           {
             const bool is_near = crossing.block[0] == block,
@@ -183,7 +185,9 @@ namespace Keyblock
             if (is_near == is_far)
               continue;
             BoltChain chain(properties_of(set), bolt.places);
-            chain.set_ground(list_held_nodes(bolt, ground));
+            chain.set_ground(remains.is_held, remains.is_cut);
+            if (chain.is_cut_at(chain.segment_at(crossing.place)))
+              continue;
             const BoltChain::Capacity capacity = chain.capacity(crossing.place);
             typename BlockSupport<dim>::Pull pull;
             pull.place          = bolt.at(crossing.place);

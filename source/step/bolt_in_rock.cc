@@ -9,6 +9,15 @@ namespace Keyblock
   namespace
   {
     template <int dim>
+    Tensor<1, dim>
+    vector_at(const double *first)
+    {
+      Tensor<1, dim> vector;
+      std::copy_n(first, dim, vector.begin_raw());
+      return vector;
+    }
+
+    template <int dim>
     void
     append(std::vector<double> &numbers, const Tensor<1, dim> &vector)
     {
@@ -52,23 +61,43 @@ namespace Keyblock
     for (const BoltCrossing<dim> &crossing : bolt.crossings)
       for (const CellPoint<dim> &side : crossing.side)
         bindings.emplace_back(side, ground, numbering);
-    forces.assign(bindings.size(), Tensor<1, dim>());
-    chain.set_ground(list_held_nodes(bolt, ground));
+    const BoltRemains remains = find_remains(bolt, ground);
+    chain.set_ground(remains.is_held, remains.is_cut);
+    cut_length = remains.cut_length;
+    for (unsigned int k = 0; k < dowels.size(); ++k)
+      {
+        const unsigned int before = n_nodes() + 2 * k;
+        dowels[k].is_there =
+          bindings[before].is_held && bindings[before + 1].is_held &&
+          !chain.is_cut_at(chain.segment_at(bolt.crossings[k].place));
+      }
   }
 
 
 
   template <int dim>
   void
-  BoltInRock<dim>::install(const Tensor<1, dim> *displacement)
+  BoltInRock<dim>::get_jumps(const std::vector<double> &displacement,
+                             double *jump) const
   {
-    std::copy_n(displacement, reference.size(), reference.begin());
-    const Tensor<1, dim> *side = displacement + reference.size();
-    for (Dowel &dowel : dowels)
+    const RockBinding<dim> *side = bindings.data() + n_nodes();
+    for (unsigned int k = 0; k < n_jumps(); ++k, side += 2)
       {
-        dowel.reference = side[1] - side[0];
-        side += 2;
+        const Tensor<1, dim> part =
+          side[1].part_of(displacement) - side[0].part_of(displacement);
+        jump = std::copy(part.begin_raw(), part.end_raw(), jump);
       }
+  }
+
+
+
+  template <int dim>
+  void
+  BoltInRock<dim>::install(const double *along, const double *jump)
+  {
+    std::copy_n(along, n_nodes(), reference.begin());
+    for (unsigned int k = 0; k < n_jumps(); ++k)
+      dowels[k].reference = vector_at<dim>(jump + dim * k);
     chain.tension();
     was_installed = true;
   }
@@ -95,57 +124,51 @@ namespace Keyblock
 
 
   template <int dim>
-  double
-  BoltInRock<dim>::axial_force_at(const BoltCrossing<dim> &crossing) const
+  void
+  BoltInRock<dim>::respond(double *along, const double *jump)
   {
-    const auto node = std::upper_bound(bolt.places.begin() + 1,
-                                       bolt.places.end() - 1,
-                                       crossing.place);
-    return chain.axial_force()[node - bolt.places.begin() - 1];
+    if (!was_installed)
+      install(along, jump);
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      along[i] -= reference[i];
+    chain.follow(along);
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      along[i] = share * chain.force_on_rock(i);
+    for (unsigned int k = 0; k < n_jumps(); ++k)
+      if (dowels[k].is_there)
+        follow(dowels[k], vector_at<dim>(jump + dim * k));
+      else
+        dowels[k].force = Tensor<1, dim>();
   }
 
 
 
   template <int dim>
-  const std::vector<Tensor<1, dim>> &
-  BoltInRock<dim>::respond(const Tensor<1, dim> *displacement,
-                           const StrengthReduction &reduction)
+  void
+  BoltInRock<dim>::subtract_at_joints(const StrengthReduction &reduction,
+                                      std::vector<double> &forces) const
   {
-    if (!was_installed)
-      install(displacement);
-    const unsigned int n = reference.size();
-    std::vector<double> along(n);
-    for (unsigned int i = 0; i < n; ++i)
-      along[i] = (displacement[i] - reference[i]) * way;
-    chain.follow(along);
-    for (unsigned int i = 0; i < n; ++i)
-      forces[i] = share * chain.force_on_rock()[i] * way;
-
     for (unsigned int k = 0; k < dowels.size(); ++k)
       {
-        const unsigned int before = n + 2 * k, behind = before + 1;
-        Dowel &dowel = dowels[k];
-        dowel.force  = Tensor<1, dim>();
-        if (!bindings[before].is_held || !bindings[behind].is_held)
+        if (!dowels[k].is_there)
           continue;
-        if (chain.material().dowel_strength > 0.)
-          follow(dowel, displacement[behind] - displacement[before]);
-        Tensor<1, dim> on_rock = dowel.force;
-
+        Tensor<1, dim> on_rock            = dowels[k].force;
         const BoltCrossing<dim> &crossing = bolt.crossings[k];
         const double left = reduction.share_between(crossing.block[0],
                                                     crossing.block[1],
                                                     crossing.joint);
         if (left != 1.)
           {
-            Tensor<1, dim> tangent = axial_force_at(crossing) * way + on_rock;
+            Tensor<1, dim> tangent =
+              chain.axial_force_of(chain.segment_at(crossing.place)) * way +
+              on_rock;
             tangent -= (tangent * crossing.normal) * crossing.normal;
             on_rock -= (1. - left) * tangent;
           }
-        forces[before] = share * on_rock;
-        forces[behind] = -share * on_rock;
+        const RockBinding<dim> *side = bindings.data() + n_nodes() + 2 * k;
+        side[0].add(-share * on_rock, forces);
+        side[1].add(share * on_rock, forces);
       }
-    return forces;
   }
 
 
@@ -183,7 +206,7 @@ namespace Keyblock
   double
   BoltInRock<dim>::dissipated_energy() const
   {
-    double energy = chain.state.dissipated;
+    double energy = chain.dissipated_energy();
     for (const Dowel &dowel : dowels)
       energy += dowel.dissipated;
     return share * energy;
@@ -196,19 +219,8 @@ namespace Keyblock
   BoltInRock<dim>::remember(std::vector<double> &numbers) const
   {
     numbers.push_back(was_installed ? 1. : 0.);
-    for (const Tensor<1, dim> &u : reference)
-      append(numbers, u);
-    const BoltChainState &state = chain.state;
-    for (const auto *list : {&state.displacement,
-                             &state.slip,
-                             &state.elongation,
-                             &state.is_broken,
-                             &state.bond_force,
-                             &state.axial_force})
-      numbers.insert(numbers.end(), list->begin(), list->end());
-    numbers.push_back(state.plate_shift);
-    numbers.push_back(state.plate_force);
-    numbers.push_back(state.dissipated);
+    numbers.insert(numbers.end(), reference.begin(), reference.end());
+    chain.remember(numbers);
     for (const Dowel &dowel : dowels)
       {
         append(numbers, dowel.reference);
@@ -225,20 +237,9 @@ namespace Keyblock
   BoltInRock<dim>::recall(const std::vector<double> &numbers, std::size_t &at)
   {
     was_installed = numbers.at(at++) != 0.;
-    for (Tensor<1, dim> &u : reference)
-      take(numbers, at, u);
-    BoltChainState &state = chain.state;
-    for (auto *list : {&state.displacement,
-                       &state.slip,
-                       &state.elongation,
-                       &state.is_broken,
-                       &state.bond_force,
-                       &state.axial_force})
-      for (double &value : *list)
-        value = numbers.at(at++);
-    state.plate_shift = numbers.at(at++);
-    state.plate_force = numbers.at(at++);
-    state.dissipated  = numbers.at(at++);
+    for (double &u : reference)
+      u = numbers.at(at++);
+    chain.recall(numbers, at);
     for (Dowel &dowel : dowels)
       {
         take(numbers, at, dowel.reference);
@@ -255,23 +256,29 @@ namespace Keyblock
   BoltInRock<dim>::report() const
   {
     BoltReport<dim> result;
-    result.bolt        = &bolt;
-    result.axial_force = chain.axial_force();
-    result.slip        = chain.state.slip;
+    result.bolt = &bolt;
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      result.slip.push_back(chain.slip_of(i));
+    for (unsigned int j = 0; j + 1 < n_nodes(); ++j)
+      {
+        result.axial_force.push_back(chain.axial_force_of(j));
+        result.is_cut.push_back(chain.is_cut_at(j));
+      }
+    result.cut_length  = cut_length;
     result.plate_force = chain.plate_force();
     for (const Dowel &dowel : dowels)
       result.dowel_force = std::max(result.dowel_force, dowel.force.norm());
     double least = std::numeric_limits<double>::max();
     for (const BoltCrossing<dim> &crossing : bolt.crossings)
       {
+        if (chain.is_cut_at(chain.segment_at(crossing.place)))
+          continue;
         const auto capacity = chain.capacity(crossing.place);
         if (capacity.force < least)
           result.limit = describe(capacity.limit);
         least = std::min(least, capacity.force);
       }
-    result.is_broken = std::any_of(chain.state.is_broken.begin(),
-                                   chain.state.is_broken.end(),
-                                   [](const double b) { return b != 0.; });
+    result.is_broken = chain.is_broken();
     return result;
   }
 

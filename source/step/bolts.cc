@@ -25,9 +25,14 @@ namespace Keyblock
   Bolts<dim>::take_ground(const Ground<dim> &ground)
   {
     stage_number = ground.stage_number;
+    points.clear();
+    unsigned int n_jumps = 0;
     for_each_present(bolts, [&](BoltInRock<dim> &bolt) {
       bolt.take_ground(ground, numbering);
+      points.add_bolt(bolt.direction(), bolt.points(), bolt.n_nodes());
+      n_jumps += bolt.n_jumps();
     });
+    motion.assign(points.size() + dim * n_jumps, 0.);
   }
 
 
@@ -50,38 +55,31 @@ namespace Keyblock
 
 
   template <int dim>
-  std::vector<Tensor<1, dim>>
-  Bolts<dim>::rock_displacements(const std::vector<double> &displacement) const
-  {
-    std::vector<Tensor<1, dim>> result;
-    for_each_present(bolts, [&](const BoltInRock<dim> &bolt) {
-      for (const RockBinding<dim> &point : bolt.points())
-        result.push_back(point.part_of(displacement));
-    });
-    if (!result.empty())
-      numbering.communicator.sum(result.front().begin_raw(),
-                                 dim * result.size());
-    return result;
-  }
-
-
-
-  template <int dim>
   void
   Bolts<dim>::add_force(const std::vector<double> &displacement,
                         std::vector<double> &force)
   {
-    const std::vector<Tensor<1, dim>> present =
-      rock_displacements(displacement);
-    const Tensor<1, dim> *of_bolt = present.data();
-    for_each_present(bolts, [&](BoltInRock<dim> &bolt) {
-      const std::vector<Tensor<1, dim>> &on_rock =
-        bolt.respond(of_bolt, reduction);
-      // against what it does to the rock
-      for (unsigned int i = 0; i < on_rock.size(); ++i)
-        bolt.points()[i].add(-on_rock[i], force);
-      of_bolt += on_rock.size();
+    if (motion.empty())
+      return;
+    points.gather(displacement, motion.data());
+    double *jump = motion.data() + points.size();
+    for_each_present(bolts, [&](const BoltInRock<dim> &bolt) {
+      bolt.get_jumps(displacement, jump);
+      jump += dim * bolt.n_jumps();
     });
+    if (numbering.communicator.size() > 1)
+      numbering.communicator.sum_lists(motion);
+    double *along = motion.data();
+    jump          = motion.data() + points.size();
+    for_each_present(bolts, [&](BoltInRock<dim> &bolt) {
+      bolt.respond(along, jump);
+      along += bolt.n_nodes();
+      jump += dim * bolt.n_jumps();
+      if (bolt.n_jumps() > 0 || reduction.share != 1.)
+        bolt.subtract_at_joints(reduction, force);
+    });
+    // the force counts against what it does to the rock
+    points.subtract(motion.data(), force);
   }
 
 

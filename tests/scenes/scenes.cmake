@@ -253,6 +253,11 @@ keyblock_scene(verification/lined_roof REFERENCES lined_roof_cut RANKS 1 2
   "Safety factor/Blocks=none")
 keyblock_scene(verification/lined_tunnel RANKS 1 2)
 keyblock_scene(verification/lined_tunnel_3d RANKS 1 2)
+# a pattern of bolts in 3D that a gallery cuts, or passes above
+keyblock_scene(verification/bolted_roof_3d RANKS 1 2)
+keyblock_scene(verification/bolted_roof_3d REFERENCES bolted_roof_3d_above
+  RANKS 1 2 SET "Excavations/gallery/Corner=-3, -5, 7"
+  "Excavations/gallery/Size=6, 10, 1" "Safety factor/Stages=gallery")
 keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_20 RANKS 1
   SET "Tractions/push/Traction=-20e3@ 0"
   "Initial state/Stress=-20e3@ 0@ -4e3@ 0")

@@ -24,10 +24,21 @@ namespace Keyblock
     return point.cell != none && !ground.is_excavated(point.cell);
   }
 
-  /** The same for each node of a bolt. */
+  /** What of a bolt is left at a stage. */
+  struct BoltRemains
+  {
+    std::vector<bool> is_held; ///< nodes: by rock
+    std::vector<bool> is_cut;  ///< segments: dug with the rock around them
+    double cut_length = 0.;    ///< of all of these [m]
+  };
+
+  /**
+   * Rock that is dug or taken away after a bolt was installed takes the bolt
+   * with it, for good, also if it is filled again: nodes in it are held no more
+   * and segments that touch it are cut.
+   */
   template <int dim>
-  std::vector<bool> list_held_nodes(const Bolt<dim> &bolt,
-                                    const Ground<dim> &ground);
+  BoltRemains find_remains(const Bolt<dim> &bolt, const Ground<dim> &ground);
 } // namespace Keyblock
 
 #endif

@@ -21,6 +21,7 @@ namespace Keyblock
     double dowel_force         = 0.; ///< largest [N]
     unsigned int n_crossings   = 0;  ///< of joints between blocks
     bool is_broken             = false;
+    double cut_length          = 0.; ///< dug with the rock around it [m]
     std::string limit; ///< what governs it where it crosses; empty: it does not
   };
 

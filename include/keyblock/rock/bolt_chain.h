@@ -26,28 +26,13 @@ namespace Keyblock
     double dowel_strength  = 0.; ///< across a joint [N]
   };
 
-  /** What a bolt remembers: enough to go on from it. */
-  struct BoltChainState
-  {
-    std::vector<double> displacement; ///< of its nodes along it [m]
-    std::vector<double> slip;         ///< of the grout at each node [m]
-    std::vector<double> elongation;   ///< plastic, of each segment [m]
-    std::vector<double> is_broken;    ///< 1 or 0, of each segment
-    double plate_shift = 0.;          ///< of the plate on the bolt [m]
-    double dissipated  = 0.;          ///< so far [J]
-
-    std::vector<double> bond_force;  ///< of the rock on each node [N]
-    std::vector<double> axial_force; ///< of each segment, tension positive [N]
-    double plate_force = 0.;         ///< on the rock [N]
-  };
-
   /**
    * One bolt without mass: axial springs in a row from the head into the rock,
    * each node tied to the rock by grout, and the head by a plate that can only
    * push the rock. Grout slips at its strength, the bar yields, and breaks at
    * its rupture strain. Equilibrium of the nodes is solved for in every step by
    * Newton's method on a tridiagonal system, so that the bolt does not bear on
-   * the time step.
+   * the time step; while nothing slips or yields, by its factors alone.
    *
    * Displacements are along the bolt, positive from the head into the rock, and
    * since it was installed.
@@ -62,41 +47,69 @@ namespace Keyblock
     unsigned int
     n_nodes() const
     {
-      return place.size();
+      return n;
     }
 
-    /** Nodes of which @p is_held is false have no rock around them. */
-    void set_ground(const std::vector<bool> &is_held);
+    /** Nodes of which @p is_held is false have no rock around them, and
+     * segments of which @p is_cut is true are no more. */
+    void set_ground(const std::vector<bool> &is_held,
+                    const std::vector<bool> &is_cut);
 
     /** Pull the head with the pretension against the plate, and lock it. */
     void tension();
 
     /** Bring the nodes into equilibrium with the rock displaced by @p rock at
      * each of them [m]. */
-    void follow(const std::vector<double> &rock);
+    void follow(const double *rock);
 
-    /** Force of the bolt on the rock at each node, along it [N]. */
-    const std::vector<double> &
-    force_on_rock() const
+    /** Force of the bolt on the rock at node @p i, along it [N]. */
+    double
+    force_on_rock(const unsigned int i) const
     {
-      return rock_force;
+      return (i == 0 ? plate_on_rock : 0.) - row(bond_force)[i];
     }
 
-    /** Axial force of each segment, tension positive [N]. */
-    const std::vector<double> &
-    axial_force() const
+    /** Axial force of segment @p j, tension positive [N]. */
+    double
+    axial_force_of(const unsigned int j) const
     {
-      return state.axial_force;
+      return row(axial_force)[j];
     }
+
+    /** Slip of the grout at node @p i, where there is rock [m]. */
+    double
+    slip_of(const unsigned int i) const
+    {
+      return row(bond_stiffness)[i] > 0. ? row(slip)[i] : 0.;
+    }
+
+    /** The segment at the distance @p s from the head. */
+    unsigned int segment_at(const double s) const;
+
+    /** Whether segment @p j was cut with the rock around it. */
+    bool
+    is_cut_at(const unsigned int j) const
+    {
+      return is_cut[j];
+    }
+
+    /** Whether a segment has broken. */
+    bool is_broken() const;
 
     /** Of the plate on the rock [N]. */
     double
     plate_force() const
     {
-      return state.plate_force;
+      return plate_on_rock;
     }
 
     double stored_energy() const; ///< [J]
+
+    double
+    dissipated_energy() const ///< so far [J]
+    {
+      return dissipated;
+    }
 
     /** No more than this stiffness acts on the rock at each node [N/m]. */
     std::vector<double> stiffness_bound() const;
@@ -122,25 +135,90 @@ namespace Keyblock
       return properties;
     }
 
-    BoltChainState state;
+    /** Append all that it remembers, and take it from @p at on again. */
+    void remember(std::vector<double> &numbers) const;
+    void recall(const std::vector<double> &numbers, std::size_t &at);
 
   private:
-    /** Set forces and tangents to those at the present displacement. */
-    void respond(const std::vector<double> &rock);
+    /** One number for each node or segment; those of all rows stand one behind
+     * the other, as a step reads them. The first ones are remembered. */
+    enum Row : unsigned int
+    {
+      displacement, ///< of nodes along the bolt [m]
+      slip,         ///< of the grout at nodes [m]
+      elongation,   ///< plastic, of segments [m]
+      broken,       ///< 1 or 0, of segments
+      bond_force,   ///< of the rock on nodes [N]
+      axial_force,  ///< of segments [N]
+      n_remembered,
+      bond_stiffness = n_remembered, ///< 0: there is no rock [N/m]
+      bond_strength,                 ///< [N]
+      segment_stiffness,             ///< 0: it is cut or broken [N/m]
+      factor,                        ///< of the solution: off over diagonal [-]
+      inverse,                       ///< the same: over the diagonal [m/N]
+      residual,                      ///< unbalanced forces of nodes [N]
+      change,                        ///< of displacements [m]
+      before,                        ///< displacements before the change [m]
+      n_rows
+    };
+
+    double *
+    row(const Row r)
+    {
+      return numbers.data() + r * n;
+    }
+
+    const double *
+    row(const Row r) const
+    {
+      return numbers.data() + r * n;
+    }
+
+    /** Segments are as stiff as cuts and breaks leave them. */
+    void set_segments();
+
+    /** Follow if all springs are elastic before and behind, by one solution;
+     * otherwise false, and nothing has changed but forces. */
+    bool follow_elastically(const double *rock);
+
+    /** Set forces to those at the present displacement of springs that neither
+     * slip nor yield any further. */
+    void set_trial_forces(const double *rock);
+
+    /** The same of the plate, which may push or pull [N]. */
+    double
+    trial_plate_force(const double rock) const
+    {
+      return properties.plate_stiffness *
+             (row(displacement)[0] - rock - plate_shift);
+    }
+
+    /** Whether segment @p j, if it is whole, is longer than it can bear. */
+    bool is_over_rupture(const unsigned int j) const;
+
+    /** Set forces to those at the present displacement. */
+    void respond(const double *rock);
 
     /** Displacements of the nodes in equilibrium. @p jack: pulls the head in
      * place of the plate, unless it is negative [N] */
-    void solve(const std::vector<double> &rock, const double jack);
+    void solve(const double *rock, const double jack);
+
+    /** Residual that counts as none [N]. */
+    double negligible_residual(const double *rock, const double jack) const;
 
     /** Set the residual to the unbalanced forces of the nodes, and return the
      * largest [N]. */
     double find_residual(const double jack);
 
+    /** Factorise the tangent, that of springs at their limits as good as none.
+     */
+    void factorise(const double jack);
+
     /** Set the change to that of Newton's method for the residual. */
-    void find_change(const double jack);
+    void find_change();
 
     /** Slip and yield for good. */
-    void commit(const std::vector<double> &rock);
+    void commit(const double *rock);
 
     /** Grout of node @p i between two distances from the head [m]. */
     double grouted_length(const unsigned int i,
@@ -153,39 +231,28 @@ namespace Keyblock
       return place[j + 1] - place[j];
     }
 
-    /** Springs of a row, and whether they are at their limits. */
-    struct Springs
+    /** Of segment @p j before it is cut or breaks [N/m]. */
+    double
+    whole_stiffness(const unsigned int j) const
     {
-      std::vector<double> stiffness; ///< 0: there is none [N/m]
-      std::vector<double> strength;  ///< [N]
-      std::vector<bool> is_elastic;  ///< not at its limit
-
-      explicit Springs(const unsigned int n)
-        : stiffness(n, 0.)
-        , strength(n, 0.)
-        , is_elastic(n, true)
-      {}
-
-      /** The force @p trial of spring @p i, taken back to its limit. */
-      double
-      limit(const unsigned int i, const double trial)
-      {
-        is_elastic[i] = trial <= strength[i] && trial >= -strength[i];
-        return is_elastic[i] ? trial
-                             : (trial > 0. ? strength[i] : -strength[i]);
-      }
-    };
+      return properties.axial_stiffness / segment_length(j);
+    }
 
     BoltProperties properties;
-    std::vector<double> place;    ///< of the nodes [m]
-    Springs bonds, segments;      ///< of nodes; between them
+    unsigned int n;              ///< number of nodes
+    std::vector<double> numbers; ///< all rows
+    std::vector<double> place;   ///< of the nodes [m]
+    std::vector<char> bond_is_elastic, segment_is_elastic;
+    std::vector<bool> is_cut;     ///< of segments
     double stiffest       = 0.;   ///< of all springs [N/m]
+    double plate_shift    = 0.;   ///< of the plate on the bolt [m]
+    double plate_on_rock  = 0.;   ///< [N]
+    double dissipated     = 0.;   ///< [J]
     bool is_plate_held    = true; ///< by rock
     bool is_plate_elastic = true;
-    std::vector<double> rock_force; ///< [N]
-
-    // of one solution
-    std::vector<double> residual, diagonal, off, change, before;
+    bool was_elastic      = true; ///< all springs; and no force in a plate
+                                  ///< that is not
+    bool is_factorised = false;   ///< the tangent of elastic springs
   };
 
   /** What bolts are made of, as the scene says. */

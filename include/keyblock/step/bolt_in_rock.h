@@ -19,7 +19,9 @@ namespace Keyblock
     std::vector<double> slip;        ///< of the grout at its nodes [m]
     double plate_force = 0.;         ///< [N]
     double dowel_force = 0.;         ///< largest at a joint it crosses [N]
-    bool is_broken     = false;
+    double cut_length  = 0.;         ///< dug with the rock around it [m]
+    std::vector<bool> is_cut;        ///< its segments: the same
+    bool is_broken = false;
     std::string limit; ///< describe(BoltChain::Capacity::Limit) where it is
                        ///< weakest; empty: it crosses no joint between blocks
   };
@@ -27,7 +29,8 @@ namespace Keyblock
   /**
    * One bolt and the rock around it: a chain (rock/bolt_chain.h) whose nodes go
    * with the cells they lie in, and a dowel where it crosses a joint. Its
-   * points are the nodes, then the two sides of each crossing.
+   * points are the nodes, then the two sides of each crossing. What is dug
+   * later takes its part with it.
    */
   template <int dim>
   class BoltInRock
@@ -53,15 +56,43 @@ namespace Keyblock
       return bindings;
     }
 
+    /** Its nodes, the first of its points. */
+    unsigned int
+    n_nodes() const
+    {
+      return reference.size();
+    }
+
+    /** From the head to the end (unit vector). */
+    const Tensor<1, dim> &
+    direction() const
+    {
+      return way;
+    }
+
+    /** Joints at which it wants to know the jump of the rock. */
+    unsigned int
+    n_jumps() const
+    {
+      return chain.material().dowel_strength > 0. ? dowels.size() : 0;
+    }
+
+    /** Write this rank's parts of the jumps of the rock at these to @p jump,
+     * dim numbers for each [m]. */
+    void get_jumps(const std::vector<double> &displacement, double *jump) const;
+
     /**
-     * Forces on the rock at its points when these are displaced by
-     * @p displacement (first of as many as points) [m, N]. The first time it is
-     * installed there. Of forces along joints that @p reduction means, the
-     * share is left.
+     * Follow the rock: put forces on it at the nodes, along the bolt, in the
+     * place of its displacement there, and take up @p jump at the joints [N,
+     * m]. The first time it is installed there.
      */
-    const std::vector<Tensor<1, dim>> &
-    respond(const Tensor<1, dim> *displacement,
-            const StrengthReduction &reduction);
+    void respond(double *along, const double *jump);
+
+    /** Subtract forces across it at joints, and what @p reduction takes from
+     * its forces along them, but a share, from forces on this rank's nodes [N].
+     */
+    void subtract_at_joints(const StrengthReduction &reduction,
+                            std::vector<double> &forces) const;
 
     /** Call @p add(binding, bound): no more than this stiffness in any
      * direction of an axis acts at it [N/m]. */
@@ -97,6 +128,7 @@ namespace Keyblock
     /** Where it crosses a joint. */
     struct Dowel
     {
+      bool is_there = false;    ///< rock and bolt
       Tensor<1, dim> reference; ///< behind less before when installed [m]
       Tensor<1, dim> slip;      ///< plastic, across the bolt [m]
       Tensor<1, dim> force;     ///< on the rock before it [N]
@@ -106,13 +138,10 @@ namespace Keyblock
     /** Largest sum of a row of the matrix of @p way with itself [-]. */
     static double row_sum(const Tensor<1, dim> &way);
 
-    void install(const Tensor<1, dim> *displacement);
+    void install(const double *along, const double *jump);
 
     /** Follow the jump of the rock across a joint [m]. */
     void follow(Dowel &dowel, Tensor<1, dim> jump) const;
-
-    /** Axial force where it crosses a joint [N]. */
-    double axial_force_at(const BoltCrossing<dim> &crossing) const;
 
     const Bolt<dim> &bolt;
     Tensor<1, dim> way;
@@ -121,9 +150,9 @@ namespace Keyblock
     bool was_installed = false;
     BoltChain chain;
     std::vector<RockBinding<dim>> bindings;
-    std::vector<Tensor<1, dim>> reference; ///< of nodes when installed [m]
-    std::vector<Dowel> dowels;             ///< one for each crossing
-    std::vector<Tensor<1, dim>> forces;    ///< at its points [N]
+    std::vector<double> reference; ///< of nodes along it when installed [m]
+    std::vector<Dowel> dowels;     ///< one for each crossing
+    double cut_length = 0.;        ///< [m]
   };
 } // namespace Keyblock
 

@@ -3,6 +3,7 @@
 #define keyblock_step_bolts_h
 
 #include <keyblock/step/bolt_in_rock.h>
+#include <keyblock/step/bolt_points.h>
 #include <keyblock/step/force_element.h>
 
 namespace Keyblock
@@ -56,14 +57,15 @@ namespace Keyblock
           action(bolt);
     }
 
-    /** Displacements of the points of the present ones, the same on every rank
-     * (collective) [m]. */
-    std::vector<Tensor<1, dim>>
-    rock_displacements(const std::vector<double> &displacement) const;
-
     const Scene<dim> &scene;
     const Numbering<dim> &numbering;
     std::vector<BoltInRock<dim>> bolts;
+    BoltPoints<dim> points; ///< of the present ones
+
+    /** Of the present ones, bolt by bolt: the rock's displacement at the nodes
+     * along them, then the forces there, and the jumps at dowels, in one list
+     * for one sum over the ranks [m, N]. */
+    std::vector<double> motion;
     unsigned int stage_number = 1;
     StrengthReduction reduction;
   };
