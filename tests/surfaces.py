@@ -38,8 +38,11 @@ def same(found, expected, tolerance=1e-9):
     """As many blocks, with the same volumes, modes and factors."""
     assert len(found) == len(expected) > 0, f"{len(found)} blocks, not {len(expected)}"
     for a, b in zip(found, expected):
+        assert ("exact_volume" in a) == ("exact_volume" in b)
+        # the rest, around a block that the mesh has bent, is bent too
+        is_bent = "exact_volume" not in a and any("exact_volume" in c for c in found)
         close(a.get("exact_volume", a["volume"]), b.get("exact_volume", b["volume"]),
-              tolerance, "volume")
+              1e-3 if is_bent else tolerance, "volume")
         assert a["removable"] == b["removable"]
         for x, y in zip(a.get("limit_equilibrium", []), b.get("limit_equilibrium", [])):
             print(x, y)
@@ -113,7 +116,7 @@ def scene_in_file(dim, joints, gravity):
     names = ", ".join(joints)
     bodies = "".join(f"subsection {name}\n" + "".join(f"set {e}\n" for e in entries) + "end\n"
                      for name, entries in joints.items())
-    truncated = "left, bottom" + (", front" if dim == 3 else "")
+    truncated = "id ground"
     return f"""set Dimension = {dim}
 subsection Domain
 set Shape = file
@@ -164,25 +167,26 @@ def physical_groups(dim):
     """Faces between the cells of a block and the rest as a group, or as planes."""
     sizes, low = ((8, 4), (4, 2)) if dim == 2 else ((4, 3, 3), (2, 1, 1))
     points, cells, number = grid(sizes)
-    faces, planes = [], {}
+    faces, ground, planes = [], [], {}
+    around = [(0,), (1,)] if dim == 2 else [(0, 0), (1, 0), (1, 1), (0, 1)]
     for axis in range(dim):
         others = [d for d in range(dim) if d != axis]
 
-        def at(values, axis=axis, others=others):
-            x = [low[axis]] * dim
+        def at(values, place, axis=axis, others=others):
+            x = [place] * dim
             for d, value in zip(others, values):
                 x[d] = value
             return x
 
-        around = [(0,), (1,)] if dim == 2 else [(0, 0), (1, 0), (1, 1), (0, 1)]
-        spans = [[]]
-        for d in others:
-            spans = [s + [i] for s in spans for i in range(low[d], sizes[d])]
-        for origin in spans:
-            faces.append([number(at([o + c for o, c in zip(origin, corner)]))
-                          for corner in around])
+        for list_, place, start in ((faces, low[axis], low), (ground, 0, [0] * dim)):
+            spans = [[]]
+            for d in others:
+                spans = [s + [i] for s in spans for i in range(start[d], sizes[d])]
+            for origin in spans:
+                list_.append([number(at([o + c for o, c in zip(origin, corner)], place))
+                              for corner in around])
         ends = [[(low, sizes)[c][d] for c, d in zip(corner, others)] for corner in around]
-        corners = [mapped((at(e) + [0])[:3], dim)[:dim] for e in ends]
+        corners = [mapped((at(e, low[axis]) + [0])[:3], dim)[:dim] for e in ends]
         planes[f"plane {axis}"] = ["Extent = polygon", "Vertices = " + "; ".join(
             ", ".join(f"{x:.17g}" for x in p) for p in corners)]
     points = [mapped(p, dim) for p in points]
@@ -190,7 +194,8 @@ def physical_groups(dim):
     # every other face turned round: its sides must not matter
     faces = [f if i % 2 else f[::-1] for i, f in enumerate(faces)]
     (FOLDER / f"grid_{dim}.msh").write_text(
-        msh(points, cells, {"slip": (dim - 1, 7, faces), "rock": (dim, 8, cells)}),
+        msh(points, cells, {"slip": (dim - 1, 7, faces), "ground": (dim - 1, 9, ground),
+                              "rock": (dim, 8, cells)}),
         encoding="utf-8")
     gravity = "3; -9" if dim == 2 else "3; 1; -9"
     results = []

@@ -237,8 +237,11 @@ namespace Keyblock
               is_between |= side[v] < 0;
             if (is_between)
               {
-                const auto facet        = mesh.facet(c, apex);
-                const unsigned int part = sheet.facet_at(mesh.center(facet));
+                const auto facet = mesh.facet(c, apex);
+                std::vector<Point<dim>> corners;
+                for (const unsigned int v : facet)
+                  corners.push_back(mesh.vertices[v]);
+                const unsigned int part = sheet.facet_along(corners);
                 mesh.add_mark(facet,
                               {surface + part,
                                mesh.is_on_positive_side(c, apex) !=

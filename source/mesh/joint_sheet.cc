@@ -263,9 +263,31 @@ namespace Keyblock
 
   template <int dim>
   unsigned int
-  JointSheet<dim>::facet_at(const Point<dim> &p) const
+  JointSheet<dim>::facet_along(const std::vector<Point<dim>> &corners) const
   {
-    return is_plane() ? 0 : search->foot(p, facets).facet;
+    if (is_plane())
+      return 0;
+    Point<dim> center;
+    for (const Point<dim> &p : corners)
+      center += p / double(corners.size());
+    std::vector<Point<dim>> places = {center};
+    for (const Point<dim> &p : corners)
+      places.push_back(center + 0.75 * (p - center));
+    unsigned int best = 0;
+    double least      = 1e300;
+    for (const Point<dim> &place : places)
+      {
+        const unsigned int facet = search->foot(place, facets).facet;
+        double height            = 0.;
+        for (const Point<dim> &p : corners)
+          height = std::max(height, std::abs(facets[facet].distance(p)));
+        if (height < least - search->tolerance)
+          {
+            least = height;
+            best  = facet;
+          }
+      }
+    return best;
   }
 
 

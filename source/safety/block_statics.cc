@@ -139,7 +139,7 @@ namespace Keyblock
                     << joint->cohesion_of_sliding() << " Pa";
           }
         for (const auto &[name, n] : n_facets)
-          if (n > 2)
+          if (n > dim)
             add() << "turning along the " << n << " plane parts of " << name
                   << " that it lies on not judged";
       }

@@ -304,4 +304,4 @@ keyblock_scene(verification/kinked_joint RANKS 1 2)
 keyblock_scene(verification/kinked_joint REFERENCES kinked_joint_dxf RANKS 1
   SET "Joints/fault/Shape=file" "Joints/fault/Vertices=" "Joints/fault/Scale=0.001"
   "Joints/fault/File=${CMAKE_CURRENT_SOURCE_DIR}/shapes/kinked.dxf")
-keyblock_scene(verification/trough RANKS 2)
+keyblock_scene(verification/slip_circle RANKS 1)

@@ -62,8 +62,9 @@ namespace Keyblock
                     const double distance_a,
                     const double distance_b) const;
 
-    /** Number of the facet nearest to @p p. */
-    unsigned int facet_at(const Point<dim> &p) const;
+    /** Number of the facet that a face with these corners lies on: of those at
+     * its centre and near its corners the one whose plane it is least off. */
+    unsigned int facet_along(const std::vector<Point<dim>> &corners) const;
 
     /** Whether that facet's normal points to the minus side. */
     bool is_turned(const unsigned int facet) const;

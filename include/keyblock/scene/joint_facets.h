@@ -22,6 +22,11 @@ namespace Keyblock
   template <int dim>
   std::vector<std::vector<unsigned int>>
   joints_by_surface(const Scene<dim> &scene);
+
+  /** Bent joints whose plane parts are much smaller than the cells that the
+   * scene asks for, one sentence each. */
+  template <int dim>
+  std::vector<std::string> warnings_of_facets(const Scene<dim> &scene);
 } // namespace Keyblock
 
 #endif
