@@ -79,12 +79,6 @@ namespace Keyblock
       return area_of(corners).norm();
     }
 
-    std::string
-    place_text(const Point<2> &p)
-    {
-      return "(" + text_of(p[0]) + ", " + text_of(p[1]) + ") m";
-    }
-
     bool
     cross(const PlaneFacet<2> &a, const PlaneFacet<2> &b)
     {
@@ -103,9 +97,9 @@ namespace Keyblock
         for (unsigned int j = i + 1; j < facets.size(); ++j)
           if (cross(facets[i], facets[j]))
             throw std::runtime_error(
-              "its part that begins at " + place_text(facets[i].corners[0]) +
-              " crosses that from " + place_text(facets[j].corners[0]) +
-              ": make them two joints");
+              "its part that begins at x = " +
+              text_of(facets[i].corners[0][0]) + " m crosses that from x = " +
+              text_of(facets[j].corners[0][0]) + " m: make them two joints");
     }
   } // namespace
 
@@ -165,20 +159,15 @@ namespace Keyblock
 
   namespace
   {
+    /** Places of a triangle or of a closed line. */
+    template <typename Loop>
     std::vector<Point<3>>
-    corners_of(const TriangleSurface &surface,
-               const std::vector<unsigned int> &loop)
+    corners_of(const TriangleSurface &surface, const Loop &loop)
     {
       std::vector<Point<3>> corners;
       for (const unsigned int v : loop)
         corners.push_back(surface.vertices[v]);
       return corners;
-    }
-
-    std::vector<unsigned int>
-    loop_of(const Triangle &t)
-    {
-      return {t.begin(), t.end()};
     }
 
     /** The plane of a face: that of its largest triangle. */
@@ -188,7 +177,7 @@ namespace Keyblock
       PlaneFacet<3> largest;
       for (const Triangle &t : face.triangles)
         {
-          const auto corners = corners_of(surface, loop_of(t));
+          const auto corners = corners_of(surface, t);
           if (largest.corners.empty() ||
               measure_of(corners) > measure_of(largest.corners))
             largest.corners = corners;
@@ -252,7 +241,7 @@ namespace Keyblock
     {
       for (const Triangle &t : surface.triangles)
         {
-          const auto corners = corners_of(surface, loop_of(t));
+          const auto corners = corners_of(surface, t);
           double longest     = 0.;
           for (unsigned int i = 0; i < 3; ++i)
             longest =
@@ -286,16 +275,14 @@ namespace Keyblock
     if (!is_flat)
       surface = given;
     std::vector<PlaneFacet<3>> facets;
-    const auto add = [&](const std::vector<unsigned int> &loop,
-                         const Tensor<1, 3> &normal) {
-      facets.push_back({corners_of(surface, loop), normal});
-    };
     for (const PlaneFace &face : faces)
       if (is_flat && face.loops.size() == 1)
-        add(face.loops[0], plane_of(surface, face).normal);
+        facets.push_back(
+          {corners_of(surface, face.loops[0]), plane_of(surface, face).normal});
       else
         for (const Triangle &t : face.triangles)
-          add(loop_of(t), normal_of(corners_of(surface, loop_of(t))));
+          facets.push_back(
+            {corners_of(surface, t), normal_of(corners_of(surface, t))});
     return facets;
   }
 
