@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Meshes random joint networks around a tunnel and tabulates how well.
 
-usage: contrib/networks.py [--kinds traces,discs,planes,lines,faces] [--numbers 20,50]
+usage: contrib/networks.py [--kinds traces,discs,planes,lines,faces,polylines,sheets]
+         [--numbers 20,50]
          [--seeds 1-5] [--least 0.05] [--run | --initial] [--residual 1e-9]
          [--ranks N]
          [--keyblock build/keyblock] [--keep FOLDER]
@@ -13,6 +14,8 @@ lines (2D), faces (3D): all that a mesh can stumble over: joints of every extent
 through corners of excavations and of the domain, on their sides, ends on other
 joints, at 1 degree to each other, twice at the same place or almost, tiny ones;
 around a horseshoe, a box, a circle, two excavations, or none.
+polylines (2D), sheets (3D): bent joints, lines with kinks and surfaces of triangles
+with noise, across the same tunnels as traces and planes.
 The stable step is compared with the cell size at the excavation over the
 velocity of pressure waves. With --run the tunnel is dug until all is at rest
 or blocks move off; with --initial one step is done, and no contact may slide or
@@ -38,7 +41,9 @@ VELOCITY = math.sqrt(YOUNG * (1 - POISSON) / ((1 + POISSON) * (1 - 2 * POISSON))
 SIZE_AT_EXCAVATION = {2: 0.5, 3: 1.2}
 SETS = [(60, 30), (55, 150), (25, 280)]  # dip, dip direction in 3D
 NUMBERS = {"traces": [20, 50, 100, 200, 400], "discs": [5, 10, 20, 50, 100],
-           "planes": [3, 5, 8, 12, 20], "lines": [5, 15, 40], "faces": [3, 8, 20]}
+           "planes": [3, 5, 8, 12, 20], "lines": [5, 15, 40], "faces": [3, 8, 20],
+           "polylines": [3, 10, 30], "sheets": [1, 3]}
+KINDS_IN_2D = ("traces", "lines", "polylines")
 CORNERS = {2: ((-40, -40), (80, 80)), 3: ((-20, 0, -20), (40, 40, 40))}
 
 
@@ -74,6 +79,50 @@ def faces(n, rng, has_rim):
                        f"Dip direction = {direction % 360:.9g}"] +
                       (["Extent = disc", f"Radius = {radius:.9g}"] if has_rim else []))
     return joints
+
+
+def polylines(n, rng):
+    """Lines with kinks that wander about a direction, so that none crosses itself."""
+    joints = []
+    for _ in range(n):
+        x, y = rng.uniform(-40, 40), rng.uniform(-40, 40)
+        mean, spread = rng.uniform(0, math.pi), rng.uniform(0.05, 1.2)
+        step = rng.uniform(1, 12)
+        points = [(x, y)]
+        for _ in range(rng.randint(1, 20)):
+            angle = mean + rng.uniform(-spread, spread)
+            x, y = x + step * math.cos(angle), y + step * math.sin(angle)
+            points.append((x, y))
+        joints.append(["Shape = polyline", "Vertices = " + "; ".join(text(p) for p in points)])
+    return joints
+
+
+def sheet(rng):
+    """The triangles of a noisy plane, ASCII STL."""
+    dip, direction = math.radians(rng.uniform(10, 80)), rng.uniform(0, 2 * math.pi)
+    along = [(math.sin(direction) * math.cos(dip), math.cos(direction) * math.cos(dip),
+              -math.sin(dip)), (math.cos(direction), -math.sin(direction), 0.)]
+    normal = (math.sin(direction) * math.sin(dip), math.cos(direction) * math.sin(dip),
+              math.cos(dip))
+    middle = rng.uniform(-10, 10), rng.uniform(8, 32), rng.uniform(-8, 10)
+    n, step = rng.randint(1, 12), rng.uniform(2, 12)
+    noise = rng.uniform(0, 0.3) * step
+    points = {}
+    for i in range(n + 1):
+        for j in range(n + 1):
+            h = rng.uniform(-noise, noise)
+            points[i, j] = [m + (i - n / 2) * step * a + (j - n / 2) * step * b + h * c
+                            for m, a, b, c in zip(middle, *along, normal)]
+    lines = ["solid sheet"]
+    for i in range(n):
+        for j in range(n):
+            a, b, c, d = (points[i, j], points[i + 1, j], points[i + 1, j + 1],
+                          points[i, j + 1])
+            for triangle in rng.choice([((a, b, c), (a, c, d)), ((a, b, d), (b, c, d))]):
+                lines += ["facet normal 0 0 0", "outer loop"]
+                lines += ["vertex " + " ".join(f"{x:.9g}" for x in p) for p in triangle]
+                lines += ["endloop", "endfacet"]
+    return "\n".join(lines + ["endsolid sheet", ""])
 
 
 def horseshoe():
@@ -152,14 +201,22 @@ def awkward_joints(dim, n, rng, corners):
     return joints
 
 
-def scene(kind, n, seed):
-    """The text of a scene file."""
+def scene(kind, n, seed, folder):
+    """The text of a scene file; its surfaces are written into the folder."""
     rng = random.Random(f"{kind} {n} {seed}")
-    dim = 2 if kind in ("traces", "lines") else 3
+    dim = 2 if kind in KINDS_IN_2D else 3
     excavations = None
     if kind in ("lines", "faces"):
         excavations, corners = outlines(dim, rng)
         joints = awkward_joints(dim, n, rng, corners)
+    elif kind == "sheets":
+        joints = []
+        for i in range(n):
+            name = f"sheet_{n}_{seed}_{i}.stl"
+            (folder / name).write_text(sheet(rng))
+            joints.append(["Shape = file", f"File = {name}"])
+    elif kind == "polylines":
+        joints = polylines(n, rng)
     else:
         joints = traces(n, rng) if dim == 2 else faces(n, rng, kind == "discs")
     if dim == 2:
@@ -218,7 +275,7 @@ def cpu_of_children():
 def run(program, folder, kind, n, seed, full, initial, arguments, ranks):
     """(reason of failure or None, ratio of the step, seconds of CPU, summary)"""
     name = f"{kind}_{n}_{seed}"
-    (folder / f"{name}.prm").write_text(scene(kind, n, seed))
+    (folder / f"{name}.prm").write_text(scene(kind, n, seed, folder))
     before = cpu_of_children()
     command = [program, "--output", str(folder / name), f"{name}.prm"] + arguments
     if initial:
@@ -237,7 +294,7 @@ def run(program, folder, kind, n, seed, full, initial, arguments, ranks):
         return failed.group(), 0., cpu, None
     step = next(float(line.split()[3]) for line in result.stdout.splitlines()
                 if "stable time step" in line)
-    dim = 2 if kind in ("traces", "lines") else 3
+    dim = 2 if kind in KINDS_IN_2D else 3
     summary = None
     if full:
         summary = json.loads((folder / name / "summary.json").read_text())

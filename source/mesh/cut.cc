@@ -75,6 +75,17 @@ namespace Keyblock
       return facets;
     }
 
+    template <int dim>
+    std::map<Corners, unsigned int>
+    count_cells_at_facets(const MixedMesh &mixed)
+    {
+      std::map<Corners, unsigned int> n_cells;
+      for (const MixedMesh::Element &cell : mixed.cells)
+        for (const Corners &facet : sorted_facets<dim>(cell.vertices))
+          ++n_cells[facet];
+      return n_cells;
+    }
+
     /** Those faces of @p mixed that are facets of exactly one cell. */
     template <int dim>
     std::vector<MixedMesh::Element>
@@ -83,15 +94,16 @@ namespace Keyblock
       std::vector<MixedMesh::Element> result;
       if (mixed.faces.empty())
         return result;
-      std::map<Corners, unsigned int> n_cells;
-      for (const MixedMesh::Element &cell : mixed.cells)
-        for (const Corners &facet : sorted_facets<dim>(cell.vertices))
-          ++n_cells[facet];
+      std::map<Corners, unsigned int> n_cells =
+        count_cells_at_facets<dim>(mixed);
       for (const MixedMesh::Element &face : mixed.faces)
         {
           const auto found = n_cells.find(sorted(face.vertices));
-          if (found != n_cells.end() && found->second == 1)
-            result.push_back(face);
+          if (found == n_cells.end() || found->second != 1)
+            continue;
+          result.push_back(face);
+          // (of several groups that a face is in the first counts)
+          n_cells.erase(found);
         }
       return result;
     }
@@ -286,6 +298,22 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<MixedMesh::Element>
+  loose_faces(const MixedMesh &mixed)
+  {
+    std::vector<MixedMesh::Element> result;
+    if (mixed.marked_faces.empty())
+      return result;
+    const auto n_cells = count_cells_at_facets<dim>(mixed);
+    for (const MixedMesh::Element &face : mixed.marked_faces)
+      if (n_cells.count(sorted(face.vertices)) == 0)
+        result.push_back(face);
+    return result;
+  }
+
+
+
+  template <int dim>
   Mesh<dim>
   cut_mesh(const MixedMesh &mixed,
            const std::string &origin,
@@ -335,6 +363,8 @@ namespace Keyblock
     return mesh;
   }
 
+  template std::vector<MixedMesh::Element> loose_faces<2>(const MixedMesh &);
+  template std::vector<MixedMesh::Element> loose_faces<3>(const MixedMesh &);
   template Mesh<2>
   cut_mesh(const MixedMesh &, const std::string &, const std::string &);
   template Mesh<3>

@@ -3,6 +3,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/mesh/file_formats.h>
 #include <keyblock/mesh/gmsh_file.h>
+#include <keyblock/mesh/mark_groups.h>
 #include <keyblock/mesh/size_limit.h>
 
 #include <algorithm>
@@ -232,9 +233,13 @@ namespace Keyblock
                       scene.joints.size(),
                       "the mesh file '" + scene.domain.file + "'",
                       [](double) { return "mesh with larger cells"; });
-    return cut_mesh<dim>(mixed,
-                         origin,
-                         "repair it in the program that made the mesh");
+    std::vector<Surface<dim>> surfaces = mark_groups(mixed, scene, origin);
+    Mesh<dim> mesh =
+      cut_mesh<dim>(mixed,
+                    origin,
+                    "repair it in the program that made the mesh");
+    mesh.surfaces = std::move(surfaces);
+    return mesh;
   }
 
   template Mesh<2> read_mesh(const Scene<2> &);

@@ -12,7 +12,7 @@
 #include <keyblock/mesh/size.h>
 #include <keyblock/mesh/size_limit.h>
 #include <keyblock/scene/domain_outline.h>
-#include <keyblock/scene/joint_extent.h>
+#include <keyblock/scene/joint_facets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +43,21 @@ namespace Keyblock
      * features are certain. */
     template <int dim>
     constexpr unsigned int most_exact_joints = (dim == 2) ? 40 : 12;
+
+    /** Facets of a bent joint that count as one then: they meet their
+     * neighbours only. */
+    constexpr unsigned int facets_of_exact_joint = 20;
+
+    template <int dim>
+    unsigned int
+    count_joints(const Scene<dim> &scene)
+    {
+      unsigned int n = 0;
+      for (const auto &joints : joints_by_surface(scene))
+        n +=
+          (joints.size() + facets_of_exact_joint - 1) / facets_of_exact_joint;
+      return n;
+    }
 
     /** An exact mesh is taken if its thinnest cell has this part of the median
      * altitude [-]. */
@@ -325,7 +340,7 @@ namespace Keyblock
     Mesh<dim> exact;
     double thinness     = 0.; // of the exact mesh, if there is one
     const bool is_exact = snap == 0. || scene.joints.empty();
-    if (is_exact || scene.joints.size() <= most_exact_joints<dim>)
+    if (is_exact || count_joints(scene) <= most_exact_joints<dim>)
       {
         reason = reason_of_failure([&]() {
           exact = to_mesh(mesh_exactly(scene, demands, is_exact),

@@ -16,7 +16,8 @@ namespace Keyblock
     struct TaggedElements
     {
       std::vector<std::vector<std::size_t>> corners;
-      std::vector<unsigned int> ids;
+      std::vector<unsigned int> ids; ///< the first of their groups; 0: none
+      std::vector<std::vector<unsigned int>> other_ids;
     };
 
     /** Of physical groups that have one. */
@@ -49,6 +50,9 @@ namespace Keyblock
                                                   entity,
                                                   groups);
           const unsigned int id = groups.empty() ? 0 : std::abs(groups.front());
+          std::vector<unsigned int> others;
+          for (std::size_t i = 1; i < groups.size(); ++i)
+            others.push_back(std::abs(groups[i]));
 
           std::vector<int> types;
           std::vector<std::vector<std::size_t>> elements, nodes;
@@ -66,6 +70,7 @@ namespace Keyblock
                 {
                   result.corners.emplace_back(node, node + n_corners);
                   result.ids.push_back(id);
+                  result.other_ids.push_back(others);
                 }
             }
         }
@@ -129,8 +134,11 @@ namespace Keyblock
           if (const auto found = vertex_of_tag.find(tag);
               found != vertex_of_tag.end())
             face.vertices.push_back(found->second);
-        if (face.id != 0 && face.vertices.size() == faces.corners[f].size())
-          mixed.faces.push_back(face);
+        if (face.id == 0 || face.vertices.size() != faces.corners[f].size())
+          continue;
+        mixed.faces.push_back(face);
+        for (const unsigned int id : faces.other_ids[f])
+          mixed.faces.push_back({face.vertices, id});
       }
     return mixed;
   }

@@ -200,7 +200,11 @@ namespace Keyblock
         }
       else
         for (const Point<3> &vertex : joint.vertices)
-          corners.push_back(vertex - joint.distance(vertex) * normal);
+          // (facets of one surface share their corners to the last digit)
+          corners.push_back(
+            joint.surface.empty()
+              ? Point<3>(vertex - joint.distance(vertex) * normal)
+              : vertex);
       return add_polygon(corners);
     }
 

@@ -2,6 +2,7 @@
 #include <keyblock/mesh/improvement.h>
 #include <keyblock/mesh/joint_cut.h>
 #include <keyblock/mesh/joint_cut_steps.h>
+#include <keyblock/scene/joint_facets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,26 +31,47 @@ namespace Keyblock
 
 
     template <int dim>
+    JointSheets<dim>
+    make_sheets(const Scene<dim> &scene)
+    {
+      JointSheets<dim> result;
+      result.sheet_of_joint.resize(scene.joints.size());
+      for (const auto &joints : joints_by_surface(scene))
+        {
+          for (const unsigned int j : joints)
+            result.sheet_of_joint[j] = result.sheets.size();
+          result.sheets.push_back(
+            std::make_unique<JointSheet<dim>>(scene, joints));
+        }
+      return result;
+    }
+
+
+
+    template <int dim>
     void
     measure_shifts(const SimplexMesh<dim> &mesh,
+                   const JointSheets<dim> &sheets,
                    const double coarsening,
                    MeshReport<dim> &report)
     {
       std::vector<double> shifts, shifts_in_cells;
+      const auto add = [&](const double shift, const double size) {
+        shifts.push_back(std::abs(shift));
+        shifts_in_cells.push_back(shifts.back() * coarsening / size);
+      };
       for (const auto &facet : mesh.marked_facets())
-        {
-          for (const auto &mark : mesh.marks.at(facet))
-            if (mesh.surfaces[mark.surface].is_joint())
-              {
-                for (const unsigned int v : facet)
-                  {
-                    shifts.push_back(std::abs(
-                      mesh.surfaces[mark.surface].distance(mesh.vertices[v])));
-                    shifts_in_cells.push_back(shifts.back() * coarsening /
-                                              mesh.target_size[v]);
-                  }
-              }
-        }
+        for (const auto &mark : mesh.marks.at(facet))
+          if (mesh.surfaces[mark.surface].is_joint())
+            {
+              const auto &sheet =
+                sheets.of_joint(mesh.surfaces[mark.surface].joint);
+              for (const unsigned int v : facet)
+                add(sheet.distance(mesh.vertices[v]), mesh.target_size[v]);
+              // a bent joint may leave a facet between its vertices, too
+              if (!sheet.is_plane())
+                add(sheet.distance(mesh.center(facet)), mesh.size_at(facet));
+            }
       if (shifts.empty())
         return;
       std::sort(shifts.begin(), shifts.end());
@@ -69,15 +91,17 @@ namespace Keyblock
     template <int dim>
     void
     look_for_joints(const SimplexMesh<dim> &mesh,
-                    const std::vector<JointExtent<dim>> &extents,
+                    const JointSheets<dim> &sheets,
                     MeshReport<dim> &report)
     {
-      std::vector<double> area(extents.size(), 0.), edge(extents.size(), 0.);
+      std::vector<double> area(sheets.sheets.size(), 0.),
+        edge(sheets.sheets.size(), 0.);
       for (const auto &facet : mesh.marked_facets())
         for (const auto &mark : mesh.marks.at(facet))
           if (mesh.surfaces[mark.surface].is_joint())
             {
-              const unsigned int j = mesh.surfaces[mark.surface].joint;
+              const unsigned int j =
+                sheets.sheet_of_joint[mesh.surfaces[mark.surface].joint];
               area[j] += mesh.measure(facet);
               edge[j] += mesh.measure(facet) * mesh.size_at(facet);
             }
@@ -95,23 +119,25 @@ namespace Keyblock
         return is_inside;
       };
       double found = 0., wanted = 0., found_large = 0., wanted_large = 0.;
-      for (unsigned int j = 0; j < extents.size(); ++j)
+      for (unsigned int j = 0; j < sheets.sheets.size(); ++j)
         {
-          std::vector<Point<dim>> places;
-          if (!extents[j].is_infinite())
-            places = extents[j].outermost_points();
+          const JointSheet<dim> &sheet         = *sheets.sheets[j];
+          const std::vector<Point<dim>> places = sheet.outermost_points();
           const unsigned int n_inside =
             std::count_if(places.begin(), places.end(), is_in_box);
           if (area[j] == 0.)
-            (n_inside > 0 ? report.lost : report.outside).push_back(j);
+            {
+              auto &list = n_inside > 0 ? report.lost : report.outside;
+              list.insert(list.end(), sheet.joints.begin(), sheet.joints.end());
+            }
           if (!places.empty() && n_inside == places.size())
             {
               found += area[j];
-              wanted += extents[j].area();
-              if (extents[j].half_width() * area[j] >= 2. * edge[j])
+              wanted += sheet.area();
+              if (sheet.half_width() * area[j] >= 2. * edge[j])
                 {
                   found_large += area[j];
-                  wanted_large += extents[j].area();
+                  wanted_large += sheet.area();
                 }
             }
         }
@@ -126,7 +152,9 @@ namespace Keyblock
     /** Find joints that end just before another one, see MeshReport::Gap. */
     template <int dim>
     void
-    find_gaps(const SimplexMesh<dim> &mesh, MeshReport<dim> &report)
+    find_gaps(const SimplexMesh<dim> &mesh,
+              const JointSheets<dim> &sheets,
+              MeshReport<dim> &report)
     {
       constexpr double widest = 0.5; // over the target size
       using Ridge             = std::array<unsigned int, dim - 1>;
@@ -147,7 +175,10 @@ namespace Keyblock
                       widest * mesh.target_size[v] &&
                     !mesh.is_bound(w, key.second))
                   for (const unsigned int other : mesh.bound_to[w])
-                    if (mesh.surfaces[other].is_joint())
+                    if (mesh.surfaces[other].is_joint() &&
+                        sheets.sheet_of_joint[mesh.surfaces[other].joint] !=
+                          sheets
+                            .sheet_of_joint[mesh.surfaces[key.second].joint])
                       report.gaps.insert({mesh.surfaces[key.second].joint,
                                           mesh.surfaces[other].joint});
     }
@@ -166,17 +197,20 @@ namespace Keyblock
     report.way = "cut";
     MeshImprovement<dim> improvement(mesh, allowed_bend);
     improvement.improve(wanted_quality, 3);
-    std::vector<JointExtent<dim>> extents;
-    extents.reserve(scene.joints.size());
-    for (unsigned int j = 0; j < scene.joints.size(); ++j)
+    const JointSheets<dim> sheets = make_sheets(scene);
+    for (const auto &sheet : sheets.sheets)
       {
-        extents.emplace_back(*scene.joints[j]);
         const unsigned int first_cell = mesh.cells.size();
-        mesh.surfaces.push_back({extents[j].origin, extents[j].normal, 0., j});
-        insert_joint(mesh, mesh.surfaces.size() - 1, extents[j], snap);
+        const unsigned int surface    = mesh.surfaces.size();
+        for (unsigned int f = 0; f < sheet->facets.size(); ++f)
+          mesh.surfaces.push_back({sheet->facets[f].origin,
+                                   sheet->facets[f].normal,
+                                   0.,
+                                   sheet->joints[f]});
+        insert_joint(mesh, surface, *sheet, snap);
         improvement.improve(wanted_between, 1, first_cell);
       }
-    trim_joints(mesh, extents);
+    trim_joints(mesh, sheets);
     dissolve_crumbs(mesh, report);
     improvement.improve(wanted_quality, 8);
     improvement.flatten(least_quality_of_flattening);
@@ -185,9 +219,9 @@ namespace Keyblock
 
     improvement.improve_by_bending(least_quality, 8, largest_bend);
 
-    measure_shifts(mesh, coarsening, report);
-    look_for_joints(mesh, extents, report);
-    find_gaps(mesh, report);
+    measure_shifts(mesh, sheets, coarsening, report);
+    look_for_joints(mesh, sheets, report);
+    find_gaps(mesh, sheets, report);
     return report;
   }
 

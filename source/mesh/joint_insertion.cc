@@ -26,17 +26,17 @@ namespace Keyblock
     public:
       Insertion(SimplexMesh<dim> &mesh,
                 const unsigned int surface,
-                const JointExtent<dim> &extent,
+                const JointSheet<dim> &sheet,
                 const double snap)
         : mesh(mesh)
         , surface(surface)
-        , extent(extent)
+        , sheet(sheet)
         , snap(snap)
       {
         distance.reserve(mesh.vertices.size());
         for (const Point<dim> &p : mesh.vertices)
           {
-            distance.push_back(extent.distance(p));
+            distance.push_back(sheet.distance(p));
             side.push_back(distance.back() > 0. ? 1 : -1);
           }
       }
@@ -69,16 +69,17 @@ namespace Keyblock
       double
       crossing(const unsigned int a, const unsigned int b) const
       {
-        const double below = std::abs(distance[a]),
-                     above = std::abs(distance[b]);
-        return below + above > 0. ? below / (below + above) : 0.5;
+        return sheet.crossing(mesh.vertices[a],
+                              mesh.vertices[b],
+                              distance[a],
+                              distance[b]);
       }
 
       /** Whether the joint's extent reaches into a cell with two sides. */
       bool
       reaches_into(const Cell &cell) const
       {
-        if (extent.is_infinite())
+        if (sheet.is_infinite())
           return true;
         bool touches_other = false;
         for (const unsigned int v : cell.vertices)
@@ -90,7 +91,7 @@ namespace Keyblock
         const auto look = [&](const Point<dim> &p) {
           sum += p;
           ++n;
-          return extent.depth_inside(p) > margin;
+          return sheet.depth_inside(p) > margin;
         };
         for (unsigned int i = 0; i <= dim; ++i)
           {
@@ -107,7 +108,7 @@ namespace Keyblock
                   return true;
               }
           }
-        return extent.depth_inside(sum / n) > 0.;
+        return sheet.depth_inside(sum / n) > 0.;
       }
 
       /** Put vertices that are near onto the joint, the nearest first. */
@@ -125,7 +126,7 @@ namespace Keyblock
                 const double relative =
                   std::abs(distance[v]) / mesh.target_size[v];
                 if (relative < snap &&
-                    (is_cut || extent.depth_inside(mesh.vertices[v]) > 0.))
+                    (is_cut || sheet.depth_inside(mesh.vertices[v]) > 0.))
                   near.insert({relative, v});
               }
           }
@@ -160,7 +161,8 @@ namespace Keyblock
             std::abs(distance[v]) < 1e-12 * mesh.target_size[v])
           return;
         const Tensor<1, dim> way =
-          SimplexMesh<dim>::free_part(extent.normal, mesh.locked_directions(v));
+          SimplexMesh<dim>::free_part(sheet.normal_at(mesh.vertices[v]),
+                                      mesh.locked_directions(v));
         if (way.norm_square() < 0.1)
           return;
         const Point<dim> old = mesh.vertices[v];
@@ -170,7 +172,7 @@ namespace Keyblock
         if (mesh.least_quality_at(v) < std::min(least_quality_of_snap, before))
           mesh.vertices[v] = old;
         else
-          distance[v] = extent.distance(mesh.vertices[v]);
+          distance[v] = sheet.distance(mesh.vertices[v]);
       }
 
       /** Bisect the edges between the two sides, the longest first. */
@@ -207,7 +209,7 @@ namespace Keyblock
                                 part * (mesh.vertices[b] - mesh.vertices[a]));
             mesh.return_to_circles(middle);
             side.push_back(0);
-            distance.push_back(extent.distance(mesh.vertices[middle]));
+            distance.push_back(sheet.distance(mesh.vertices[middle]));
           }
       }
 
@@ -234,14 +236,23 @@ namespace Keyblock
             for (const unsigned int v : mesh.cells[other].vertices)
               is_between |= side[v] < 0;
             if (is_between)
-              mesh.add_mark(mesh.facet(c, apex),
-                            {surface, mesh.is_on_positive_side(c, apex)});
+              {
+                const auto facet = mesh.facet(c, apex);
+                std::vector<Point<dim>> corners;
+                for (const unsigned int v : facet)
+                  corners.push_back(mesh.vertices[v]);
+                const unsigned int part = sheet.facet_along(corners);
+                mesh.add_mark(facet,
+                              {surface + part,
+                               mesh.is_on_positive_side(c, apex) !=
+                                 sheet.is_turned(part)});
+              }
           }
       }
 
       SimplexMesh<dim> &mesh;
       const unsigned int surface;
-      const JointExtent<dim> &extent;
+      const JointSheet<dim> &sheet;
       const double snap;
       std::vector<double> distance;
       std::vector<signed char> side; ///< of each vertex: -1, +1; 0: on it
@@ -254,18 +265,18 @@ namespace Keyblock
   void
   insert_joint(SimplexMesh<dim> &mesh,
                const unsigned int surface,
-               const JointExtent<dim> &extent,
+               const JointSheet<dim> &sheet,
                const double snap)
   {
-    Insertion<dim>(mesh, surface, extent, snap).run();
+    Insertion<dim>(mesh, surface, sheet, snap).run();
   }
 
   template void insert_joint(SimplexMesh<2> &,
                              const unsigned int,
-                             const JointExtent<2> &,
+                             const JointSheet<2> &,
                              const double);
   template void insert_joint(SimplexMesh<3> &,
                              const unsigned int,
-                             const JointExtent<3> &,
+                             const JointSheet<3> &,
                              const double);
 } // namespace Keyblock

@@ -20,19 +20,19 @@ namespace Keyblock
     class Trim
     {
     public:
-      Trim(SimplexMesh<dim> &mesh, const std::vector<JointExtent<dim>> &extents)
+      Trim(SimplexMesh<dim> &mesh, const JointSheets<dim> &sheets)
         : mesh(mesh)
-        , extents(extents)
+        , sheets(sheets)
       {
         for (const Facet &facet : mesh.marked_facets())
           for (const auto &mark : mesh.marks.at(facet))
             {
-              facets_of[mark.surface].push_back(facet);
+              const unsigned int whole = whole_of(mark.surface);
+              facets_of[whole].push_back(facet);
               for_each_ridge<dim>(facet, [&](const Ridge &ridge) {
                 auto &list = surfaces_at[ridge];
-                if (std::find(list.begin(), list.end(), mark.surface) ==
-                    list.end())
-                  list.push_back(mark.surface);
+                if (std::find(list.begin(), list.end(), whole) == list.end())
+                  list.push_back(whole);
               });
             }
       }
@@ -42,7 +42,7 @@ namespace Keyblock
       {
         for (const auto &[surface, facets] : facets_of)
           if (mesh.surfaces[surface].is_joint() &&
-              !extents[mesh.surfaces[surface].joint].is_infinite())
+              !sheet_of(surface).is_infinite())
             trim(surface, facets);
         mesh.bind_vertices();
       }
@@ -51,10 +51,30 @@ namespace Keyblock
       using Facet = typename SimplexMesh<dim>::Facet;
       using Ridge = std::array<unsigned int, dim - 1>;
 
+      const JointSheet<dim> &
+      sheet_of(const unsigned int surface) const
+      {
+        return sheets.of_joint(mesh.surfaces[surface].joint);
+      }
+
+      /** What stands for all surfaces of a bent joint: that of its first facet,
+       * which are in a row. */
+      unsigned int
+      whole_of(const unsigned int surface) const
+      {
+        if (!mesh.surfaces[surface].is_joint())
+          return surface;
+        const auto &joints = sheet_of(surface).joints;
+        return surface - (std::find(joints.begin(),
+                                    joints.end(),
+                                    mesh.surfaces[surface].joint) -
+                          joints.begin());
+      }
+
       void
       trim(const unsigned int surface, const std::vector<Facet> &facets)
       {
-        const JointExtent<dim> &extent = extents[mesh.surfaces[surface].joint];
+        const JointSheet<dim> &sheet = sheet_of(surface);
         DisjointSets patches(facets.size());
         std::vector<bool> is_junction(facets.size(), false);
         std::map<Ridge, unsigned int> first_at;
@@ -76,7 +96,7 @@ namespace Keyblock
         std::map<unsigned int, double> inside;
         for (unsigned int i = 0; i < facets.size(); ++i)
           {
-            inside[i]         = extent.depth_inside(mesh.center(facets[i]));
+            inside[i]         = sheet.depth_inside(mesh.center(facets[i]));
             Patch &patch      = patch_of_root[patches.root(i)];
             const double area = mesh.measure(facets[i]);
             patch.area += area;
@@ -106,8 +126,8 @@ namespace Keyblock
         auto &list       = entry->second;
         list.erase(std::remove_if(list.begin(),
                                   list.end(),
-                                  [surface](const auto &mark) {
-                                    return mark.surface == surface;
+                                  [&](const auto &mark) {
+                                    return whole_of(mark.surface) == surface;
                                   }),
                    list.end());
         if (list.empty())
@@ -115,7 +135,7 @@ namespace Keyblock
       }
 
       SimplexMesh<dim> &mesh;
-      const std::vector<JointExtent<dim>> &extents;
+      const JointSheets<dim> &sheets;
       std::map<unsigned int, std::vector<Facet>> facets_of;
       std::map<Ridge, std::vector<unsigned int>> surfaces_at;
     };
@@ -125,14 +145,11 @@ namespace Keyblock
 
   template <int dim>
   void
-  trim_joints(SimplexMesh<dim> &mesh,
-              const std::vector<JointExtent<dim>> &extents)
+  trim_joints(SimplexMesh<dim> &mesh, const JointSheets<dim> &sheets)
   {
-    Trim<dim>(mesh, extents).run();
+    Trim<dim>(mesh, sheets).run();
   }
 
-  template void trim_joints(SimplexMesh<2> &,
-                            const std::vector<JointExtent<2>> &);
-  template void trim_joints(SimplexMesh<3> &,
-                            const std::vector<JointExtent<3>> &);
+  template void trim_joints(SimplexMesh<2> &, const JointSheets<2> &);
+  template void trim_joints(SimplexMesh<3> &, const JointSheets<3> &);
 } // namespace Keyblock

@@ -13,6 +13,16 @@ namespace Keyblock
 {
   namespace
   {
+    /** Whether the generator knows where outlines are. */
+    template <int dim>
+    bool
+    knows_outlines(const Mesh<dim> &mesh)
+    {
+      return std::any_of(mesh.surfaces.begin(),
+                         mesh.surfaces.end(),
+                         [](const auto &s) { return !s.is_joint(); });
+    }
+
     /** The piece between outlines that each cell belongs to, if the mesh knows
      * what its faces lie on; else each cell is a piece. Returns their number.
      */
@@ -22,7 +32,7 @@ namespace Keyblock
     {
       piece.assign(mesh.n_cells(), none);
       unsigned int n = 0;
-      if (mesh.surfaces.empty())
+      if (!knows_outlines(mesh))
         {
           for (unsigned int &p : piece)
             p = n++;
@@ -120,6 +130,7 @@ namespace Keyblock
     mesh.excavation.assign(mesh.n_cells(), none);
     std::vector<unsigned int> piece;
     const unsigned int n_pieces = list_pieces(mesh, piece);
+    const bool has_outlines     = knows_outlines(mesh);
     for (unsigned int e = 0; e < scene.excavations.size(); ++e)
       {
         const auto &excavation = scene.excavations[e];
@@ -147,7 +158,7 @@ namespace Keyblock
         for (unsigned int c = 0; c < mesh.n_cells(); ++c)
           {
             const bool is_inside = volume_inside[piece[c]] > 0.;
-            AssertThrow(!excavation->has_outline() || !mesh.surfaces.empty() ||
+            AssertThrow(!excavation->has_outline() || has_outlines ||
                           !crosses(mesh, c, *excavation, is_inside),
                         InputError(
                           "The mesh does not follow the outline of the "

@@ -215,9 +215,11 @@ namespace Keyblock
         mark_known_joints(mesh, scene);
         return;
       }
+    mark_known_joints(mesh, scene); // those of physical groups
     std::vector<double> area_of(scene.joints.size(), 0.); // [m^(dim-1)]
     for (unsigned int j = 0; j < scene.joints.size(); ++j)
-      mark_joint(mesh, scene, j, area_of);
+      if (scene.joints[j]->form == JointForm::plane)
+        mark_joint(mesh, scene, j, area_of);
   }
 
   template void mark_joints(Mesh<2> &, const Scene<2> &);

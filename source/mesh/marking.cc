@@ -6,6 +6,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/scene/joint_facets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -114,9 +115,16 @@ namespace Keyblock
       for (const auto &face : mesh.marked_faces)
         if (mesh.surfaces[face.surface].is_joint())
           is_inside[mesh.surfaces[face.surface].joint] = true;
-      for (unsigned int j = 0; j < is_inside.size(); ++j)
-        if (!is_inside[j])
-          mesh.report.outside.push_back(j);
+      // a bent joint is inside if one of its facets is
+      for (const auto &joints : joints_by_surface(scene))
+        if (std::none_of(joints.begin(),
+                         joints.end(),
+                         [&is_inside](const unsigned int j) {
+                           return is_inside[j];
+                         }))
+          mesh.report.outside.insert(mesh.report.outside.end(),
+                                     joints.begin(),
+                                     joints.end());
     }
 
 

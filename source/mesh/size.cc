@@ -61,10 +61,12 @@ namespace Keyblock
     for (const auto &joint : scene.joints)
       {
         const JointExtent<dim> extent(*joint);
+        // (a facet need not have cells of its own: its neighbours go on)
         const double size =
-          meshing.size_at_joints > 0.
-            ? meshing.size_at_joints
-            : std::max(least, extent.half_width() / cells_in_half_width);
+          meshing.size_at_joints > 0. ? meshing.size_at_joints
+          : joint->surface.empty()
+            ? std::max(least, extent.half_width() / cells_in_half_width)
+            : far;
         if (size < far)
           joints.push_back({extent, size});
       }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace Keyblock
@@ -116,20 +117,28 @@ namespace Keyblock
         if (around.largest_bend > least_bend)
           add() << "faces on " << around.bent << ", bent by up to "
                 << around.largest_bend << " degrees, taken as plane";
+        std::map<std::string, unsigned int> n_facets; // of bent joints
         for (const auto &joint : scene.joints)
           {
             if (std::none_of(around.faces.begin(),
                              around.faces.end(),
                              [&](const BlockFace<dim> &face) {
                                return face.name == joint->name;
-                             }))
+                             }) ||
+                (!joint->surface.empty() && ++n_facets[joint->surface] > 1))
               continue;
+            const std::string &name =
+              joint->surface.empty() ? joint->name : joint->surface;
             if (joint->tensile_strength > 0.)
-              add() << "tensile strength of " << joint->name << " left out";
+              add() << "tensile strength of " << name << " left out";
             if (joint->cohesion_of_sliding() < joint->cohesion)
-              add() << "peak cohesion of " << joint->name << ", residual "
+              add() << "peak cohesion of " << name << ", residual "
                     << joint->cohesion_of_sliding() << " Pa";
           }
+        for (const auto &[name, n] : n_facets)
+          if (n > dim)
+            add() << "turning along the " << n << " plane parts of " << name
+                  << " that it lies on not judged";
       }
 
       void

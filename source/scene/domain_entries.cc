@@ -192,9 +192,10 @@ namespace Keyblock
                       not_negative);
     prm.add_parameter("Segments",
                       segments,
-                      "Number of chords of the crown; in .dxf files of half a "
-                      "circle.",
-                      Integer(2, 1000));
+                      "Number of chords of the crown, in .dxf files of half a "
+                      "circle; 0: crowns have chords twice as long as the "
+                      "cells at excavations, 6 to 24 of them, .dxf files 24.",
+                      Integer(0, 1000));
     prm.add_parameter("Bench levels",
                       bench_levels,
                       "Elevations at which it is parted into benches, from the "

@@ -5,6 +5,7 @@
 
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/dxf.h>
+#include <keyblock/scene/solid_file.h>
 
 #include <boost/algorithm/string.hpp>
 
@@ -241,18 +242,28 @@ namespace Keyblock
       return paths;
     }
 
+    /** Diagonal of the box around points. */
+    template <int dim>
+    double
+    size_of_box(const std::vector<Point<dim>> &points)
+    {
+      Point<dim> low = points[0], high = low;
+      for (const Point<dim> &p : points)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            low[d]  = std::min(low[d], p[d]);
+            high[d] = std::max(high[d], p[d]);
+          }
+      return low.distance(high);
+    }
+
     double
     extent_of(const std::vector<Path> &paths)
     {
-      Point<2> low = paths[0][0], high = low;
+      Path points;
       for (const Path &path : paths)
-        for (const Point<2> &p : path)
-          for (unsigned int d = 0; d < 2; ++d)
-            {
-              low[d]  = std::min(low[d], p[d]);
-              high[d] = std::max(high[d], p[d]);
-            }
-      return low.distance(high);
+        points.insert(points.end(), path.begin(), path.end());
+      return size_of_box(points);
     }
 
     /** Let the first path go on with others until it closes. */
@@ -313,5 +324,52 @@ namespace Keyblock
            corners.front().distance(corners.back()) <= tolerance)
       corners.pop_back();
     return corners;
+  }
+
+
+
+  std::vector<std::vector<Point<2>>>
+  read_dxf_paths(const std::string &text, const unsigned int n_chords)
+  {
+    std::vector<Path> paths = list_paths(read_entities(text), n_chords);
+    if (paths.empty())
+      throw std::runtime_error("it has no polyline, line, arc or circle");
+    return paths;
+  }
+
+
+
+  TriangleSurface
+  read_dxf_faces(const std::string &text)
+  {
+    TriangleSurface surface;
+    for (const Entity &entity : read_entities(text))
+      if (entity.type == "3DFACE")
+        {
+          const unsigned int first = surface.vertices.size();
+          for (int corner = 0; corner < 4; ++corner)
+            {
+              // a triangle may leave the fourth out or repeat the third
+              Point<3> p = corner < 3 ? Point<3>() : surface.vertices.back();
+              for (int axis = 0; axis < 3; ++axis)
+                {
+                  const int code = 10 * (axis + 1) + corner;
+                  p[axis]        = corner < 3 ? entity.required(code)
+                                              : entity.number(code, p[axis]);
+                }
+              surface.vertices.push_back(p);
+            }
+          surface.triangles.push_back({{first, first + 1, first + 2}});
+          surface.triangles.push_back({{first, first + 2, first + 3}});
+        }
+      else if (entity.type == "POLYLINE" || other_curves.count(entity.type) > 0)
+        throw std::runtime_error("it has a " + entity.type +
+                                 ", which is not read; explode the surface "
+                                 "into 3DFACEs");
+    if (surface.triangles.empty())
+      throw std::runtime_error("it has no 3DFACE");
+    require_few_triangles(surface);
+    surface.weld(closeness * size_of_box(surface.vertices));
+    return surface;
   }
 } // namespace Keyblock

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a scene says of water, shaking and histories, and what it is warned of.
 #include <keyblock/base/number_text.h>
+#include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/scene.h>
 
 #include <cmath>
@@ -86,6 +87,8 @@ namespace Keyblock
   Scene<dim>::warnings() const
   {
     std::vector<std::string> found = old_names;
+    for (const std::string &warning : warnings_of_facets(*this))
+      found.push_back(warning);
     for (const auto &material : materials)
       if (material->is_plastic() &&
           material->tensile_strength > material->apex())

@@ -6,6 +6,8 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 
+#include <limits>
+
 namespace Keyblock
 {
   namespace
@@ -44,6 +46,31 @@ namespace Keyblock
   void
   Joint<dim>::declare(ParameterHandler &prm)
   {
+    prm.add_parameter(
+      "Shape",
+      form,
+      "Form of the joint: plane, by the entries below; or bent or kinked, one "
+      "joint of several plane parts called NAME_1, NAME_2, ...: polyline (2D) "
+      "through Vertices; file, the triangles or lines of File; physical group "
+      "of the mesh file (.msh), whose element faces are the joint.");
+    prm.add_parameter(
+      "File",
+      file,
+      "File of the surface, relative to the scene file: in 3D triangles, .stl "
+      "or .dxf (3DFACE), in 2D lines, .dxf (polylines, lines, arcs); "
+      "Domain/Origin is subtracted.");
+    prm.add_parameter("Scale",
+                      scale,
+                      "Length of the unit of File [m].",
+                      Double(std::numeric_limits<double>::min()));
+    prm.add_parameter("Segments",
+                      segments,
+                      "Number of chords in half a circle of File.",
+                      dealii::Patterns::Integer(1, 1000));
+    prm.add_parameter("Group",
+                      group,
+                      "Name or number of the physical group; empty: the name "
+                      "of the joint.");
     prm.add_parameter("Point", point, "A point on the joint [m].");
     prm.add_parameter("Normal",
                       normal_entry,
@@ -68,13 +95,19 @@ namespace Keyblock
                       not_negative);
     prm.add_parameter("Vertices",
                       vertices,
-                      "Corners of the polygon on the plane, in order [m]; with "
-                      "them Point and Normal may be left out.");
+                      "Corners of the polygon on the plane, in order, or "
+                      "points of the polyline [m]; with them Point and Normal "
+                      "may be left out.");
     declare_strength(prm);
     prm.add_parameter("Set",
                       set,
                       "Name of the set it belongs to, whose strength it has "
                       "where it gives none of its own; empty: none.");
+    prm.add_parameter("Surface",
+                      surface,
+                      "Name of the bent joint that it is a plane part of, and "
+                      "by which it may be called; empty: none. Written in "
+                      "used.prm.");
   }
 
   template <int dim>

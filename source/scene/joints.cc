@@ -270,6 +270,30 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** Physical groups are written as such, by the first of their facets. */
+    template <int dim>
+    bool
+    is_written(const std::unique_ptr<Joint<dim>> &joint,
+               const Joints<dim> &joints)
+    {
+      return joint->form != JointForm::physical_group ||
+             &joint == &joints.front() ||
+             (*(&joint - 1))->surface != joint->surface;
+    }
+
+    template <int dim>
+    std::string
+    name_in_file(const Joint<dim> &joint)
+    {
+      return joint.form == JointForm::physical_group ? joint.surface
+                                                     : joint.name;
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   note_joints(ParameterHandler &prm,
@@ -277,7 +301,8 @@ namespace Keyblock
   {
     std::string names;
     for (const auto &joint : joints)
-      names += (names.empty() ? "" : ", ") + joint->name;
+      if (is_written(joint, joints))
+        names += (names.empty() ? "" : ", ") + name_in_file(*joint);
     prm.enter_subsection("Joints");
     prm.set("Names", names);
     prm.set("Resolved", true);
@@ -324,19 +349,31 @@ namespace Keyblock
       if (!value.empty())
         text += "    set " + name + " = " + value + "\n";
     };
+    const auto add_plane = [&](const Joint<dim> &joint) {
+      std::string vertices;
+      for (const Point<dim> &vertex : joint.vertices)
+        vertices += (vertices.empty() ? "" : "; ") + list(vertex, dim);
+      add("Point", list(joint.point, dim));
+      add("Normal", list(joint.normal_entry, joint.normal_entry.size()));
+      add("Dip", exact_text(joint.dip));
+      add("Dip direction", exact_text(joint.dip_direction));
+      add("Extent", name_of(joint.extent));
+      add("Radius", exact_text(joint.radius));
+      add("Vertices", vertices);
+      add("Surface", joint.surface);
+    };
     for (const auto &joint : joints)
       {
-        std::string vertices;
-        for (const Point<dim> &vertex : joint->vertices)
-          vertices += (vertices.empty() ? "" : "; ") + list(vertex, dim);
-        text += "  subsection " + joint->name + "\n";
-        add("Point", list(joint->point, dim));
-        add("Normal", list(joint->normal_entry, joint->normal_entry.size()));
-        add("Dip", exact_text(joint->dip));
-        add("Dip direction", exact_text(joint->dip_direction));
-        add("Extent", name_of(joint->extent));
-        add("Radius", exact_text(joint->radius));
-        add("Vertices", vertices);
+        if (!is_written(joint, joints))
+          continue;
+        text += "  subsection " + name_in_file(*joint) + "\n";
+        if (joint->form == JointForm::plane)
+          add_plane(*joint);
+        else
+          {
+            add("Shape", name_of(joint->form));
+            add("Group", joint->group);
+          }
         add("Friction angle", exact_text(joint->friction_angle));
         add("Kinetic friction angle",
             exact_text(joint->kinetic_friction_angle));

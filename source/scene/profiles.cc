@@ -64,11 +64,28 @@ namespace Keyblock
       prm.leave_subsection();
     }
 
+
+
+    /** Chords of a crown if no number is given: as long as the edges that
+     * are cut into cells there, since shorter ones make needles beside them.
+     * @p cell: size of cells there [m]; 0: not known. */
+    unsigned int
+    number_of_chords(const double arc, const double cell)
+    {
+      constexpr unsigned int fewest = 6, most = 24;
+      constexpr double cells_along = 2.;
+      if (cell == 0.)
+        return most;
+      return std::clamp(static_cast<unsigned int>(arc / (cells_along * cell)),
+                        fewest,
+                        most);
+    }
+
     /** Corners of an excavation's section, counterclockwise from the left end
-     * of the floor. */
+     * of the floor. @p cell: as in number_of_chords() */
     template <int dim>
     Polygon
-    section_of(const Excavation<dim> &e)
+    section_of(const Excavation<dim> &e, const double cell)
     {
       const double half = 0.5 * e.width;
       const double rise = e.shape == ExcavationShape::rectangle   ? 0.
@@ -82,9 +99,12 @@ namespace Keyblock
         {
           const double radius = 0.5 * (half * half / rise + rise);
           const double angle  = std::asin(std::min(1., half / radius));
-          for (unsigned int i = 1; i < e.segments; ++i)
+          const unsigned int n =
+            e.segments > 0 ? e.segments
+                           : number_of_chords(2. * angle * radius, cell);
+          for (unsigned int i = 1; i < n; ++i)
             {
-              const double a = angle * (1. - 2. * i / e.segments);
+              const double a = angle * (1. - 2. * i / n);
               corners.emplace_back(x + radius * std::sin(a),
                                    y + e.height - radius * (1. - std::cos(a)));
             }
@@ -234,7 +254,10 @@ namespace Keyblock
             expanded.push_back(std::move(e));
             continue;
           }
-        const Polygon section = section_of(*e);
+        const double cell     = meshing.size_at_excavation > 0.
+                                  ? meshing.size_at_excavation
+                                  : (meshing.cells_across > 0. ? 0. : meshing.size);
+        const Polygon section = section_of(*e, cell);
         double high           = e->center[1] + e->height;
         for (unsigned int i = 0; i <= e->bench_levels.size(); ++i)
           {

@@ -7,6 +7,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
+#include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/joints.h>
 #include <keyblock/scene/shape_files.h>
 #include <keyblock/scene/text.h>
@@ -140,7 +141,8 @@ namespace Keyblock
   {
     std::vector<unsigned int> found;
     for (unsigned int j = 0; j < joints.size(); ++j)
-      if (joints[j]->name == name || joints[j]->set == name)
+      if (joints[j]->name == name || joints[j]->set == name ||
+          joints[j]->surface == name)
         found.push_back(j);
     return found;
   }
@@ -219,6 +221,7 @@ namespace Keyblock
     check_domain(*this);
     read_shape_files(communicator, *this);
     joints = make_joints(*this, read_names(names, "Joints"), text);
+    make_facets(communicator, *this);
     note_joints(*prm, joints);
     for (const auto &stage : stages)
       stage->complete();

@@ -27,9 +27,8 @@ namespace Keyblock
      * is doubted [-]. */
     constexpr double least_part = 1e-3;
 
-    /** Cells follow each triangle: more of them take long, and no excavation
-     * asks for them. */
-    constexpr unsigned int most_triangles = 20000;
+    /** Chords of half a circle in a drawing if no number is given. */
+    constexpr unsigned int default_segments = 24;
 
     template <int dim>
     class ShapeFileReader
@@ -154,7 +153,10 @@ namespace Keyblock
           origin[d] = scene.domain.origin[d];
         if (dim == 2)
           {
-            outline = read_dxf_outline(text, excavation.segments);
+            outline =
+              read_dxf_outline(text,
+                               excavation.segments > 0 ? excavation.segments
+                                                       : default_segments);
             for (Point<2> &p : outline)
               p = Point<2>(excavation.scale * p[0] - origin[0],
                            excavation.scale * p[1] - origin[1]);
@@ -162,11 +164,6 @@ namespace Keyblock
         else if (is_stl(suffix))
           {
             TriangleSurface surface = read_stl(text);
-            if (surface.triangles.size() > most_triangles)
-              throw std::runtime_error(
-                "it has " + std::to_string(surface.triangles.size()) +
-                " triangles, more than " + std::to_string(most_triangles) +
-                ", each of which cells would follow: make them larger");
             for (Point<3> &p : surface.vertices)
               p = Point<3>(excavation.scale * p - origin);
             surfaces = surface.components();

@@ -111,6 +111,18 @@ namespace Keyblock
 
 
 
+  void
+  require_few_triangles(const TriangleSurface &surface)
+  {
+    if (surface.triangles.size() > most_triangles)
+      throw std::runtime_error(
+        "it has " + std::to_string(surface.triangles.size()) +
+        " triangles, more than " + std::to_string(most_triangles) +
+        ", each of which cells would follow: make them larger");
+  }
+
+
+
   TriangleSurface
   read_stl(const std::string &text)
   {
@@ -123,6 +135,7 @@ namespace Keyblock
       is_binary ? read_binary_stl(text) : read_ascii_stl(text);
     if (surface.triangles.empty())
       throw std::runtime_error("it has no triangles");
+    require_few_triangles(surface);
     Point<3> low = surface.vertices[0], high = low;
     for (const Point<3> &p : surface.vertices)
       for (unsigned int d = 0; d < 3; ++d)

@@ -42,6 +42,19 @@ namespace Keyblock
       return false;
     }
 
+    /** Where an edge is, and of how many triangles, for messages. */
+    std::string
+    describe(const std::vector<Point<3>> &vertices,
+             const Edge &edge,
+             const unsigned int n_triangles)
+    {
+      std::ostringstream text;
+      text << " at the edge from (" << vertices[edge.first] << ") to ("
+           << vertices[edge.second] << ") m, where it has " << n_triangles
+           << (n_triangles == 1 ? " triangle" : " triangles");
+      return text.str();
+    }
+
     /** Turn @p triangles as the first of each connected part; whether that can
      * be. */
     bool
@@ -62,9 +75,11 @@ namespace Keyblock
               front.pop_back();
               for (unsigned int i = 0; i < 3; ++i)
                 {
-                  const Edge edge  = TriangleSurface::edge_of(triangles[t], i);
-                  const auto &two  = at_edge.at(edge);
-                  const auto other = two[0] == t ? two[1] : two[0];
+                  const Edge edge = TriangleSurface::edge_of(triangles[t], i);
+                  const auto &two = at_edge.at(edge);
+                  if (two.size() < 2)
+                    continue;
+                  const auto other    = two[0] == t ? two[1] : two[0];
                   const bool is_alike = goes_along(triangles[t], edge) !=
                                         goes_along(triangles[other], edge);
                   if (is_turned[other] && !is_alike)
@@ -119,23 +134,30 @@ namespace Keyblock
 
 
   std::string
-  TriangleSurface::orient()
+  TriangleSurface::align()
   {
     if (triangles.empty())
       return "has no triangles";
     const auto at_edge = list_edges(triangles);
     for (const auto &[edge, list] : at_edge)
-      if (list.size() != 2)
-        {
-          std::ostringstream text;
-          text << (list.size() == 1 ? "is open" : "branches")
-               << " at the edge from (" << vertices[edge.first] << ") to ("
-               << vertices[edge.second] << ") m, where it has " << list.size()
-               << (list.size() == 1 ? " triangle" : " triangles");
-          return text.str();
-        }
-    if (!turn_alike(triangles, at_edge))
-      return "has one side only, like a Moebius strip";
+      if (list.size() > 2)
+        return "branches" + describe(vertices, edge, list.size());
+    return turn_alike(triangles, at_edge)
+             ? ""
+             : "has one side only, like a Moebius strip";
+  }
+
+
+
+  std::string
+  TriangleSurface::orient()
+  {
+    for (const auto &[edge, list] : list_edges(triangles))
+      if (list.size() == 1)
+        return "is open" + describe(vertices, edge, 1);
+    const std::string fault = align();
+    if (!fault.empty())
+      return fault;
     if (volume() < 0.)
       for (Triangle &t : triangles)
         std::swap(t[0], t[1]);

@@ -305,6 +305,70 @@ def too_many_triangles():
             "it has 20001 triangles, more than 20000")
 
 
+def surface_of_many_triangles():
+    """A million of them, a binary file of 50 MB."""
+    n = 10**6
+    triangle = struct.pack("<12fH", *([0.] * 3 + [0., 0., 0., 1., 0., 0., 0., 1., 0.]), 0)
+    with open("many.stl", "wb") as file:
+        file.write(b" " * 80 + struct.pack("<I", n) + triangle * n)
+    refused(validate(PRM / "verification" / "incline_3d.prm",
+                     ["Joints/base/Shape=file",
+                      f"Joints/base/File={pathlib.Path('many.stl').resolve()}"]),
+            "it has 1000000 triangles, more than 20000")
+
+
+def joint_group_missing():
+    """A physical group that the mesh file has not, or whose faces are no cells'."""
+    text = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 1 "fault"
+2 2 "rock"
+$EndPhysicalNames
+$Nodes
+6
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 2 0 0
+6 2 1 0
+$EndNodes
+$Elements
+3
+1 3 2 2 2 1 2 3 4
+2 3 2 2 2 2 5 6 3
+3 1 2 1 1 ENDS
+$EndElements
+"""
+    scene = """set Dimension = 2
+subsection Domain
+set Shape = file
+set File = a.msh
+end
+subsection Mesh
+set Generator = file
+end
+subsection Joints
+set Names = fault
+subsection fault
+set Shape = physical group
+end
+end
+subsection Materials
+set Names = rock
+end
+"""
+    pathlib.Path("a.prm").write_text(scene, encoding="utf-8")
+    pathlib.Path("a.msh").write_text(text.replace("ENDS", "2 3"), encoding="utf-8")
+    refused(validate("a.prm", ["Joints/fault/Group=clay"]),
+            "it has no physical group 'clay' of dimension 1 (there are: fault)")
+    pathlib.Path("a.msh").write_text(text.replace("ENDS", "1 3"), encoding="utf-8")
+    refused(validate("a.prm"), "but no cell has that face")
+
+
 def joints_welded():
     valid(validate(INCLINE, ["Domain/Truncated boundaries=all"]),
           "All joints stay welded, with 0 pairs")

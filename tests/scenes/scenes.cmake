@@ -313,3 +313,10 @@ endforeach()
 keyblock_scene(verification/blocks_e3a REFERENCES blocks_e3a_dxf RANKS 1 2
   SET "Excavations/opening/Shape=file" "Excavations/opening/Scale=0.001"
   "Excavations/opening/File=${CMAKE_CURRENT_SOURCE_DIR}/shapes/opening.dxf")
+
+# bent joints: from points, from a drawing in millimetres, and from triangles
+keyblock_scene(verification/kinked_joint RANKS 1 2)
+keyblock_scene(verification/kinked_joint REFERENCES kinked_joint_dxf RANKS 1
+  SET "Joints/fault/Shape=file" "Joints/fault/Vertices=" "Joints/fault/Scale=0.001"
+  "Joints/fault/File=${CMAKE_CURRENT_SOURCE_DIR}/shapes/kinked.dxf")
+keyblock_scene(verification/slip_circle RANKS 1)

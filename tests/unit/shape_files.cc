@@ -12,6 +12,7 @@
 #include <keyblock/mesh/mesh.h>
 #include <keyblock/mesh/polyhedron.h>
 #include <keyblock/scene/dxf.h>
+#include <keyblock/scene/plane_faces.h>
 #include <keyblock/scene/solid_file.h>
 
 #include <algorithm>
@@ -292,7 +293,7 @@ BOOST_AUTO_TEST_CASE(triangles_bound_a_body)
       const auto faces = list_faces(surface);
       BOOST_TEST(faces.size() == 8u);
       unsigned int n_corners = 0;
-      for (const PolyhedronFace &face : faces)
+      for (const PlaneFace &face : faces)
         {
           BOOST_TEST(face.loops.size() == 1u);
           n_corners += face.loops[0].size();

@@ -77,6 +77,10 @@ namespace Keyblock
   Mesh<dim> cut_mesh(const MixedMesh &mixed,
                      const std::string &origin,
                      const std::string &remedy);
+
+  /** Marked faces that are facets of no cell. */
+  template <int dim>
+  std::vector<MixedMesh::Element> loose_faces(const MixedMesh &mixed);
 } // namespace Keyblock
 
 #endif

@@ -2,27 +2,42 @@
 #ifndef keyblock_mesh_joint_cut_steps_h
 #define keyblock_mesh_joint_cut_steps_h
 
+#include <keyblock/mesh/joint_sheet.h>
 #include <keyblock/mesh/report.h>
 #include <keyblock/mesh/simplex_mesh.h>
-#include <keyblock/scene/joint_extent.h>
 
 #include <vector>
 
 namespace Keyblock
 {
+  /** All joints of a scene, those that are cut as a whole together. */
+  template <int dim>
+  struct JointSheets
+  {
+    std::vector<std::unique_ptr<const JointSheet<dim>>> sheets;
+    std::vector<unsigned int> sheet_of_joint; ///< by index of the joint
+
+    const JointSheet<dim> &
+    of_joint(const unsigned int joint) const
+    {
+      return *sheets[sheet_of_joint[joint]];
+    }
+  };
+
   // The steps of cut_joints(). All lengths over the target size.
 
   /** How far a joint may end before another surface and still close against
    * it. */
   constexpr double closing = 0.35;
 
-  /** Cut one joint, index @p surface into SimplexMesh::surfaces, into @p mesh:
-   * move vertices nearer than @p snap onto it, bisect the edges that it
-   * crosses, mark the facets between its two sides. */
+  /** Cut one joint, plane or bent, into @p mesh: move vertices nearer than
+   * @p snap onto it, bisect the edges that it crosses, mark the facets between
+   * its two sides. The surface of its facet i is @p surface + i of
+   * SimplexMesh::surfaces. */
   template <int dim>
   void insert_joint(SimplexMesh<dim> &mesh,
                     const unsigned int surface,
-                    const JointExtent<dim> &extent,
+                    const JointSheet<dim> &sheet,
                     const double snap);
 
   /**
@@ -30,11 +45,10 @@ namespace Keyblock
    * other surfaces: a patch mostly outside (a flap behind the surface that the
    * joint ends on) goes as a whole, unless none is larger inside; of the others
    * each facet stays whose centre is inside, and beside another surface also
-   * those that close a small gap. @p extents: by index of the joint.
+   * those that close a small gap. @p sheets: of all joints.
    */
   template <int dim>
-  void trim_joints(SimplexMesh<dim> &mesh,
-                   const std::vector<JointExtent<dim>> &extents);
+  void trim_joints(SimplexMesh<dim> &mesh, const JointSheets<dim> &sheets);
 
   /** Let pieces below a part of a cell join the neighbour with which they share
    * most area of joints, until there are none; they are counted in @p report.

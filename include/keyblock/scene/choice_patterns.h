@@ -69,6 +69,10 @@ namespace dealii::Patterns::Tools
     : Keyblock::ChoiceConversion<Keyblock::StudyLevel>
   {};
   template <>
+  struct Convert<Keyblock::JointForm>
+    : Keyblock::ChoiceConversion<Keyblock::JointForm>
+  {};
+  template <>
   struct Convert<Keyblock::JointShape>
     : Keyblock::ChoiceConversion<Keyblock::JointShape>
   {};

@@ -89,6 +89,21 @@ namespace Keyblock
                                                            "file"}};
   };
 
+  /** What a joint is: a plane, or a surface of several plane facets. */
+  enum class JointForm
+  {
+    plane,
+    polyline,
+    file,
+    physical_group
+  };
+  template <>
+  struct ChoiceNames<JointForm>
+  {
+    static constexpr std::array<const char *, 4> names = {
+      {"plane", "polyline", "file", "physical group"}};
+  };
+
   /** Extent of a joint within its plane. */
   enum class JointShape
   {

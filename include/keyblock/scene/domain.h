@@ -83,7 +83,7 @@ namespace Keyblock
     double width          = 0.;
     double height         = 0.;
     double rise           = 0.;
-    unsigned int segments = 24;
+    unsigned int segments = 0; ///< 0: by the size of cells
     std::vector<double> bench_levels;
     std::vector<std::string> bench_stages;
     double from = 0.;

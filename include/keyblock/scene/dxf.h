@@ -4,6 +4,8 @@
 
 #include <deal.II/base/point.h>
 
+#include <keyblock/scene/solid.h>
+
 #include <string>
 #include <vector>
 
@@ -18,6 +20,15 @@ namespace Keyblock
    */
   std::vector<dealii::Point<2>> read_dxf_outline(const std::string &text,
                                                  const unsigned int n_chords);
+
+  /** The lines in such a drawing, open or closed, each as its points. */
+  std::vector<std::vector<dealii::Point<2>>>
+  read_dxf_paths(const std::string &text, const unsigned int n_chords);
+
+  /** The triangles of the 3DFACEs in the text of a drawing, ASCII DXF, in its
+   * unit, four corners as two triangles; vertices that coincide are one.
+   * Throws std::runtime_error with what is wrong. */
+  TriangleSurface read_dxf_faces(const std::string &text);
 } // namespace Keyblock
 
 #endif

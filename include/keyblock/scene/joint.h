@@ -22,7 +22,12 @@ namespace Keyblock
   using dealii::Point;
   using dealii::Tensor;
 
-  /** A plane of weakness: where it is and how strong it is. */
+  /**
+   * A plane of weakness: where it is and how strong it is. One that is bent or
+   * kinked (its form is not plane) becomes a joint for each of its plane facets
+   * before anything is made of it (make_facets()); the facets have its strength
+   * and name it as their surface.
+   */
   template <int dim>
   struct Joint : public JointStrength
   {
@@ -36,6 +41,12 @@ namespace Keyblock
     JointShape extent    = JointShape::infinite;
     double radius        = 0.;
     std::vector<Point<dim>> vertices;
+    JointForm form = JointForm::plane;
+    std::string file;           ///< of its triangles or lines
+    double scale          = 1.; ///< length of the file's unit [m]
+    unsigned int segments = 24; ///< chords in half a circle of the file
+    std::string group;          ///< physical group; empty: that of its name
+    std::string surface; ///< the joint of which it is a facet; empty: none
 
     /** Unit normal, pointing up (to +x for a vertical joint): minus to plus. */
     Tensor<1, dim> normal() const;

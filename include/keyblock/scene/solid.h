@@ -40,6 +40,11 @@ namespace Keyblock
      * they do. */
     std::string orient();
 
+    /** Turn triangles as their neighbours, also of an open surface. Returns why
+     * that cannot be: an edge with more than two triangles, or one side only;
+     * empty if it can. */
+    std::string align();
+
     /** Parts that are not connected by edges. */
     std::vector<TriangleSurface> components() const;
 

@@ -12,6 +12,13 @@ namespace Keyblock
   /** Whether a file is one of triangles, .stl. */
   bool is_stl(const std::string &path);
 
+  /** Cells follow each triangle of a file: more of them take long, and neither
+   * excavations nor joints ask for them. */
+  constexpr unsigned int most_triangles = 20000;
+
+  /** Throws std::runtime_error for more than that. */
+  void require_few_triangles(const TriangleSurface &surface);
+
   /** The triangles in the text of an .stl file, ASCII or binary, in its unit,
    * vertices that coincide being one. Throws std::runtime_error with what is
    * wrong. */

@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Bent joints against planes: the same blocks have to come out.
+
+usage: surfaces.py KEYBLOCK PRM FOLDER CASE
+
+CASE is the name of a function below, which writes two scenes, or one with two
+sets of entries, and compares volumes and limit equilibrium of their blocks.
+"""
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+KEYBLOCK, PRM, FOLDER = (pathlib.Path(a).resolve() for a in sys.argv[1:4])
+
+
+def blocks(scene, name, settings):
+    """Blocks of a scene, largest first, and what was printed."""
+    output = FOLDER / name
+    command = [str(KEYBLOCK), str(scene), "--output", str(output)]
+    for entry in settings:
+        command += ["--set", entry]
+    run = subprocess.run(command, capture_output=True, text=True, check=False)
+    print(run.stdout[-3000:], run.stderr)
+    assert run.returncode == 0, run.returncode
+    summary = json.loads((output / "summary.json").read_text(encoding="utf-8"))
+    return sorted(summary["blocks"], key=lambda b: -b["volume"]), run.stdout
+
+
+def close(a, b, tolerance, what):
+    assert abs(a - b) <= tolerance * abs(b), f"{what}: {a} is not {b}"
+
+
+def same(found, expected, tolerance=1e-9):
+    """As many blocks, with the same volumes, modes and factors."""
+    assert len(found) == len(expected) > 0, f"{len(found)} blocks, not {len(expected)}"
+    for a, b in zip(found, expected):
+        assert ("exact_volume" in a) == ("exact_volume" in b)
+        # the rest, around a block that the mesh has bent, is bent too
+        is_bent = "exact_volume" not in a and any("exact_volume" in c for c in found)
+        close(a.get("exact_volume", a["volume"]), b.get("exact_volume", b["volume"]),
+              1e-3 if is_bent else tolerance, "volume")
+        assert a["removable"] == b["removable"]
+        for x, y in zip(a.get("limit_equilibrium", []), b.get("limit_equilibrium", [])):
+            print(x, y)
+            assert x["outcome"] == y["outcome"] and x["mode"].split(" ")[0] == \
+                y["mode"].split(" ")[0], f"{x} is not {y}"
+            close(x.get("value", 1.), y.get("value", 1.), tolerance, "factor")
+
+
+def stl(triangles):
+    """ASCII STL of triangles, each three points."""
+    lines = ["solid surface"]
+    for triangle in triangles:
+        lines += ["facet normal 0 0 0", "outer loop"]
+        lines += ["vertex " + " ".join(f"{x:.17g}" for x in p) for p in triangle]
+        lines += ["endloop", "endfacet"]
+    return "\n".join(lines + ["endsolid surface", ""])
+
+
+def plane_square(point, dip, direction, half, pieces):
+    """Triangles of a square on a plane, in pieces x pieces parts."""
+    a, b = math.radians(dip), math.radians(direction)
+    down = (math.sin(b) * math.cos(a), math.cos(b) * math.cos(a), -math.sin(a))
+    strike = (math.cos(b), -math.sin(b), 0.)
+
+    def place(i, j):
+        u, v = (2. * i / pieces - 1.) * half, (2. * j / pieces - 1.) * half
+        return [p + u * d + v * s for p, d, s in zip(point, down, strike)]
+
+    triangles = []
+    for i in range(pieces):
+        for j in range(pieces):
+            a, b, c, d = place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)
+            triangles += [(a, b, c), (a, c, d)]
+    return triangles
+
+
+def msh(points, cells, groups):
+    """MSH 2.2; groups: {name: (dimension, number, elements)}, cells being the last."""
+    kinds = {(1, 2): 1, (2, 4): 3, (3, 8): 5}
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(groups))]
+    lines += [f'{d} {n} "{name}"' for name, (d, n, _) in groups.items()]
+    lines += ["$EndPhysicalNames", "$Nodes", str(len(points))]
+    lines += [f"{i + 1} " + " ".join(f"{x:.17g}" for x in p) for i, p in enumerate(points)]
+    elements = [(d, n, e) for d, n, list_ in groups.values() for e in list_]
+    lines += ["$EndNodes", "$Elements", str(len(elements))]
+    lines += [f"{i + 1} {kinds[d, len(e)]} 2 {n} {n} " + " ".join(str(v + 1) for v in e)
+              for i, (d, n, e) in enumerate(elements)]
+    return "\n".join(lines + ["$EndElements", ""])
+
+
+def grid(sizes):
+    """Points and cells of unit squares or cubes, corners as Gmsh orders them."""
+    dim = len(sizes)
+    counts = [s + 1 for s in sizes] + [1] * (3 - dim)
+
+    def number(x):
+        x = list(x) + [0] * (3 - dim)
+        return (x[2] * counts[1] + x[1]) * counts[0] + x[0]
+
+    points = [(x, y, z) for z in range(counts[2]) for y in range(counts[1])
+              for x in range(counts[0])]
+    around = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    corners = around if dim == 2 else [(*c, z) for z in (0, 1) for c in around]
+    origins = [p for p in points if all(p[d] < sizes[d] for d in range(dim))]
+    cells = [[number([o[d] + c[d] for d in range(dim)]) for c in corners] for o in origins]
+    return points, cells, number
+
+
+def scene_in_file(dim, joints, gravity):
+    """A corner block on faces of a mesh file, tilted so that it slides to +x."""
+    names = ", ".join(joints)
+    bodies = "".join(f"subsection {name}\n" + "".join(f"set {e}\n" for e in entries) + "end\n"
+                     for name, entries in joints.items())
+    truncated = "id ground"
+    return f"""set Dimension = {dim}
+subsection Domain
+set Shape = file
+set File = grid_{dim}.msh
+set Truncated boundaries = {truncated}
+end
+subsection Mesh
+set Generator = file
+end
+subsection Joints
+set Names = {names}
+{bodies}end
+subsection Materials
+set Names = rock
+end
+subsection Supports
+set Names = ground
+subsection ground
+set Boundaries = {truncated}
+end
+end
+subsection Initial state
+set Gravity = {gravity}
+end
+subsection Stages
+set Names = rest
+subsection rest
+set Kind = quasi-static
+set Unbalanced ratio = 1e-3
+end
+end
+subsection Safety factor
+set Blocks = all
+set Bracket = 0.1
+end
+"""
+
+
+def mapped(point, dim):
+    """A grid's point in a sheared grid, so that no face is along an axis."""
+    x, y, z = point
+    if dim == 2:
+        return x + 0.2 * y, y - 0.1 * x, 0.
+    return x + 0.2 * z, y + 0.1 * x, z - 0.1 * y - 0.05 * x
+
+
+def physical_groups(dim):
+    """Faces between the cells of a block and the rest as a group, or as planes."""
+    sizes, low = ((8, 4), (4, 2)) if dim == 2 else ((4, 3, 3), (2, 1, 1))
+    points, cells, number = grid(sizes)
+    faces, ground, planes = [], [], {}
+    around = [(0,), (1,)] if dim == 2 else [(0, 0), (1, 0), (1, 1), (0, 1)]
+    for axis in range(dim):
+        others = [d for d in range(dim) if d != axis]
+
+        def at(values, place, axis=axis, others=others):
+            x = [place] * dim
+            for d, value in zip(others, values):
+                x[d] = value
+            return x
+
+        for list_, place, start in ((faces, low[axis], low), (ground, 0, [0] * dim)):
+            spans = [[]]
+            for d in others:
+                spans = [s + [i] for s in spans for i in range(start[d], sizes[d])]
+            for origin in spans:
+                list_.append([number(at([o + c for o, c in zip(origin, corner)], place))
+                              for corner in around])
+        ends = [[(low, sizes)[c][d] for c, d in zip(corner, others)] for corner in around]
+        corners = [mapped((at(e, low[axis]) + [0])[:3], dim)[:dim] for e in ends]
+        planes[f"plane {axis}"] = ["Extent = polygon", "Vertices = " + "; ".join(
+            ", ".join(f"{x:.17g}" for x in p) for p in corners)]
+    points = [mapped(p, dim) for p in points]
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    # every other face turned round: its sides must not matter
+    faces = [f if i % 2 else f[::-1] for i, f in enumerate(faces)]
+    (FOLDER / f"grid_{dim}.msh").write_text(
+        msh(points, cells, {"slip": (dim - 1, 7, faces), "ground": (dim - 1, 9, ground),
+                              "rock": (dim, 8, cells)}),
+        encoding="utf-8")
+    gravity = "3; -9" if dim == 2 else "3; 1; -9"
+    results = []
+    for name, joints in (("planes", planes), ("group", {"slip": ["Shape = physical group"]}),
+                         ("number", {"fault": ["Shape = physical group", "Group = 7"]})):
+        scene = FOLDER / f"{name}_{dim}.prm"
+        scene.write_text(scene_in_file(dim, joints, gravity), encoding="utf-8")
+        results.append(blocks(scene, f"{name}_{dim}", [])[0])
+    for found in results[1:]:
+        same(found, results[0])
+    # what used.prm says is the same scene
+    again = FOLDER / f"again_{dim}.prm"
+    again.write_text((FOLDER / f"number_{dim}" / "used.prm").read_text(encoding="utf-8"),
+                     encoding="utf-8")
+    same(blocks(again, f"again_{dim}", [])[0], results[0])
+
+
+def physical_groups_2d():
+    physical_groups(2)
+
+
+def physical_groups_3d():
+    physical_groups(3)
+
+
+def roof_wedge():
+    """A wedge of the roof whose three planes come from one file each."""
+    scene = PRM / "tutorial" / "roof_wedge.prm"
+    with open(PRM / "tutorial" / "roof_wedge.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    common = ["Mesh/Cells across blocks=0", "Mesh/Size=3", "Mesh/Size at excavation=1.5",
+              "Stages/dig/Kind=dynamic", "Stages/dig/Duration=1e-9",
+              "Stages/dig/Unbalanced ratio=0", "Stages/dig/Maximum steps=1",
+              "Initial state/Equilibrium=none", "Safety factor/Wanted=0.01",
+              "Safety factor/Lowest=0.009", "Output/Write VTU=false", "Joints/File="]
+    planes, surfaces = [], []
+    for row in rows:
+        name = row["name"]
+        point = [float(row[axis]) for axis in "xyz"]
+        dip, direction = float(row["dip"]), float(row["dip direction"])
+        strength = f"Joints/{name}/Friction angle={row['friction angle']}"
+        planes += [strength, f"Joints/{name}/Dip={dip}",
+                   f"Joints/{name}/Dip direction={direction}",
+                   f"Joints/{name}/Point={point[0]}, {point[1]}, {point[2]}"]
+        # one in parts, which lie in one plane
+        pieces = 3 if name == "J2" else 1
+        (FOLDER / f"{name}.stl").write_text(
+            stl(plane_square(point, dip, direction, 60., pieces)), encoding="utf-8")
+        surfaces += [strength, f"Joints/{name}/Shape=file",
+                     f"Joints/{name}/File={FOLDER / name}.stl"]
+    names = ["Joints/Names=" + ", ".join(row["name"] for row in rows)]
+    same(blocks(scene, "surfaces", common + names + surfaces)[0],
+         blocks(scene, "planes", common + names + planes)[0])
+
+
+if __name__ == "__main__":
+    globals()[sys.argv[4]]()
