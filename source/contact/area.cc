@@ -15,15 +15,6 @@ namespace Keyblock
      * in proportion: one that hovers would take it and let go in turns, and
      * stick and slip by that [-]. */
     constexpr double full_pressure = 0.1;
-
-    /** Joint, and two blocks in order. */
-    std::array<unsigned int, 3>
-    between(const unsigned int joint,
-            const unsigned int a,
-            const unsigned int b)
-    {
-      return {{joint, std::min(a, b), std::max(a, b)}};
-    }
   } // namespace
 
 
@@ -128,105 +119,6 @@ namespace Keyblock
 
 
   template <int dim>
-  bool
-  ContactAreas<dim>::has_opened(const unsigned int node,
-                                const unsigned int joint) const
-  {
-    const unsigned int g = topology.group_of_node[node];
-    if (g == none)
-      return false;
-    const unsigned int v = surface.vertex_of_node[node];
-    for (unsigned int p = interface.group_pairs_begin[g];
-         p < interface.group_pairs_begin[g + 1];
-         ++p)
-      if (memory.state[p].has_opened && interface.pairs[p].joint == joint &&
-          (interface.pairs[p].minus == v || interface.pairs[p].plus == v))
-        return true;
-    return false;
-  }
-
-
-
-  template <int dim>
-  bool
-  ContactAreas<dim>::has_pair(const unsigned int node,
-                              const unsigned int joint,
-                              const unsigned int block) const
-  {
-    const unsigned int g = topology.group_of_node[node];
-    if (g == none)
-      return false;
-    const unsigned int v = surface.vertex_of_node[node];
-    for (unsigned int p = interface.group_pairs_begin[g];
-         p < interface.group_pairs_begin[g + 1];
-         ++p)
-      {
-        const Pair<dim> &pair = interface.pairs[p];
-        if (pair.joint != joint || memory.state[p].is_converted ||
-            memory.state[p].is_removed ||
-            memory.state[p].status == ContactStatus::open ||
-            (pair.minus != v && pair.plus != v))
-          continue;
-        const unsigned int partner = pair.minus == v ? pair.plus : pair.minus;
-        if (surface.is_on_block(surface.node_of_vertex[partner], block))
-          return true;
-      }
-    return false;
-  }
-
-
-
-  template <int dim>
-  auto
-  ContactAreas<dim>::list_footings() const -> std::vector<Footing>
-  {
-    std::vector<Footing> footings;
-    for (const SurfaceContact<dim> &contact : memory.contacts)
-      if (contact.joint != none && strength.needs_areas[contact.joint] &&
-          !contact.is_ridge)
-        footings.push_back(
-          {{contact.slave, contact.joint, contact.master_block}});
-    std::sort(footings.begin(), footings.end());
-    return footings;
-  }
-
-
-
-  template <int dim>
-  auto
-  ContactAreas<dim>::key_of(const FaceOverlap<dim> &overlap) const -> Footing
-  {
-    const SurfaceFace<dim> &slave  = interface.surface[overlap.slave_face];
-    const SurfaceFace<dim> &master = interface.surface[overlap.master_face];
-    return between(slave.joint, slave.block, master.block);
-  }
-
-
-
-  template <int dim>
-  bool
-  ContactAreas<dim>::share_between(const FaceOverlap<dim> &overlap,
-                                   const double area,
-                                   const std::vector<Footing> &bearing,
-                                   std::vector<AreaShare> &shares) const
-  {
-    return share_overlap(area,
-                         overlap.slave_face,
-                         interface.surface[overlap.master_face].block,
-                         overlap.slave_weight,
-                         bearing,
-                         shares) ||
-           share_overlap(area,
-                         overlap.master_face,
-                         interface.surface[overlap.slave_face].block,
-                         overlap.master_weight,
-                         bearing,
-                         shares);
-  }
-
-
-
-  template <int dim>
   void
   ContactAreas<dim>::share()
   {
@@ -238,43 +130,6 @@ namespace Keyblock
         is_shared    = true;
       }
     weigh_by_pressure();
-  }
-
-
-
-  template <int dim>
-  void
-  ContactAreas<dim>::distribute(const std::vector<Footing> &footings)
-  {
-    std::vector<AreaShare> shares;
-    std::map<Footing, std::array<double, 2>> areas; // with points, and without
-    for (const FaceOverlap<dim> &overlap : overlaps)
-      {
-        const double area = overlap.area * (1. - share_of_pairs(overlap, true));
-        const std::size_t n_before = shares.size();
-        const bool has_points = share_between(overlap, area, footings, shares);
-        areas[key_of(overlap)][has_points ? 0 : 1] += area;
-        for (std::size_t k = n_before; k < shares.size(); ++k)
-          shares[k].between = key_of(overlap);
-      }
-    // faces that have lifted a little, but not opened, lean on the others: what
-    // lies beside points that touch nothing is not lost
-    std::map<Footing, BearingPoint> by_footing;
-    std::map<Footing, unsigned int> side_pairs;
-    for (const AreaShare &part : shares)
-      {
-        const auto &[with, without] = areas[part.between];
-        const unsigned int side_pair =
-          side_pairs.try_emplace(part.between, side_pairs.size()).first->second;
-        BearingPoint &point = by_footing[part.footing];
-        point.footing       = part.footing;
-        point.side_pair     = side_pair;
-        point.area += part.area * (1. + without / with);
-      }
-    points.clear();
-    for (const auto &[footing, point] : by_footing)
-      points.push_back(point);
-    sums.assign(side_pairs.size(), {});
   }
 
 
@@ -318,24 +173,6 @@ namespace Keyblock
 
 
   template <int dim>
-  double
-  ContactAreas<dim>::share_of_pairs(const FaceOverlap<dim> &overlap,
-                                    const bool with_opened) const
-  {
-    const auto &surface_nodes = surface.nodes_of_face[overlap.slave_face];
-    const unsigned int joint  = interface.surface[overlap.slave_face].joint;
-    const unsigned int block  = interface.surface[overlap.master_face].block;
-    double sum                = 0.;
-    for (unsigned int k = 0; k < surface_nodes.size(); ++k)
-      if ((with_opened && has_opened(surface_nodes[k], joint)) ||
-          has_pair(surface_nodes[k], joint, block))
-        sum += overlap.slave_weight[k];
-    return std::min(sum, 1.);
-  }
-
-
-
-  template <int dim>
   void
   ContactAreas<dim>::average_pressure(const double kick)
   {
@@ -370,39 +207,6 @@ namespace Keyblock
   }
 
 
-
-  template <int dim>
-  bool
-  ContactAreas<dim>::share_overlap(
-    const double area,
-    const unsigned int face,
-    const unsigned int block,
-    const std::array<double, Mesh<dim>::n_face_vertices> &weight,
-    const std::vector<Footing> &bearing,
-    std::vector<AreaShare> &shares) const
-  {
-    const auto &surface_nodes = surface.nodes_of_face[face];
-    const unsigned int joint  = interface.surface[face].joint;
-    double sum                = 0.;
-    std::array<bool, Mesh<dim>::n_face_vertices> takes;
-    for (unsigned int k = 0; k < surface_nodes.size(); ++k)
-      {
-        takes[k] =
-          std::binary_search(bearing.begin(),
-                             bearing.end(),
-                             Footing{{surface_nodes[k], joint, block}}) &&
-          !has_opened(surface_nodes[k], joint) &&
-          !has_pair(surface_nodes[k], joint, block);
-        sum += takes[k] ? weight[k] : 0.;
-      }
-    if (sum <= 0.)
-      return false;
-    for (unsigned int k = 0; k < surface_nodes.size(); ++k)
-      if (takes[k])
-        shares.push_back(
-          {{{surface_nodes[k], joint, block}}, {}, area * weight[k] / sum});
-    return true;
-  }
 
   template class ContactAreas<2>;
   template class ContactAreas<3>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Compliant contact points (doc/theory.md, equation 33).
+// Compliant contact points (doc/theory.md, equation 36).
 #include <keyblock/contact/point_response.h>
 
 namespace Keyblock

@@ -248,7 +248,8 @@ namespace Keyblock::Python
                                            BlockGeometry<dim>{model.quality,
                                                               model.mesh_report,
                                                               model.blocks,
-                                                              model.split});
+                                                              model.split,
+                                                              {}});
   }
 
 

@@ -370,10 +370,8 @@ namespace Keyblock
         if (joint->form == JointForm::plane)
           add_plane(*joint);
         else
-          {
-            add("Shape", name_of(joint->form));
-            add("Group", joint->group);
-          }
+          add("Shape", name_of(joint->form));
+        add("Group", joint->group);
         add("Friction angle", exact_text(joint->friction_angle));
         add("Kinetic friction angle",
             exact_text(joint->kinetic_friction_angle));

@@ -18,7 +18,8 @@ namespace Keyblock
     MeshReport<dim> report; ///< on rank 0
     Blocks<dim> blocks;
     SplitMesh<dim> split;
-    std::vector<std::string> warnings; ///< warnings_of_coarse_mesh()
+    /** As warnings_of_coarse_mesh() gives them, by make_block_geometry(). */
+    std::vector<std::string> warnings;
   };
 
   /** Mesh the scene, find its blocks and split the mesh along their faces

@@ -6,7 +6,10 @@
 #include <keyblock/contact/strength.h>
 #include <keyblock/contact/surface_nodes.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
+#include <vector>
 
 namespace Keyblock
 {
@@ -90,6 +93,15 @@ namespace Keyblock
     /** Let points that hardly press give their parts to those that do. */
     void weigh_by_pressure();
 
+    /** Joint, and two blocks in order. */
+    static Footing
+    between(const unsigned int joint,
+            const unsigned int a,
+            const unsigned int b)
+    {
+      return {{joint, std::min(a, b), std::max(a, b)}};
+    }
+
     /** Joint and blocks of an overlap. */
     Footing key_of(const FaceOverlap<dim> &overlap) const;
 
@@ -114,6 +126,13 @@ namespace Keyblock
      * cohesion is gone there, pressure is not. */
     double share_of_pairs(const FaceOverlap<dim> &overlap,
                           const bool with_opened) const;
+
+    /** Whether a pair of a surface node on @p joint meets a condition of its
+     * state and its partner's vertex. */
+    template <typename Condition>
+    bool has_pair_that(const unsigned int node,
+                       const unsigned int joint,
+                       const Condition &condition) const;
 
     /** Whether the pair of a surface node on @p joint has opened. */
     bool has_opened(const unsigned int node, const unsigned int joint) const;
