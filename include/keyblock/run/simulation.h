@@ -137,7 +137,7 @@ namespace Keyblock
     Model<dim> model;
     std::string scene_file;
     std::vector<std::string> overrides; ///< of its entries
-    bool has_chosen_folder; ///< for output, by its user
+    bool has_chosen_folder;             ///< for output, by its user
     std::string folder;  ///< of output, with '/' at its end; empty: no output
     std::string command; ///< that starts this run anew
     std::string checkpoint; ///< to continue from, or empty
