@@ -21,7 +21,8 @@ JOINTS = {"J1": (60, 90, (1, 13), 5, 35),
 overrides = {"Mesh/Size at excavation": 0.6,
              "Joint sets/east/Spacing": 0,
              "Joint sets/west/Spacing": 0,
-             "Joints/Names": ", ".join(JOINTS)}
+             "Joints/Names": ", ".join(JOINTS),
+             "Excavations/tunnel/Segments": 24}
 for name, (dip, direction, point, radius, friction) in JOINTS.items():
     overrides.update({f"Joints/{name}/Dip": dip,
                       f"Joints/{name}/Dip direction": direction,
