@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(seal_sees_every_byte)
   BOOST_TEST(says(verdict(name, "words"), "is not a checkpoint"));
   BOOST_TEST(says(verdict(name, intact.substr(seal_length)), "of format 1"));
   BOOST_TEST(says(verdict(name, intact + "x"), "bytes instead of"));
-  std::string other = intact;
+  std::string other         = intact;
   const std::string present = "format " + std::to_string(state_format);
   other.replace(other.find(present),
                 present.size(),
