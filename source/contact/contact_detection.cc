@@ -159,7 +159,7 @@ namespace Keyblock
           memory.state[p] = all[p];
         if (strength.has_memory && !memory.is_surface_contact_group[g])
           memory.pair_histories[p] = histories[p];
-        if (strength.has_memory && converted[p] && !all[p].is_converted)
+        if (strength.has_memory && converted[p])
           history.pass_on(p);
         if (springs.are_any() && !memory.is_surface_contact_group[g])
           memory.pair_springs[p] = stretched[p];
