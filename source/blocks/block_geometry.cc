@@ -3,7 +3,6 @@
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/bolt_layout.h>
 #include <keyblock/blocks/liner_layout.h>
-#include <keyblock/blocks/mesh_fidelity.h>
 
 #include <tuple>
 
@@ -24,8 +23,6 @@ namespace Keyblock
     result.split        = split_mesh(mesh, result.blocks, scene);
     result.split.bolts  = lay_out_bolts(scene, result.split);
     result.split.liners = lay_out_liners(scene, result.split);
-    result.warnings =
-      warnings_of_coarse_mesh(scene, result.split, result.blocks);
     return result;
   }
 

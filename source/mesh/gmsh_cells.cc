@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The cells of Gmsh's model.
 #include <gmsh.h>
+#include <keyblock/base/gmsh_elements.h>
 #include <keyblock/mesh/cut.h>
 
 #include <cstddef>
@@ -54,24 +55,11 @@ namespace Keyblock
           for (std::size_t i = 1; i < groups.size(); ++i)
             others.push_back(std::abs(groups[i]));
 
-          std::vector<int> types;
-          std::vector<std::vector<std::size_t>> elements, nodes;
-          gmsh::model::mesh::getElements(
-            types, elements, nodes, entity_dimension, entity);
-          for (unsigned int t = 0; t < types.size(); ++t)
+          for (auto &corners : corners_of_elements(entity_dimension, entity))
             {
-              std::string name;
-              std::vector<double> reference_nodes;
-              int d, order, n_nodes, n_corners;
-              gmsh::model::mesh::getElementProperties(
-                types[t], name, d, order, n_nodes, reference_nodes, n_corners);
-              for (auto node = nodes[t].begin(); node != nodes[t].end();
-                   node += n_nodes)
-                {
-                  result.corners.emplace_back(node, node + n_corners);
-                  result.ids.push_back(id);
-                  result.other_ids.push_back(others);
-                }
+              result.corners.push_back(std::move(corners));
+              result.ids.push_back(id);
+              result.other_ids.push_back(others);
             }
         }
       return result;

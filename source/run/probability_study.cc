@@ -2,6 +2,7 @@
 // Samples of a scene, shared among the ranks and judged one by one.
 #include <keyblock/base/number_text.h>
 #include <keyblock/base/stop_request.h>
+#include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/run/probability_study.h>
 #include <keyblock/scene/check_parts.h>
 #include <keyblock/scene/entries.h>
@@ -114,9 +115,12 @@ namespace Keyblock
   ProbabilityStudy<dim>::make_geometry(const Scene<dim> &sample) const
   {
     // each rank for itself
-    return make_block_geometry(Communicator(MPI_COMM_SELF),
-                               sample,
-                               dealii::ConditionalOStream(std::cout, false));
+    BlockGeometry<dim> made =
+      make_block_geometry(Communicator(MPI_COMM_SELF),
+                          sample,
+                          dealii::ConditionalOStream(std::cout, false));
+    made.warnings = warnings_of_coarse_mesh(sample, made.split, made.blocks);
+    return made;
   }
 
 

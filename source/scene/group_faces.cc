@@ -2,6 +2,7 @@
 // Elements of a physical group in Gmsh's files.
 #include <gmsh.h>
 #include <keyblock/base/child_process.h>
+#include <keyblock/base/gmsh_elements.h>
 #include <keyblock/base/gmsh_session.h>
 #include <keyblock/scene/group_faces.h>
 
@@ -62,27 +63,12 @@ namespace Keyblock
                                   coordinates[3 * i + 2]);
       Faces faces;
       for (const int entity : entities_of(dimension, group))
-        {
-          std::vector<int> types;
-          std::vector<std::vector<std::size_t>> elements, nodes;
-          gmsh::model::mesh::getElements(
-            types, elements, nodes, dimension, entity);
-          for (unsigned int t = 0; t < types.size(); ++t)
-            {
-              std::string name;
-              std::vector<double> reference_nodes;
-              int d, order, n_nodes, n_corners;
-              gmsh::model::mesh::getElementProperties(
-                types[t], name, d, order, n_nodes, reference_nodes, n_corners);
-              for (std::size_t i = 0; i + n_nodes <= nodes[t].size();
-                   i += n_nodes)
-                {
-                  faces.emplace_back();
-                  for (int corner = 0; corner < n_corners; ++corner)
-                    faces.back().push_back(place.at(nodes[t][i + corner]));
-                }
-            }
-        }
+        for (const auto &corners : corners_of_elements(dimension, entity))
+          {
+            faces.emplace_back();
+            for (const std::size_t corner : corners)
+              faces.back().push_back(place.at(corner));
+          }
       if (faces.empty())
         throw std::runtime_error("its physical group '" + group +
                                  "' has no elements");

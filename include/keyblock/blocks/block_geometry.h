@@ -18,7 +18,7 @@ namespace Keyblock
     MeshReport<dim> report; ///< on rank 0
     Blocks<dim> blocks;
     SplitMesh<dim> split;
-    /** As warnings_of_coarse_mesh() gives them, by make_block_geometry(). */
+    /** warnings_of_coarse_mesh(), of those who ask for it. */
     std::vector<std::string> warnings;
   };
 
