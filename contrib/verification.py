@@ -56,6 +56,8 @@ def put_in_lists(text):
     """The text without set(NAME word...), the words in place of ${NAME}."""
     definition = re.compile(r'set\((\w+) ((?:"[^"]*"|[^")])*)\)\n')
     for name, words in definition.findall(text):
+        # within quotes of its own a word has lost those it was set with
+        text = text.replace(f"=${{{name}}}", f"={words.strip(chr(34))}")
         text = text.replace(f"${{{name}}}", words)
     return definition.sub("", text)
 
@@ -90,6 +92,7 @@ def read_tests():
     """All scene tests, one for each variant."""
     with open(f"{ROOT}/tests/scenes/scenes.cmake", encoding="utf-8") as file:
         text = put_in_lists(expand_loops(file.read()))
+    text = text.replace("${CMAKE_CURRENT_SOURCE_DIR}", f"{ROOT}/tests")
     # to the bracket that closes the call: quoted ones do not count
     calls = re.findall(r'keyblock_scene\(((?:"[^"]*"|[^")])*)\)',
                        re.sub(r"(?m)^\s*#.*", "", text))
