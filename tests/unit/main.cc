@@ -6,11 +6,18 @@
 
 #include <boost/test/included/unit_test.hpp>
 
+#include <filesystem>
+
 int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   dealii::deal_II_exceptions::disable_abort_on_exception();
+  // what tests write lies beside the program, wherever it is started from
+  const std::filesystem::path files =
+    std::filesystem::absolute(argv[0]).parent_path() / "unit_files";
+  std::filesystem::create_directories(files);
+  std::filesystem::current_path(files);
   const auto do_nothing = []() { return true; };
   return boost::unit_test::unit_test_main(do_nothing, argc, argv);
 }
