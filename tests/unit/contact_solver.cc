@@ -4,6 +4,8 @@
 
 #include <keyblock/contact/solver.h>
 
+#include <random>
+
 using namespace Keyblock;
 
 namespace
@@ -83,6 +85,70 @@ BOOST_AUTO_TEST_CASE(column_of_nodes)
   for (unsigned int i = 0; i < n; ++i)
     BOOST_TEST(std::abs(velocity[2 * i + 1]) < 1e-5);
   BOOST_TEST(std::abs(points[0].impulse[1] - (n - 1.)) < 1e-3);
+}
+
+// A node slides on two faces of much friction, as the edge of a wedge does: the
+// direction of slip turns by little in each sweep, and the sweeps go on until
+// the impulses agree with the law, however slow they are.
+BOOST_AUTO_TEST_CASE(node_on_two_rough_faces)
+{
+  std::mt19937 random(11);
+  const auto draw = [&](const double from, const double to) {
+    return std::uniform_real_distribution<>(from, to)(random);
+  };
+  unsigned int n_capped = 0, n_sliding = 0;
+  for (unsigned int trial = 0; trial < 3000; ++trial)
+    {
+      const double half_angle = draw(0.5, 1.3), roll = draw(-0.5, 0.5);
+      std::vector<ContactPoint<3>> points(2);
+      for (int side = 0; side < 2; ++side)
+        {
+          const double angle   = roll + (side == 0 ? 1. : -1.) * half_angle;
+          points[side].n_nodes = 2;
+          points[side].node    = {{0, 1}};
+          points[side].weight  = {{1., -1.}};
+          points[side].normal  = {{std::sin(angle), 0., std::cos(angle)}};
+          points[side].strength.static_friction = draw(0.3, 1.2);
+          points[side].strength.kinetic_friction =
+            points[side].strength.static_friction;
+        }
+      const Vector<3> start{{draw(-1., 1.), draw(0.3, 1.), draw(-1., -0.5)}};
+      std::vector<double> velocity{start[0], start[1], start[2], 0., 0., 0.};
+      const std::vector<double> inverse_mass{2., 0.};
+      const ContactNodes<3> nodes{velocity.data(),
+                                  inverse_mass.data(),
+                                  nullptr};
+      SolverSettings settings;
+      settings.step             = 1e-3;
+      settings.tolerance        = 1e-10;
+      const SolverReport report = solve_group<3>(
+        points, {points[0].strength, points[1].strength}, nodes, settings);
+      n_capped += report.is_capped;
+      double largest = 0.;
+      for (const ContactPoint<3> &point : points)
+        largest = std::max(largest, norm<3>(point.impulse));
+      for (const ContactPoint<3> &point : points)
+        {
+          // none goes into its face; what slides bears its strength against
+          // slip
+          const Vector<3> c = relative_velocity<3>(point, velocity.data());
+          BOOST_TEST(dot<3>(c, point.normal) > -1e-6);
+          if (report.is_capped || point.status != ContactStatus::sliding)
+            continue;
+          ++n_sliding;
+          const double pressure = dot<3>(point.impulse, point.normal);
+          const Vector<3> shear =
+            add<3>(point.impulse, -pressure, point.normal);
+          const double speed = norm<3>(c);
+          BOOST_TEST(std::abs(norm<3>(shear) - point.strength.kinetic_friction *
+                                                 pressure) < 1e-8 * largest);
+          if (speed > 1e-3)
+            BOOST_TEST(std::abs(dot<3>(shear, c) + norm<3>(shear) * speed) <
+                       1e-4 * largest * speed);
+        }
+    }
+  BOOST_TEST(n_sliding > 1000u);
+  BOOST_TEST(n_capped == 0u);
 }
 
 namespace
