@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/contact/impulse_extrapolation.h>
 #include <keyblock/contact/point_response.h>
 
 #include <algorithm>
@@ -97,13 +98,6 @@ namespace Keyblock
     // larger changes that do not shrink go round in circles, as points stick
     // and slide in turns: steps of this share end it
     constexpr double relaxation_of_cycles = 0.5;
-
-    // sweeps that shrink slowly, each the same way as the one before, are taken
-    // to their limit if the sweep after that changes less; tried that often, by
-    // so many sweeps at most
-    constexpr unsigned int extrapolation_interval = 8;
-    constexpr double slow_rate                    = 0.5;
-    constexpr double longest_extrapolation        = 1e4;
 
     // a point is visited again when a node of it has changed by this share of
     // what ends the sweeps
@@ -205,79 +199,6 @@ namespace Keyblock
       std::vector<unsigned int> touched;
     };
 
-    /** Limit of a geometric sequence of impulses (Aitken's, with the rate of
-     * the vectors), and the way back from it. */
-    template <int dim>
-    class Extrapolation
-    {
-    public:
-      Extrapolation(std::vector<ContactPoint<dim>> &points,
-                    const ContactNodes<dim> &nodes)
-        : points(points)
-        , nodes(nodes)
-      {}
-
-      /** A sweep has ended, the first one being 1. */
-      void
-      record(const unsigned int sweep)
-      {
-        const unsigned int phase = sweep % extrapolation_interval;
-        if (phase == 0 || phase + 2 >= extrapolation_interval)
-          {
-            std::vector<Vector<dim>> &kept =
-              impulses[phase == 0 ? 2 : phase + 2 - extrapolation_interval];
-            kept.resize(points.size());
-            for (unsigned int p = 0; p < points.size(); ++p)
-              kept[p] = points[p].impulse;
-          }
-      }
-
-      /** Move all points to the limit; whether there is one to move to. To be
-       * called after the sweeps that extrapolation_interval divides. */
-      bool
-      go()
-      {
-        double product = 0., square = 0.;
-        for (unsigned int p = 0; p < points.size(); ++p)
-          for (int d = 0; d < dim; ++d)
-            {
-              const double first = impulses[1][p][d] - impulses[0][p][d];
-              const double last  = impulses[2][p][d] - impulses[1][p][d];
-              product += first * last;
-              square += first * first;
-            }
-        if (product <= slow_rate * square || product >= square)
-          return false;
-        const double n_sweeps =
-          std::min(product / (square - product), longest_extrapolation);
-        for (unsigned int p = 0; p < points.size(); ++p)
-          move(p, n_sweeps, add<dim>(impulses[2][p], -1., impulses[1][p]));
-        return true;
-      }
-
-      /** Back to where go() started. */
-      void
-      undo()
-      {
-        for (unsigned int p = 0; p < points.size(); ++p)
-          move(p, 1., add<dim>(impulses[2][p], -1., points[p].impulse));
-      }
-
-    private:
-      std::vector<ContactPoint<dim>> &points;
-      const ContactNodes<dim> &nodes;
-      std::array<std::vector<Vector<dim>>, 3> impulses; ///< the last ones
-
-      void
-      move(const unsigned int p, const double factor, Vector<dim> change)
-      {
-        for (double &component : change)
-          component *= factor;
-        apply_impulse<dim>(points[p], change, nodes);
-        points[p].impulse = add<dim>(points[p].impulse, 1., change);
-      }
-    };
-
     /**
      * Sweep over the points until no node's momentum changes any more. That of
      * the nodes, not the impulses: where two points do the same, as two nodes
@@ -317,7 +238,7 @@ namespace Keyblock
           return report;
         }
       GroupNodes<dim> group(points, nodes);
-      Extrapolation<dim> extrapolation(points, nodes);
+      ImpulseExtrapolation<dim> extrapolation(points, nodes);
       bool is_extrapolated      = false;
       double change_before_leap = 0.;
       double earlier_change     = std::numeric_limits<double>::max();
@@ -338,14 +259,14 @@ namespace Keyblock
               (is_small && change <= creep_share * impulse_change))
             return report;
           if (is_extrapolated &&
-              report.n_iterations % extrapolation_interval == 2 &&
+              report.n_iterations % extrapolation.interval == 2 &&
               change > change_before_leap)
             {
               extrapolation.undo();
               group.renew();
             }
           extrapolation.record(report.n_iterations);
-          if (report.n_iterations % extrapolation_interval == 0)
+          if (report.n_iterations % extrapolation.interval == 0)
             {
               change_before_leap = change;
               is_extrapolated    = extrapolation.go();
