@@ -167,6 +167,10 @@ namespace Keyblock
     file.exchange(group + "ramp_duration", state.loads.ramp.duration);
     file.exchange(group + "ramp_progress", state.loads.ramp.progress);
     file.exchange(group + "ramp_pace", state.loads.ramp.pace);
+    file.exchange(group + "displacement_left", state.loads.displacement_left);
+    file.exchange(group + "displacement_ramped",
+                  state.loads.displacement_ramped);
+    file.exchange(group + "stage_begins", state.stage_begins);
     exchange_nodes(group + "out_of_balance_force",
                    state.loads.out_of_balance_force,
                    dim,

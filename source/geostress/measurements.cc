@@ -21,6 +21,29 @@ namespace Keyblock
     return names;
   }
 
+  namespace
+  {
+    /** Whether the words of a first line name columns: its places are no
+     * numbers. */
+    template <int dim>
+    bool
+    is_header(const std::vector<std::string> &words)
+    {
+      try
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            dealii::Utilities::string_to_double(words.at(d));
+          return false;
+        }
+      catch (const std::exception &)
+        {
+          return true;
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<Measurement<dim>>
   read_measurements(const Scene<dim> &scene)
@@ -37,10 +60,12 @@ namespace Keyblock
     std::string line;
     for (unsigned int number = 1; std::getline(in, line); ++number)
       {
-        if (number == 1 || line.empty() || line[0] == '#')
+        if (line.empty() || line[0] == '#')
           continue;
         const std::vector<std::string> words =
           dealii::Utilities::split_string_list(line, ',');
+        if (number == 1 && is_header<dim>(words))
+          continue;
         const auto complain = [&](const std::string &what) {
           AssertThrow(false,
                       InputError("Line " + std::to_string(number) + " of '" +

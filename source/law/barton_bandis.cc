@@ -84,6 +84,12 @@ namespace Keyblock
               "Cohesion",
               "or 'Tensile strength' is given, but a joint by the law "
               "barton-bandis has none; remove them.");
+      require(entries.friction_angle == JointStrength().friction_angle &&
+                entries.kinetic_friction_angle < 0.,
+              "Friction angle",
+              "or 'Kinetic friction angle' is given, but friction by the law "
+              "barton-bandis follows from 'JRC', 'JCS' and 'Residual friction "
+              "angle'; remove them.");
       return std::make_shared<const BartonBandis>(entries);
     }
   } // namespace

@@ -5,7 +5,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/law/joint_law.h>
 
-#include <tuple>
+#include <array>
 
 namespace Keyblock
 {
@@ -35,8 +35,17 @@ namespace Keyblock
   bool
   JointStrength::is_weaker_than(const JointStrength &other) const
   {
-    return std::tie(friction_angle, cohesion) <
-           std::tie(other.friction_angle, other.cohesion);
+    // by the tangent of its strength under common pressure, since friction
+    // falls with pressure by some laws
+    constexpr double common_pressure = 1e6; // [Pa]
+    const auto strength_of           = [](const JointStrength &joint) {
+      JointPointState state;
+      state.pressure                  = common_pressure;
+      const StrengthEnvelope strength = make_joint_law(joint)->envelope(state);
+      return std::array<double, 2>{
+        {strength.static_tangent, strength.cohesion}};
+    };
+    return strength_of(*this) < strength_of(other);
   }
 
 

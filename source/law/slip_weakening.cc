@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/angle.h>
 #include <keyblock/base/errors.h>
+#include <keyblock/base/number_text.h>
 #include <keyblock/law/dilation.h>
 #include <keyblock/law/slip_weakening.h>
 
@@ -80,6 +81,12 @@ namespace Keyblock
                              "/Kinetic friction angle' is given, but the law "
                              "slip weakening has 'Residual friction angle' in "
                              "its place; remove it."));
+      AssertThrow(
+        entries.value_of("Residual friction angle") <= entries.friction_angle,
+        InputError("'" + section + "/Residual friction angle' is " +
+                   text_of(entries.value_of("Residual friction angle")) +
+                   " degrees, above 'Friction angle', from which the law slip "
+                   "weakening falls to it; give a smaller one."));
       return std::make_shared<const SlipWeakening>(entries);
     }
   } // namespace

@@ -61,15 +61,35 @@ namespace Keyblock
     if (model.contact &&
         (changes || !(stage.is_quasi_static() || stage.is_static())))
       model.contact->release_bent_points();
-    bool is_ramped = changes;
-    for (const auto &support : model.scene.supports)
-      is_ramped = is_ramped || (!support->displacement.empty() && number == 2);
-    if (!is_ramped || stage.is_static())
+    Loads<dim> &loads = model.conditions->loads;
+    if (stage.is_static())
       {
-        model.conditions->loads.start_ramp({}, 0.);
+        loads.start_ramp({}, 0., false);
         return;
       }
-    model.conditions->loads.start_ramp(out_of_balance, ramp_duration_of(stage));
+    const bool moves_supports =
+      stage.is_quasi_static() && are_supports_to_move();
+    // else what a dynamic stage may have left of a ramp goes on
+    if (changes || moves_supports)
+      loads.start_ramp(changes              ? out_of_balance
+                       : loads.is_ramping() ? model.step->list_out_of_balance()
+                                            : std::vector<double>(),
+                       ramp_duration_of(stage),
+                       moves_supports);
+  }
+
+
+
+  template <int dim>
+  bool
+  StageRunner<dim>::are_supports_to_move() const
+  {
+    return model.conditions->loads.has_displacement_left() &&
+           std::any_of(model.scene.supports.begin(),
+                       model.scene.supports.end(),
+                       [](const auto &support) {
+                         return !support->displacement.empty();
+                       });
   }
 
 
@@ -82,7 +102,8 @@ namespace Keyblock
     observer.started();
     if (stage.is_static())
       {
-        solve_for_equilibrium(model);
+        solve_for_equilibrium(model,
+                              model.conditions->loads.take_displacement());
         progress.is_converged = model.step->unbalanced_ratio < static_tolerance;
         model.step->settle_contact();
       }
@@ -223,8 +244,12 @@ namespace Keyblock
     // a block that has come off carries nothing that a ramp would take away
     const bool is_free =
       model.step->share_of_excavated(out_of_balance) < stage.unbalanced_ratio;
+    const bool moves_supports = are_supports_to_move();
     model.conditions->loads.start_ramp(out_of_balance,
-                                       is_free ? 0. : ramp_duration_of(stage));
+                                       is_free && !moves_supports
+                                         ? 0.
+                                         : ramp_duration_of(stage),
+                                       moves_supports);
     model.count_cells();
     return true;
   }

@@ -18,7 +18,7 @@ namespace Keyblock
 
   template <int dim>
   void
-  solve_for_equilibrium(Model<dim> &model)
+  solve_for_equilibrium(Model<dim> &model, const double share_of_displacements)
   {
     StaticSolver<dim> solver(model.split,
                              *model.numbering,
@@ -26,7 +26,7 @@ namespace Keyblock
                              model.fields,
                              model.fields.supports,
                              model.conditions->elements);
-    double share = 1.;
+    double share = share_of_displacements;
     for (unsigned int i = 0; i < maximum_refinements; ++i)
       {
         model.step->update_forces();
@@ -75,7 +75,7 @@ namespace Keyblock
     if (is_static)
       {
         const double start = MPI_Wtime();
-        solve_for_equilibrium(model);
+        solve_for_equilibrium(model, 0.);
         model.step->zero_displacements();
         model.out << "Static  initial equilibrium in " << std::setprecision(3)
                   << MPI_Wtime() - start << " s, unbalanced ratio "
@@ -112,8 +112,8 @@ namespace Keyblock
                 << " open, " << points.n_sliding << " slide" << std::endl;
   }
 
-  template void solve_for_equilibrium(Model<2> &);
-  template void solve_for_equilibrium(Model<3> &);
+  template void solve_for_equilibrium(Model<2> &, const double);
+  template void solve_for_equilibrium(Model<3> &, const double);
   template void establish_initial_state(Model<2> &);
   template void establish_initial_state(Model<3> &);
 } // namespace Keyblock

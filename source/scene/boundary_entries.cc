@@ -51,7 +51,14 @@ namespace Keyblock
       "the "
       "scene: a header, then rows of the "
       "time [s], at even intervals, and one value per axis. Linear between "
-      "rows, zero before the first and after the last.");
+      "rows, zero before the first and after the last. Times are counted from "
+      "the beginning of History stage.");
+    prm.add_parameter("History stage",
+                      history_stage,
+                      "Name of the stage from whose beginning the times of "
+                      "History file are counted; before it nothing moves. "
+                      "Empty: the first dynamic stage, of a quiet support the "
+                      "first one from Stage on.");
     prm.add_parameter(
       "History quantity",
       history_quantity,
@@ -62,8 +69,9 @@ namespace Keyblock
       "Displacement",
       displacement,
       "Displacement that the support has reached at the end of the ramp of the "
-      "first quasi-static or static stage, a formula in x, y (z) per axis [m]; "
-      "it may stand instead of Velocity.");
+      "first quasi-static or static stage, and keeps, a formula in x, y (z) "
+      "per "
+      "axis [m]; it may stand instead of Velocity.");
     prm.add_parameter("Center",
                       center,
                       "Centre of the excavation, from which a far field "

@@ -9,7 +9,7 @@ namespace Keyblock
   {
     template <int dim>
     void
-    check_motion(const Support<dim> &support)
+    check_motion(const Scene<dim> &scene, const Support<dim> &support)
     {
       const std::string who     = "The support '" + support.name + "' ";
       const std::string section = "Supports/" + support.name;
@@ -26,6 +26,35 @@ namespace Keyblock
       require(!support.history || !support.is_far_field(),
               who + "is a far field, which follows no history; set 'Kind' to "
                     "held or quiet.");
+      require(!support.history ||
+                scene.history_stage(support) < scene.stages.size() + 2,
+              support.history_stage.empty()
+                ? who +
+                    "has a 'History file', but no stage shakes it: there is "
+                    "no dynamic stage" +
+                    (support.stage == "start"
+                       ? std::string()
+                       : " from '" + support.stage + "' on") +
+                    "; add one to 'Stages/Names'."
+                : "The entry '" + section + "/History stage' is '" +
+                    support.history_stage +
+                    "', which is not in 'Stages/Names'; name a stage there.");
+      require(support.history || support.history_stage.empty(),
+              "The entry '" + section + "/History stage' is '" +
+                support.history_stage +
+                "', but there is no 'History file'; give one, or leave it "
+                "out.");
+      require(!support.history || support.history_stage.empty() ||
+                scene.history_stage(support) >=
+                  std::max(2u, scene.stage_number(support.stage)),
+              "The entry '" + section + "/History stage' is '" +
+                support.history_stage + "', which is before '" + support.stage +
+                "', from which on the support is quiet; name "
+                "a later stage.");
+      require(support.displacement.empty() || scene.has_stage_to_balance(),
+              who + "has a 'Displacement', which is reached in the first "
+                    "quasi-static or static stage, and there is none; add one "
+                    "to 'Stages/Names', or give a 'Velocity'.");
       require(support.history_quantity != HistoryQuantity::stress ||
                 support.is_quiet(),
               who + "has 'History quantity' stress, which only a quiet support "
@@ -69,7 +98,7 @@ namespace Keyblock
                 "The support '" + support->name + "' is " +
                   (support->is_quiet() ? "quiet" : "a far field") +
                   ", which needs 'Boundaries'; name them.");
-        check_motion(*support);
+        check_motion(scene, *support);
         require(!support->is_free_field() || has_foot(scene),
                 "The support '" + support->name +
                   "' is a free field, but no other support names the boundary "

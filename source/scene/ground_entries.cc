@@ -165,7 +165,8 @@ namespace Keyblock
       "Measured points",
       measured_points,
       "CSV file of measured stresses, relative to the scene "
-      "file, with the header x,y,(z,)component,value,weight: "
+      "file, with columns x,y,(z,)component,value,weight and, if its first "
+      "line is no data, a header: "
       "components as in Stress, values in Pa, tension positive. "
       "The initial stress is the sum of Stress fields that fits "
       "them best.");

@@ -120,6 +120,16 @@ namespace Keyblock
                 "stage of the shaking in 'Supports/" +
                 support->name + "/Stage'.");
           }
+    for (unsigned int s = 0; s < stages.size(); ++s)
+      if (stages[s]->is_dynamic() &&
+          stages[s]->ramp_duration > stages[s]->duration)
+        found.push_back(
+          "The entry 'Stages/" + stages[s]->name + "/Ramp duration' is " +
+          text_of(stages[s]->ramp_duration) + " s, more than its 'Duration' " +
+          "of " + text_of(stages[s]->duration) +
+          " s: what is left of the ramp " +
+          (s + 1 < stages.size() ? "goes on in the next stage."
+                                 : "never goes; lengthen the stage."));
     for (const auto &support : supports)
       if (support->history &&
           support->history_quantity != HistoryQuantity::stress)

@@ -4,6 +4,7 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/parameter_handler.h>
 
+#include <keyblock/base/digest.h>
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
@@ -23,6 +24,17 @@ namespace Keyblock
 {
   namespace
   {
+    /** Digest of the bytes of @p name, found from the folder of @p scene. */
+    std::string
+    digest_of_file(const std::string &scene, const std::string &name)
+    {
+      std::ifstream in(std::filesystem::path(scene).parent_path() / name,
+                       std::ios::binary);
+      std::ostringstream text;
+      text << in.rdbuf();
+      return digest_of(text.str());
+    }
+
     const std::vector<std::string> list_sections = {"Excavations",
                                                     "Joints",
                                                     "Joint sets",
@@ -119,6 +131,31 @@ namespace Keyblock
     while (index < stages.size() && stages[index]->name != name)
       ++index;
     return index + 2;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Scene<dim>::history_stage(const Support<dim> &support) const
+  {
+    if (!support.history_stage.empty())
+      return stage_number(support.history_stage);
+    unsigned int number = std::max(2u, stage_number(support.stage));
+    while (number < stages.size() + 2 && !stages[number - 2]->is_dynamic())
+      ++number;
+    return number;
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::has_stage_to_balance() const
+  {
+    return std::any_of(stages.begin(), stages.end(), [](const auto &stage) {
+      return !stage->is_dynamic();
+    });
   }
 
 
@@ -275,6 +312,14 @@ namespace Keyblock
         text += "subsection Excavations\n  subsection " + excavation->name +
                 "\n    set Digest of File = " + excavation->file_digest +
                 "\n  end\nend\n";
+    for (const auto &support : supports)
+      if (!support->history_file.empty())
+        text += "subsection Supports\n  subsection " + support->name +
+                "\n    set Digest of History file = " +
+                digest_of_file(file, support->history_file) + "\n  end\nend\n";
+    if (!initial_state.measured_points.empty())
+      text += "subsection Initial state\n  set Digest of Measured points = " +
+              digest_of_file(file, initial_state.measured_points) + "\nend\n";
     return text;
   }
 

@@ -12,7 +12,7 @@ namespace Keyblock
                               CellArrays<dim> &cells,
                               Fields<dim> &fields)
     : active_cells(scene, split, numbering, cells, fields)
-    , supports(scene, split, numbering, fields)
+    , supports(scene, split, numbering, clock, fields)
     , loads(scene, split, numbering, fields)
     , scene(scene)
     , split(split)
@@ -47,7 +47,7 @@ namespace Keyblock
     if (QuietBoundary<dim>::is_wanted(scene))
       {
         auto dashpots =
-          std::make_unique<QuietBoundary<dim>>(scene, split, numbering);
+          std::make_unique<QuietBoundary<dim>>(scene, split, numbering, clock);
         quiet = dashpots.get();
         elements.push_back(std::move(dashpots));
       }
@@ -120,7 +120,7 @@ namespace Keyblock
   StageState
   Conditions<dim>::remember() const
   {
-    StageState state{active_cells.state(), loads.state(), {}};
+    StageState state{active_cells.state(), loads.state(), clock.state(), {}};
     for (const auto &element : elements)
       state.elements.push_back(element->remember());
     return state;
@@ -134,6 +134,7 @@ namespace Keyblock
   {
     active_cells.recall(state.cells);
     loads.recall(state.loads);
+    clock.recall(state.stage_begins);
     for (unsigned int i = 0; i < elements.size(); ++i)
       elements[i]->recall(state.elements.at(i));
   }
@@ -317,7 +318,7 @@ namespace Keyblock
   void
   Conditions<dim>::apply_supports(const double time, const double step)
   {
-    supports.apply_supports(time, step, loads.ramp_share_of_step(step));
+    supports.apply_supports(time, step, loads.displacement_share_of_step(step));
   }
 
   template class Conditions<2>;

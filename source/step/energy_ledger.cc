@@ -162,22 +162,43 @@ namespace Keyblock
                                    LedgerState &state) const
   {
     const bool has_viscous = step.has_damping_force;
-    // the force that a support must have given: what the others left missing
+    const bool is_local    = step.stage.local_damping > 0.;
+    // the impulse that a support must have given is what the others left
+    // missing; what damps motion does not damp one that is prescribed, although
+    // book_work has booked it
     for (const NodeSupport<dim> &support : fields.supports)
-      if (support.motion >= 0 && support.node < numbering.n_owned())
-        for (unsigned int i = dim * support.node; i < dim * (support.node + 1);
-             ++i)
-          {
-            const double change = fields.mass[support.node] *
-                                  (fields.velocity[i] - fields.old_velocity[i]);
-            double given = fields.load[i] - fields.internal_force[i] +
-                           fields.contact_force[i];
-            if (has_viscous)
-              given -= fields.damping_force[i];
-            state.sums.supports +=
-              0.5 * (change - step.kick * given) *
-              (fields.old_velocity[i] + fields.velocity[i]);
-          }
+      if (support.is_moved() && support.node < numbering.n_owned())
+        {
+          const unsigned int first = dim * support.node;
+          const double mass        = fields.mass[support.node];
+          std::array<double, dim> given, local{}, viscous, twice_mean;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const unsigned int i = first + d;
+              twice_mean[d] = fields.old_velocity[i] + fields.velocity[i];
+              viscous[d]    = -step.kick * step.stage.mass_damping * mass *
+                           fields.old_velocity[i];
+              if (is_local)
+                local[d] = fields.local_damping[i];
+              given[d] =
+                mass * (fields.velocity[i] - fields.old_velocity[i]) -
+                step.kick * (fields.load[i] - fields.internal_force[i] +
+                             fields.contact_force[i] -
+                             (has_viscous ? fields.damping_force[i] : 0.)) -
+                viscous[d] - local[d];
+            }
+          state.sums.supports += 0.5 * dot<dim>(given, twice_mean);
+          for (unsigned int k = 0; k < support.n_directions; ++k)
+            {
+              const auto &direction     = support.directions[k];
+              const double along        = 0.5 * dot<dim>(direction, twice_mean);
+              const double lost_local   = along * dot<dim>(direction, local);
+              const double lost_by_mass = along * dot<dim>(direction, viscous);
+              state.sums.local_damping += lost_local;
+              state.sums.mass_damping += lost_by_mass;
+              state.sums.supports += lost_local + lost_by_mass;
+            }
+        }
   }
 
 

@@ -171,7 +171,9 @@ namespace Keyblock
           }
         else
           {
-            foot.velocity = motion(s, side.foot, step.time + 0.5 * step.kick);
+            // a quiet bottom is at rest until it lets its wave in
+            if (!support.is_quiet())
+              foot.velocity = motion(s, side.foot, step.time + 0.5 * step.step);
             for (unsigned int d = 0; d < dim; ++d)
               foot.is_held[d] =
                 support.directions == SupportDirections::all ||

@@ -194,11 +194,27 @@ namespace Keyblock
   template <int dim>
   void
   Loads<dim>::start_ramp(const std::vector<double> &force,
-                         const double duration)
+                         const double duration,
+                         const bool moves_supports)
   {
     out_of_balance_force = force;
     ramp                 = Ramp::over(duration);
+    displacement_ramped  = moves_supports ? displacement_left : 0.;
     forget_load();
+  }
+
+
+
+  template <int dim>
+  void
+  Loads<dim>::advance_ramp(const double step)
+  {
+    const bool was_ramping = is_ramping();
+    displacement_left -= displacement_share_of_step(step);
+    ramp.advance(step);
+    // the shares of all steps are one but for rounding
+    if (was_ramping && !is_ramping() && displacement_ramped > 0.)
+      displacement_left = 0.;
   }
 
   template class Loads<2>;

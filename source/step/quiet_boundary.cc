@@ -26,10 +26,12 @@ namespace Keyblock
   template <int dim>
   QuietBoundary<dim>::QuietBoundary(const Scene<dim> &scene,
                                     const SplitMesh<dim> &split,
-                                    const Numbering<dim> &numbering)
+                                    const Numbering<dim> &numbering,
+                                    const StageClock &clock)
     : scene(scene)
     , split(split)
     , numbering(numbering)
+    , clock(clock)
     , is_excavated(split.mesh.n_cells(), false)
     , acts(scene.supports.size(), false)
     , free_field(scene, split, numbering)
@@ -227,8 +229,12 @@ namespace Keyblock
       return waves[support]->vector(place, time);
     Tensor<1, dim> velocity;
     if (const auto &history = scene.supports[support]->history)
-      for (unsigned int d = 0; d < dim; ++d)
-        velocity[d] = history->value(time, d);
+      {
+        const double since =
+          clock.since(scene.history_stage(*scene.supports[support]), time);
+        for (unsigned int d = 0; d < dim; ++d)
+          velocity[d] = history->value(since, d);
+      }
     return velocity;
   }
 

@@ -77,7 +77,7 @@ namespace Keyblock
     for (const auto &master : numbering.masters)
       never_rests[master.node] = true;
     for (const NodeSupport<dim> &support : fields.supports)
-      if (support.motion >= 0)
+      if (support.is_moved())
         never_rests[support.node] = true;
     for (const auto &element : elements)
       for (const unsigned int node : element->nodes())

@@ -40,6 +40,7 @@ namespace Keyblock
                                  const unsigned int number)
   {
     is_first = true;
+    conditions.clock.begin(number, time);
     ledger.begin_stage(work);
     apply_settings(new_stage);
     if (stage.reset_motion || stage.is_quasi_static())

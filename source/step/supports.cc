@@ -10,34 +10,65 @@ namespace Keyblock
 {
   namespace
   {
-    /** Add @p direction to those of a support, made orthonormal; nothing if it
-     * is already held. */
+    template <int dim>
+    Tensor<1, dim>
+    tensor_of(const std::array<double, dim> &list)
+    {
+      Tensor<1, dim> tensor;
+      for (int d = 0; d < dim; ++d)
+        tensor[d] = list[d];
+      return tensor;
+    }
+
+    template <int dim>
+    std::array<double, dim>
+    list_of(const Tensor<1, dim> &tensor)
+    {
+      std::array<double, dim> list;
+      for (int d = 0; d < dim; ++d)
+        list[d] = tensor[d];
+      return list;
+    }
+
+    /** Directions that are this close to each other are one. */
+    constexpr double same_direction = 1e-6;
+
+    /** Add the unit vector @p axis to what a support holds, moved by @p motion
+     * or at rest (-1). */
     template <int dim>
     void
-    hold_direction(NodeSupport<dim> &support, Tensor<1, dim> direction)
+    hold_direction(NodeSupport<dim> &support,
+                   const Tensor<1, dim> &axis,
+                   const int motion)
     {
+      Tensor<1, dim> direction = axis;
       for (unsigned int k = 0; k < support.n_directions; ++k)
         {
-          Tensor<1, dim> held;
-          for (int d = 0; d < dim; ++d)
-            held[d] = support.directions[k][d];
+          const Tensor<1, dim> held = tensor_of<dim>(support.directions[k]);
+          if (motion >= 0 && std::abs(axis * held) > 1. - same_direction)
+            {
+              support.axes[k]    = list_of<dim>(axis);
+              support.motions[k] = motion;
+              return;
+            }
           direction -= (direction * held) * held;
         }
-      if (direction.norm() < 1e-6)
+      if (direction.norm() < same_direction)
         return;
       direction /= direction.norm();
-      for (int d = 0; d < dim; ++d)
-        support.directions[support.n_directions][d] = direction[d];
-      ++support.n_directions;
+      const unsigned int k  = support.n_directions++;
+      support.directions[k] = list_of<dim>(direction);
+      support.axes[k]       = list_of<dim>(axis);
+      support.motions[k]    = motion;
     }
 
     template <int dim>
     void
-    hold_axis(NodeSupport<dim> &support, const int d)
+    hold_axis(NodeSupport<dim> &support, const int d, const int motion)
     {
       Tensor<1, dim> axis;
       axis[d] = 1.;
-      hold_direction(support, axis);
+      hold_direction(support, axis, motion);
     }
 
     /** Call @p hold(vertex, normal) for each vertex that @p support holds; of
@@ -73,10 +104,12 @@ namespace Keyblock
   Supports<dim>::Supports(const Scene<dim> &scene,
                           const SplitMesh<dim> &split,
                           const Numbering<dim> &numbering,
+                          const StageClock &clock,
                           Fields<dim> &fields)
     : scene(scene)
     , split(split)
     , numbering(numbering)
+    , clock(clock)
     , fields(fields)
   {}
 
@@ -91,8 +124,6 @@ namespace Keyblock
     fields.supports.clear();
     fields.nodes_of_support.assign(scene.supports.size(), {});
     motions.clear();
-    is_displacement.clear();
-    histories.clear();
     // nodes of rigid bodies first: nothing else may move them
     hold_rigid_bodies(found);
     for (unsigned int s = 0; s < scene.supports.size(); ++s)
@@ -122,11 +153,12 @@ namespace Keyblock
   int
   Supports<dim>::add_motion(const std::string &formula,
                             const std::string &entry,
-                            const bool is_reached)
+                            const bool is_displacement)
   {
-    motions.push_back(std::make_unique<Expression<dim>>(formula, dim, entry));
-    is_displacement.push_back(is_reached);
-    histories.push_back(nullptr);
+    motions.push_back({std::make_unique<Expression<dim>>(formula, dim, entry),
+                       is_displacement,
+                       nullptr,
+                       0});
     return motions.size() - 1;
   }
 
@@ -145,9 +177,8 @@ namespace Keyblock
       return add_motion(support.velocity, "Supports/*/Velocity", false);
     if (!support.history)
       return -1;
-    motions.push_back(nullptr);
-    is_displacement.push_back(false);
-    histories.push_back(support.history);
+    motions.push_back(
+      {nullptr, false, support.history, scene.history_stage(support)});
     return motions.size() - 1;
   }
 
@@ -155,16 +186,42 @@ namespace Keyblock
 
   template <int dim>
   Tensor<1, dim>
-  Supports<dim>::velocity_of(const int motion,
+  Supports<dim>::velocity_of(const Motion &motion,
                              const Point<dim> &place,
                              const double time) const
   {
-    if (motions[motion])
-      return motions[motion]->vector(place, time);
+    if (motion.formula)
+      return motion.formula->vector(place, time);
     Tensor<1, dim> velocity;
     for (unsigned int d = 0; d < dim; ++d)
-      velocity[d] = histories[motion]->value(time, d);
+      velocity[d] = motion.history->value(clock.since(motion.stage, time), d);
     return velocity;
+  }
+
+
+
+  template <int dim>
+  template <typename Value>
+  Tensor<1, dim>
+  Supports<dim>::prescribed(const NodeSupport<dim> &support,
+                            const Value &value) const
+  {
+    const Point<dim> place = place_of(support);
+    Tensor<1, dim> result, of_motion;
+    int known = -1; // the motion that of_motion is of
+    for (unsigned int k = 0; k < support.n_directions; ++k)
+      {
+        const Tensor<1, dim> axis      = tensor_of<dim>(support.axes[k]);
+        const Tensor<1, dim> direction = tensor_of<dim>(support.directions[k]);
+        if (support.motions[k] >= 0 && support.motions[k] != known)
+          {
+            known     = support.motions[k];
+            of_motion = value(motions[known], place);
+          }
+        const double wanted = support.motions[k] >= 0 ? axis * of_motion : 0.;
+        result += (wanted - axis * result) / (axis * direction) * direction;
+      }
+    return result;
   }
 
 
@@ -193,8 +250,7 @@ namespace Keyblock
                   continue;
                 NodeSupport<dim> &support = found[node];
                 for (int d = 0; d < dim; ++d)
-                  hold_axis(support, d);
-                support.motion = motion;
+                  hold_axis(support, d, motion);
               }
       }
   }
@@ -228,13 +284,11 @@ namespace Keyblock
           return;
         if (support.directions == SupportDirections::normal &&
             !support.is_far_field())
-          hold_direction(entry, normal);
+          hold_direction(entry, normal, motion);
         else
           for (int d = 0; d < dim; ++d)
             if (holds_all || support.names_axis(d))
-              hold_axis(entry, d);
-        if (motion >= 0)
-          entry.motion = motion;
+              hold_axis(entry, d, motion);
       });
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -267,18 +321,19 @@ namespace Keyblock
         if (support.node >= numbering.n_owned())
           continue;
         double *v = fields.velocity.data() + dim * support.node;
-        Tensor<1, dim> prescribed;
-        if (support.motion >= 0)
-          prescribed = is_displacement[support.motion]
-                         ? ramp_rate * prescribed_displacement(support)
-                         : velocity_of(support.motion,
-                                       place_of(support),
-                                       time + 0.5 * step);
+        Tensor<1, dim> given;
+        if (support.is_moved())
+          given = prescribed(
+            support, [&](const Motion &motion, const Point<dim> &place) {
+              return motion.is_displacement
+                       ? ramp_rate * motion.formula->vector(place, 0.)
+                       : velocity_of(motion, place, time + 0.5 * step);
+            });
         for (unsigned int k = 0; k < support.n_directions; ++k)
           {
             double excess = 0.;
             for (int d = 0; d < dim; ++d)
-              excess += support.directions[k][d] * (v[d] - prescribed[d]);
+              excess += support.directions[k][d] * (v[d] - given[d]);
             for (int d = 0; d < dim; ++d)
               v[d] -= excess * support.directions[k][d];
           }
@@ -310,9 +365,10 @@ namespace Keyblock
   Tensor<1, dim>
   Supports<dim>::prescribed_displacement(const NodeSupport<dim> &s) const
   {
-    if (s.motion < 0 || !is_displacement[s.motion])
-      return Tensor<1, dim>();
-    return motions[s.motion]->vector(place_of(s), 0.);
+    return prescribed(s, [](const Motion &motion, const Point<dim> &place) {
+      return motion.is_displacement ? motion.formula->vector(place, 0.)
+                                    : Tensor<1, dim>();
+    });
   }
 
   template class Supports<2>;

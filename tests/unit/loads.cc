@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(carried_force_is_ramped_out)
   for (unsigned int node = 0; node < plate.numbering->n_owned(); ++node)
     carried[2 * node] = 8e3 / plate.numbering->n_global();
   auto &loads = plate.conditions->loads;
-  loads.start_ramp(carried, 4.);
+  loads.start_ramp(carried, 4., false);
   BOOST_TEST(loads.is_load_changing());
   for (const double share : {1., 0.5, 0.})
     {
@@ -140,10 +140,10 @@ BOOST_AUTO_TEST_CASE(carried_force_is_ramped_out)
     }
   BOOST_TEST(!loads.is_load_changing());
   // a state that is recalled is half way again
-  loads.start_ramp(carried, 4.);
+  loads.start_ramp(carried, 4., false);
   loads.advance_ramp(2.);
   const StageState half = plate.conditions->remember();
-  loads.start_ramp({}, 0.);
+  loads.start_ramp({}, 0., false);
   plate.conditions->set_load(0.);
   check_sum(plate, 0., -10. * Plate::mass);
   plate.conditions->recall(half);

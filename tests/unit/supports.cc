@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(prescribed_displacement)
       BOOST_TEST(u[0] == 0.);
     }
   // by the end of the ramp it is reached, whatever the steps
-  conditions.loads.start_ramp({}, 1.);
+  conditions.loads.start_ramp({}, 1., true);
   std::vector<double> way(plate.fields.velocity.size(), 0.);
   for (const double step : {0.1, 0.25, 0.4, 0.3, 0.2})
     {

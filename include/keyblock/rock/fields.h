@@ -16,13 +16,25 @@ namespace Keyblock
     unsigned int n_directions = 0; ///< orthonormal, of `directions`
     std::array<std::array<double, dim>, dim> directions{};
 
-    /** Index of the formula that prescribes the velocity, or -1 for zero. */
-    int motion = -1;
+    /** What the supports name: normals or axes, of which `directions` are made
+     * one after the other; the motion that prescribes the component along each
+     * (Supports), or -1 for zero. */
+    std::array<std::array<double, dim>, dim> axes{};
+    std::array<int, dim> motions{};
 
     bool
     is_fixed() const
     {
       return n_directions == dim;
+    }
+
+    bool
+    is_moved() const
+    {
+      for (unsigned int k = 0; k < n_directions; ++k)
+        if (motions[k] >= 0)
+          return true;
+      return false;
     }
   };
 

@@ -38,6 +38,9 @@ namespace Keyblock
     void pace_ramp(const Stage &stage);
     double ramp_duration_of(const Stage &stage) const;
 
+    /** Whether displacements of supports are still to be reached. */
+    bool are_supports_to_move() const;
+
     Model<dim> &model;
     FiniteCheck<dim> &finite_check;
     StageObserver<dim> &observer;

@@ -11,9 +11,11 @@ namespace Keyblock
   constexpr double static_tolerance = 1e-8;
 
   /** Bring the rock, with joints that stick, into balance by elastic solves
-   * that refine each other (collective). */
+   * that refine each other, with this share of the displacements of supports
+   * (collective). */
   template <int dim>
-  void solve_for_equilibrium(Model<dim> &model);
+  void solve_for_equilibrium(Model<dim> &model,
+                             const double share_of_displacements);
 
   /** The state before the first stage: in balance if the scene asks for it,
    * joints bearing the rock's stress (collective). */

@@ -36,6 +36,7 @@ namespace Keyblock
     std::string stage = "start"; ///< from which on it is quiet
     std::string history_file;
     HistoryQuantity history_quantity = HistoryQuantity::velocity;
+    std::string history_stage; ///< in which it begins; empty: by default
 
     /** Of History file: velocities, of stress as they are; null: none. */
     std::shared_ptr<const TimeSeries> history;

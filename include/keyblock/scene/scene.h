@@ -84,6 +84,15 @@ namespace Keyblock
      * 2 for the first one of `Stages/Names`, and so on. */
     unsigned int stage_number(const std::string &name) const;
 
+    /** Number of the stage from whose beginning the times of a support's
+     * history are counted: that of `History stage`, else the first dynamic
+     * stage from `Stage` on; stages.size() + 2 if there is none. */
+    unsigned int history_stage(const Support<dim> &support) const;
+
+    /** Whether a stage is quasi-static or static: displacements of supports are
+     * reached in the first one. */
+    bool has_stage_to_balance() const;
+
     /** Index into materials of the one called @p name, or their number. */
     unsigned int material_index(const std::string &name) const;
 

@@ -83,6 +83,11 @@ namespace Keyblock
     bool reset_motion              = false;
 
     bool
+    is_dynamic() const
+    {
+      return kind == StageKind::dynamic;
+    }
+    bool
     is_quasi_static() const
     {
       return kind == StageKind::quasi_static;

@@ -8,6 +8,7 @@
 #include <keyblock/step/loads.h>
 #include <keyblock/step/quiet_boundary.h>
 #include <keyblock/step/shotcrete.h>
+#include <keyblock/step/stage_clock.h>
 #include <keyblock/step/structural_liner.h>
 #include <keyblock/step/supports.h>
 
@@ -20,6 +21,7 @@ namespace Keyblock
   {
     CellState cells;
     LoadState loads;
+    std::vector<double> stage_begins; ///< StageClock::state [s]
     std::vector<ForceElementState> elements;
   };
 
@@ -132,10 +134,10 @@ namespace Keyblock
     /** Set fields.load to all loads at @p time. */
     void set_load(const double time);
 
-    /** Supports::apply_supports, with displacements that grow as the ramp goes.
-     */
+    /** Supports::apply_supports, with the displacements that are ramped. */
     void apply_supports(const double time, const double step);
 
+    StageClock clock;
     ActiveCells<dim> active_cells;
     Supports<dim> supports;
     Loads<dim> loads;

@@ -9,6 +9,7 @@
 #include <keyblock/step/ramp.h>
 
 #include <memory>
+#include <utility>
 
 namespace Keyblock
 {
@@ -38,6 +39,10 @@ namespace Keyblock
     Ramp ramp;
     std::vector<double>
       out_of_balance_force; ///< by owned degree of freedom [N]
+
+    /** Share of the supports' displacements that is not reached yet, and of
+     * what was left of them when the ramp began, if they go with it [-]. */
+    double displacement_left = 1., displacement_ramped = 0.;
   };
 
   /** Gravity, tractions, water in joints, and forces that are taken away over
@@ -56,17 +61,31 @@ namespace Keyblock
 
     /**
      * Add @p force (owned degrees of freedom) to the load and take it away
-     * over @p duration, as half a cosine [N, s]. Displacements of supports grow
-     * with it. Duration 0: nothing is added, and they are reached at once.
+     * over @p duration, as half a cosine [N, s]; nothing if it is zero. What is
+     * left of the displacements of supports grows with it if
+     * @p moves_supports.
      */
-    void start_ramp(const std::vector<double> &force, const double duration);
+    void start_ramp(const std::vector<double> &force,
+                    const double duration,
+                    const bool moves_supports);
+
+    /** Whether displacements of supports are still to be reached. */
+    bool
+    has_displacement_left() const
+    {
+      return displacement_left > 0.;
+    }
+
+    /** What is left of the supports' displacements is reached now; the share
+     * that this is [-]. */
+    double
+    take_displacement()
+    {
+      return std::exchange(displacement_left, 0.);
+    }
 
     /** Move on by a step [s] times the pace. */
-    void
-    advance_ramp(const double step)
-    {
-      ramp.advance(step);
-    }
+    void advance_ramp(const double step);
 
     /** Slow the ramp down, where it would outrun the rock: 0 to 1 [-]. */
     void
@@ -88,11 +107,12 @@ namespace Keyblock
       return is_ramping() ? ramp.share_left() : 0.;
     }
 
-    /** Share of it that goes in the next step of this length [s -> -]. */
+    /** Share of the supports' displacements that is reached in the next step of
+     * this length [s -> -]. */
     double
-    ramp_share_of_step(const double step) const
+    displacement_share_of_step(const double step) const
     {
-      return ramp.share_of_step(step);
+      return displacement_ramped * ramp.share_of_step(step);
     }
 
     /** Whether set_load sets other values from step to step. */

@@ -5,6 +5,7 @@
 #include <keyblock/base/expression.h>
 #include <keyblock/base/time_series.h>
 #include <keyblock/step/free_field.h>
+#include <keyblock/step/stage_clock.h>
 
 namespace Keyblock
 {
@@ -37,7 +38,8 @@ namespace Keyblock
   public:
     QuietBoundary(const Scene<dim> &scene,
                   const SplitMesh<dim> &split,
-                  const Numbering<dim> &numbering);
+                  const Numbering<dim> &numbering,
+                  const StageClock &clock);
 
     /** Whether a support of @p scene is one. */
     static bool is_wanted(const Scene<dim> &scene);
@@ -126,6 +128,7 @@ namespace Keyblock
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
     const Numbering<dim> &numbering;
+    const StageClock &clock;
     std::vector<bool> is_excavated; ///< by cell
 
     std::vector<bool> acts;                              ///< by support

@@ -117,6 +117,10 @@ namespace Keyblock
      * allow. Returns its length [s]. Throws InputError (count_steps). */
     double choose_step(const unsigned int number);
 
+    /** The forces that keep the owned degrees of freedom balanced as they are,
+     * those of a ramp that runs included [N]. */
+    std::vector<double> list_out_of_balance() const;
+
     /** The longest step [s] that masses, damping and the scene allow in
      * @p stage. */
     double longest_step(const Stage &stage) const;
