@@ -279,7 +279,7 @@ namespace Keyblock
                                                       b) > 0;
                                   }),
                    more.end());
-        guess.hint = 0.5 * (result.group_lower + result.group_upper);
+        guess.hint = result.value_of_group();
       }
     trials.companions.clear();
   }
