@@ -283,6 +283,10 @@ keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_20 RANKS 1
   "Initial state/Stress=-20e3@ 0@ -4e3@ 0")
 keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_45 RANKS 1
   SET "Joints/left/Friction angle=45" "Joints/right/Friction angle=45")
+# joints whose friction is that of the pressure on them
+keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_rough RANKS 1
+  SET "Joints/*/Law=barton-bandis" "Joints/*/JRC=10" "Joints/*/JCS=50e6"
+  "Joints/*/Residual friction angle=25")
 # blocks that cannot move, and that nothing holds
 keyblock_scene(verification/factor_incline REFERENCES factor_level RANKS 1
   SET "Initial state/Gravity=0@ -9.81")

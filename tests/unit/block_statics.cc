@@ -6,6 +6,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/stress_ratio.h>
 #include <keyblock/step/conditions.h>
 
 #include <cmath>
@@ -427,6 +428,44 @@ BOOST_AUTO_TEST_CASE(what_it_meets_on_its_way)
     has_remark(site.judge(uphill).remark(),
                "meets block " + std::to_string(2 - uphill) + " after 0.1 m"));
   BOOST_TEST(site.judge(1 - uphill).remark() == "");
+}
+
+BOOST_AUTO_TEST_CASE(stress_ratio_of_a_block_that_leaves_its_faces)
+{
+  // in a roof between two sides that lean outwards by @p lean [deg] upwards,
+  // with a normal and a shear force on each, under a seam with cohesion
+  const double N = 50e3, T = 5e3;
+  const auto ratio = [&](const double lean, const bool is_seam_open) {
+    Scene<2> scene;
+    std::vector<BlockFace<2>> faces(3);
+    std::vector<JointSums<2>> sums(4);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        scene.joints.push_back(std::make_unique<Joint<2>>());
+        faces[i].name = scene.joints.back()->name = std::to_string(i);
+        faces[i].tangent_friction                 = friction;
+        faces[i].area                             = 1.;
+        if (i == 2)
+          break;
+        const double sign = i == 0 ? 1. : -1., s = std::sin(lean * radian),
+                     c     = std::cos(lean * radian);
+        faces[i].inward    = Tensor<1, 2>({sign * c, -s});
+        sums[i].force      = {{sign * (N * c + T * s), T * c - N * s}};
+        sums[i].n_sticking = 4;
+      }
+    faces[2].inward   = Tensor<1, 2>({0., -1.});
+    faces[2].cohesion = 100e3;
+    (is_seam_open ? sums[2].n_open : sums[2].n_sticking) = 4;
+    if (!is_seam_open)
+      sums[2].force = {{100., 200.}};
+    const auto limit =
+      solve_limit_equilibrium<2>(faces, Tensor<1, 2>({0., -10e3}));
+    BOOST_TEST(limit.describe(faces) == "falling");
+    return stress_ratio<2>(scene, faces, limit, sums);
+  };
+  for (const double lean : {0., 10., 30.})
+    for (const bool is_seam_open : {true, false})
+      BOOST_TEST(is_near(ratio(lean, is_seam_open), N * friction / T, 1e-12));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
