@@ -60,6 +60,28 @@ def faults_of_runs(keyblock, scene, folder):
     return faults
 
 
+def faults_of_groups(keyblock, scene, folder):
+    """What is wrong where two blocks fail together, one of them not critical."""
+    # statics of both, as tests/scenes/factor_group.ref has it
+    together = 1.1882053
+    table, results = study(
+        keyblock, str(pathlib.Path(scene).with_name("factor_group.prm")),
+        folder / "group", "Study/Level=full", "Study/Names=friction",
+        "Study/Samples=1", "Study/friction/Entry=Joints/upper/Friction angle",
+        "Study/friction/Distribution=sequence", "Study/friction/Minimum=20",
+        "Study/Threshold=1.25", "Safety factor/Critical factor=1.5",
+        "Safety factor/Wanted=0.9")
+    header, row = table.splitlines()[1:3]
+    values = dict(zip(header.split(","), row.split(",")))
+    faults = []
+    for name in ("factor", "factor_1", "factor_2"):
+        if abs(float(values[name]) - together) > 2e-3:
+            faults.append(f"{name} of blocks that fail together: {values[name]}")
+    if values["failed_blocks"] != "2" or results["probability"]["value"] != 1:
+        faults.append("of blocks that fail together not both failed")
+    return faults
+
+
 def main():
     """Exit with 1 and a sentence for what is wrong."""
     keyblock, scene, folder = sys.argv[1:]
@@ -131,6 +153,7 @@ def main():
     if "factor_1" in drawn[1] or abs(float(drawn[2].split(",")[2]) / factor - 1) > 1e-6:
         faults.append(f"a dip that varies has '{drawn[1]}' and '{drawn[2]}'")
     faults += faults_of_runs(keyblock, scene, folder)
+    faults += faults_of_groups(keyblock, scene, folder)
     if faults:
         sys.exit("; ".join(faults))
 

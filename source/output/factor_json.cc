@@ -36,7 +36,7 @@ namespace Keyblock
       return {{"blocks", factor.group},
               {"lower", factor.group_lower},
               {"upper", factor.group_upper},
-              {"value", 0.5 * (factor.group_lower + factor.group_upper)}};
+              {"value", factor.value_of_group()}};
     }
 
     Json

@@ -51,10 +51,8 @@ namespace Keyblock
           factor.undecided_lower > 0. ? factor.undecided_lower : factor.lower;
       else if (factor.outcome != Outcome::immovable)
         alone = factor.lower;
-      return factor.group.empty()
-               ? alone
-               : std::min(alone,
-                          0.5 * (factor.group_lower + factor.group_upper));
+      return factor.group.empty() ? alone
+                                  : std::min(alone, factor.value_of_group());
     }
 
     /** The least factor of a block (index), of equal ones the last; null: none
@@ -122,24 +120,23 @@ namespace Keyblock
       std::string group;
       for (const unsigned int id : factor.group)
         group += (group.empty() ? "" : " ") + std::to_string(id);
-      Fields fields = {
-        describe_outcome(factor),
-        is_closed ? exact_text(factor.value()) : "",
-        positive(factor.lower),
-        is_closed ? positive(factor.upper) : "",
-        factor.undecided_upper > 0. ? positive(factor.undecided_lower) : "",
-        positive(factor.undecided_upper),
-        factor.failure_mode,
-        limit_factor_of(factor),
-        factor.limit_mode,
-        factor.limit_remark,
-        positive(factor.stress_ratio),
-        group,
-        group.empty()
-          ? ""
-          : positive(0.5 * (factor.group_lower + factor.group_upper)),
-        group.empty() ? "" : positive(factor.group_lower),
-        group.empty() ? "" : positive(factor.group_upper)};
+      Fields fields = {describe_outcome(factor),
+                       is_closed ? exact_text(factor.value()) : "",
+                       positive(factor.lower),
+                       is_closed ? positive(factor.upper) : "",
+                       factor.undecided_upper > 0.
+                         ? positive(factor.undecided_lower)
+                         : "",
+                       positive(factor.undecided_upper),
+                       factor.failure_mode,
+                       limit_factor_of(factor),
+                       factor.limit_mode,
+                       factor.limit_remark,
+                       positive(factor.stress_ratio),
+                       group,
+                       group.empty() ? "" : positive(factor.value_of_group()),
+                       group.empty() ? "" : positive(factor.group_lower),
+                       group.empty() ? "" : positive(factor.group_upper)};
       for (const std::string &field : demand_fields(factor.support_demand))
         fields.push_back(field);
       return fields;

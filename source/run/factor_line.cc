@@ -36,8 +36,7 @@ namespace Keyblock
         out << "; blocks ";
         for (unsigned int i = 0; i < factor.group.size(); ++i)
           out << (i > 0 ? ", " : "") << factor.group[i];
-        out << " move together: "
-            << 0.5 * (factor.group_lower + factor.group_upper) << " ["
+        out << " move together: " << factor.value_of_group() << " ["
             << factor.group_lower << ", " << factor.group_upper << "]";
       }
     out << "; limit equilibrium "

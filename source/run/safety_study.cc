@@ -197,8 +197,9 @@ namespace Keyblock
         known.hint = earlier.outcome == SafetyFactor::Outcome::bracketed
                        ? earlier.value()
                        : 0.;
-    if (record.present.is_converged && stage.friction_angle_override < 0. &&
-        stage.unbalanced_ratio > 0.)
+    // balance tells of strength where joints are neither tied nor overridden
+    if (!stage.is_static() && stage.friction_angle_override < 0. &&
+        record.stage_reports.back().unbalanced_ratio < stage.unbalanced_ratio)
       known.stable = 1.;
     SafetyFactor cheap;
     search.add_cheap_answers(block, cheap);

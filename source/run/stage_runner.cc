@@ -126,7 +126,8 @@ namespace Keyblock
       stage.is_quasi_static()
         ? std::max(model.scene.output.history_interval, quasi_static_interval)
         : model.scene.output.history_interval;
-    progress.is_converged = stage.unbalanced_ratio == 0. || stage.duration > 0.;
+    progress.is_converged = stage.unbalanced_ratio == 0. ||
+                            (stage.duration > 0. && !stage.is_quasi_static());
     while (progress.n_done < n_steps)
       {
         const std::uint64_t i = ++progress.n_done;

@@ -50,6 +50,7 @@ namespace Keyblock
     std::vector<std::string> list = overrides_of(index);
     list.insert(list.end(),
                 {"Safety factor/Blocks=critical",
+                 "Safety factor/Wanted=0",
                  "Safety factor/Rank groups=1",
                  "Output/Write VTU=false",
                  "Output/Checkpoint interval=0"});
@@ -61,20 +62,31 @@ namespace Keyblock
     simulation.run();
     // of several stages the least counts
     std::vector<bool> is_new(factors.factor.size(), true);
+    const auto offer =
+      [&](const unsigned int b, const double value, const std::string &stage) {
+        if (is_new[b] || value < factors.factor[b])
+          {
+            factors.factor[b] = value;
+            factors.stage[b]  = scene.stage_number(stage);
+          }
+        is_new[b] = false;
+      };
     for (const SafetyFactor &found : simulation.factors())
       {
-        using Outcome      = SafetyFactor::Outcome;
-        const double value = found.outcome == Outcome::falls_freely ? 0.
-                             : found.outcome == Outcome::bracketed
-                               ? found.value()
-                               : found.lower;
-        if (is_new[found.block] || value < factors.factor[found.block])
-          {
-            factors.factor[found.block] = value;
-            factors.stage[found.block]  = scene.stage_number(found.stage);
-          }
-        is_new[found.block] = false;
+        using Outcome = SafetyFactor::Outcome;
+        offer(found.block,
+              found.outcome == Outcome::falls_freely ? 0.
+              : found.outcome == Outcome::bracketed  ? found.value()
+                                                     : found.lower,
+              found.stage);
       }
+    // all blocks of a group fail with it, those that were not asked for, too
+    for (const SafetyFactor &found : simulation.factors())
+      for (const unsigned int id : found.group)
+        {
+          is_new[id - 1] = false;
+          offer(id - 1, found.value_of_group(), found.stage);
+        }
   }
 
 
@@ -123,7 +135,8 @@ namespace Keyblock
         if (found.factor[b] < scene.study.threshold)
           {
             ++result.n_failed;
-            result.failed_volume += all[b].volume;
+            result.failed_volume +=
+              all[b].exact.is_known ? all[b].exact.volume : all[b].volume;
           }
       }
     result.factors = found.factor;

@@ -349,49 +349,13 @@ namespace Keyblock
     return collector.result;
   }
 
-
-
-  template <int dim>
-  double
-  stress_ratio(const Scene<dim> &scene,
-               const std::vector<BlockFace<dim>> &faces,
-               const std::vector<unsigned int> &sliding,
-               const std::vector<JointSums<dim>> &sums)
-  {
-    double strength = 0.;
-    Vector<dim> shear{};
-    for (unsigned int i = 0; i < faces.size(); ++i)
-      {
-        if (!sliding.empty() &&
-            std::find(sliding.begin(), sliding.end(), i) == sliding.end())
-          continue;
-        for (unsigned int j = 0; j < scene.joints.size(); ++j)
-          if (scene.joints[j]->name == faces[i].name)
-            {
-              double normal = 0.;
-              for (unsigned int d = 0; d < dim; ++d)
-                normal += sums[j].force[d] * faces[i].inward[d];
-              for (unsigned int d = 0; d < dim; ++d)
-                shear[d] += sums[j].force[d] - normal * faces[i].inward[d];
-              strength += faces[i].cohesion * faces[i].area +
-                          faces[i].tangent_friction * normal;
-            }
-      }
-    const double force = norm<dim>(shear);
-    return force > 0. && strength > 0. ? strength / force : 0.;
-  }
-
 #define INSTANTIATE(dim)                                                       \
   template struct BlockLoads<dim>;                                             \
   template Tensor<1, dim> sum_of(const std::vector<PointForce<dim>> &);        \
   template BlockSurroundings<dim> look_around(const Ground<dim> &,             \
                                               const FreeFaces<dim> &,          \
                                               const Block<dim> &,              \
-                                              const double);                   \
-  template double stress_ratio<dim>(const Scene<dim> &,                        \
-                                    const std::vector<BlockFace<dim>> &,       \
-                                    const std::vector<unsigned int> &,         \
-                                    const std::vector<JointSums<dim>> &);
+                                              const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

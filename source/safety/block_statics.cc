@@ -66,7 +66,8 @@ namespace Keyblock
       {
         if (!support.is_empty())
           add() << "with " << support.describe() << ", "
-                << name_of(scene.safety.bolt_convention);
+                << name_of(scene.safety.bolt_convention)
+                << (limit.is_borne ? ", which bears all that drives it" : "");
         if (demand.force == 0.)
           return;
         add() << "a factor of " << demand.factor;
@@ -295,15 +296,14 @@ namespace Keyblock
               const double time)
   {
     BlockStatics<dim> statics;
-    statics.around = look_around(ground, free, blocks.blocks[block], time);
-    const BlockLoads<dim> &loads = statics.around.loads;
-    statics.support              = find_support_of_block(ground, block, time);
-    statics.limit =
-      solve_with_support<dim>(statics.around.faces,
-                              loads.without_water(),
-                              statics.support,
-                              ground.scene.safety.bolt_convention ==
-                                BoltConvention::passive);
+    statics.around  = look_around(ground, free, blocks.blocks[block], time);
+    statics.support = find_support_of_block(ground, block, time);
+    const SupportedMotion<dim> motion =
+      find_motion<dim>(statics.around,
+                       statics.support,
+                       ground.scene.safety.bolt_convention ==
+                         BoltConvention::passive);
+    statics.limit = motion.limit;
     if (ground.scene.safety.wanted > 0.)
       statics.demand = find_demand(ground,
                                    free,
@@ -311,19 +311,10 @@ namespace Keyblock
                                    statics.around,
                                    statics.support,
                                    ground.scene.safety.wanted);
-    const double factor_of_sliding      = statics.limit.factor;
-    std::vector<PointForce<dim>> forces = loads.all();
-    for (const auto &pull : statics.support.pulls)
-      forces.push_back({pull.place, pull.force * pull.along});
-    if (statics.support.shotcrete_weight.norm() > 0.)
-      forces.push_back(
-        {statics.support.shotcrete_center, statics.support.shotcrete_weight});
-    const Rotation rotation =
-      judge_rotation<dim>(statics.around.faces, forces, statics.limit);
     Remarks<dim> remarks(ground, free, blocks, block, statics);
     remarks.add_loads(time);
     remarks.add_support();
-    remarks.add_rotation(rotation, factor_of_sliding);
+    remarks.add_rotation(motion.rotation, motion.factor_of_sliding);
     remarks.add_faces();
     remarks.add_neighbors();
     remarks.add_obstacle();

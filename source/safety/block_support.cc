@@ -11,16 +11,6 @@
 
 namespace Keyblock
 {
-  namespace
-  {
-    /** Halvings by which a demand is found, and greatest demand over the load
-     * that is looked at. */
-    constexpr unsigned int n_halvings = 60;
-    constexpr double most_demand      = 1e4;
-  } // namespace
-
-
-
   template <int dim>
   Tensor<1, dim>
   BlockSupport<dim>::force() const
@@ -203,6 +193,59 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    template <int dim>
+    LimitEquilibrium<dim>
+    solve_with_active(std::vector<BlockFace<dim>> &faces,
+                      const Tensor<1, dim> &load,
+                      const BlockSupport<dim> &support)
+    {
+      const Tensor<1, dim> pulled = load + support.force();
+      const LimitEquilibrium<dim> unsheared =
+        solve_with_laws<dim>(faces, pulled);
+      const Tensor<1, dim> way = unsheared.direction;
+      const Tensor<1, dim> reaction =
+        support.dowel_force(way) + support.shotcrete_force(way);
+      if (reaction.norm() == 0.)
+        return unsheared;
+      // what is sheared resists, and never by more than drives
+      if (-(reaction * way) < unsheared.driving_force)
+        return solve_with_laws<dim>(faces, pulled + reaction);
+      LimitEquilibrium<dim> result;
+      result.factor   = std::numeric_limits<double>::infinity();
+      result.is_borne = true;
+      return result;
+    }
+
+    template <int dim>
+    LimitEquilibrium<dim>
+    solve_with_passive(std::vector<BlockFace<dim>> &faces,
+                       const Tensor<1, dim> &load,
+                       const BlockSupport<dim> &support)
+    {
+      LimitEquilibrium<dim> bare = solve_with_laws<dim>(faces, load);
+      if (support.is_empty() || bare.direction.norm() == 0.)
+        return bare;
+      const Tensor<1, dim> way = bare.direction;
+      const Tensor<1, dim> all = support.force_against(way);
+      const double against     = -(all * way);
+      LimitEquilibrium<dim> held =
+        solve_with_laws<dim>(faces, load + all + against * way);
+      if (held.driving_force > 0. && std::isfinite(held.factor))
+        {
+          const double driving = held.driving_force + std::max(0., -against);
+          held.factor =
+            (held.factor * held.driving_force + std::max(0., against)) /
+            driving;
+          held.driving_force = driving;
+        }
+      return held;
+    }
+  } // namespace
+
+
+
   template <int dim>
   LimitEquilibrium<dim>
   solve_with_support(std::vector<BlockFace<dim>> &faces,
@@ -211,92 +254,8 @@ namespace Keyblock
                      const bool is_passive)
   {
     const Tensor<1, dim> all_load = load + support.shotcrete_weight;
-    LimitEquilibrium<dim> bare    = solve_with_laws<dim>(faces, all_load);
-    if (support.is_empty() || bare.direction.norm() == 0.)
-      return bare;
-    const Tensor<1, dim> way = bare.direction;
-    const Tensor<1, dim> all = support.force_against(way);
-    if (!is_passive)
-      return solve_with_laws<dim>(faces, all_load + all);
-    const double against = -(all * way);
-    LimitEquilibrium<dim> held =
-      solve_with_laws<dim>(faces, all_load + all + against * way);
-    if (held.driving_force > 0. && std::isfinite(held.factor))
-      {
-        const double driving = held.driving_force + std::max(0., -against);
-        held.factor =
-          (held.factor * held.driving_force + std::max(0., against)) / driving;
-        held.driving_force = driving;
-      }
-    return held;
-  }
-
-
-
-  template <int dim>
-  SupportDemand
-  find_demand(const Ground<dim> &ground,
-              const FreeFaces<dim> &free,
-              const unsigned int block,
-              const BlockSurroundings<dim> &around,
-              const BlockSupport<dim> &support,
-              const double factor)
-  {
-    Tensor<1, dim> area;
-    for (const unsigned int i : free.of_block(block))
-      area += ground.split.mesh.face_area_vector(free.faces[i].cell,
-                                                 free.faces[i].face);
-    SupportDemand demand;
-    demand.factor = factor;
-    const bool is_passive =
-      ground.scene.safety.bolt_convention == BoltConvention::passive;
-    const Tensor<1, dim> load = around.loads.without_water();
-    const auto factor_with    = [&](const double force) {
-      std::vector<BlockFace<dim>> faces = around.faces;
-      BlockSupport<dim> more            = support;
-      if (force > 0.)
-        {
-          more.pulls.emplace_back();
-          more.pulls.back().along = -area / area.norm();
-          more.pulls.back().force = force;
-        }
-      const LimitEquilibrium<dim> limit =
-        solve_with_support<dim>(faces, load, more, is_passive);
-      return limit.mode == LimitEquilibrium<dim>::Mode::lifting ? 0.
-                                                                   : limit.factor;
-    };
-    if (factor_with(0.) >= factor)
-      return demand;
-    demand.force = demand.pressure = std::numeric_limits<double>::infinity();
-    if (area.norm() == 0.)
-      return demand;
-    // the least force that does: more may push the block elsewhere
-    double low = 0., high = 0.;
-    for (double force = 1e-3 * load.norm(); force < most_demand * load.norm();
-         force *= 1.1)
-      {
-        if (factor_with(force) >= factor)
-          {
-            high = force;
-            break;
-          }
-        low = force;
-      }
-    if (high == 0.)
-      return demand;
-    for (unsigned int i = 0; i < n_halvings; ++i)
-      {
-        const double middle                          = 0.5 * (low + high);
-        (factor_with(middle) >= factor ? high : low) = middle;
-      }
-    demand.force    = high;
-    demand.pressure = high / area.norm();
-    for (const auto &set : ground.scene.bolts)
-      demand.numbers.emplace_back(set->name,
-                                  static_cast<unsigned int>(std::ceil(
-                                    high / (set->share() * set->yield_force) -
-                                    1e-9)));
-    return demand;
+    return is_passive ? solve_with_passive(faces, all_load, support)
+                      : solve_with_active(faces, all_load, support);
   }
 
 #define INSTANTIATE(dim)                                                       \
@@ -308,13 +267,7 @@ namespace Keyblock
     std::vector<BlockFace<dim>> &,                                             \
     const Tensor<1, dim> &,                                                    \
     const BlockSupport<dim> &,                                                 \
-    const bool);                                                               \
-  template SupportDemand find_demand(const Ground<dim> &,                      \
-                                     const FreeFaces<dim> &,                   \
-                                     const unsigned int,                       \
-                                     const BlockSurroundings<dim> &,           \
-                                     const BlockSupport<dim> &,                \
-                                     const double);
+    const bool);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -29,6 +29,39 @@ namespace Keyblock
       return result;
     }
 
+    /** Whether the cone n.d >= 0 of unit @p normals, none parallel, is more
+     * than a ray or a plane: some direction leaves all of them. */
+    template <int dim>
+    bool
+    has_interior(const std::vector<Tensor<1, dim>> &normals)
+    {
+      if (normals.size() == 1)
+        return true;
+      Tensor<1, dim> sum; // of the unit vectors along its edges
+      const auto add = [&](const Tensor<1, dim> &line) {
+        for (const double sign : {1., -1.})
+          if (std::all_of(normals.begin(),
+                          normals.end(),
+                          [&](const Tensor<1, dim> &n) {
+                            return sign * (n * line) >= -1e-10 * line.norm();
+                          }))
+            sum += sign / line.norm() * line;
+      };
+      for (const Tensor<1, dim> &a : normals)
+        for (const Tensor<1, dim> &b : normals)
+          if (const double cosine = a * b; std::abs(cosine) < 1. - 1e-12)
+            {
+              add(b - cosine * a);
+              if constexpr (dim == 3)
+                add(cross_product_3d(a, b));
+            }
+      return std::all_of(normals.begin(),
+                         normals.end(),
+                         [&](const Tensor<1, dim> &n) {
+                           return n * sum > 1e-9 * sum.norm();
+                         });
+    }
+
     template <int dim>
     JointPyramid
     make_pyramid(const std::vector<ParallelJoints<dim>> &sets,
@@ -39,7 +72,7 @@ namespace Keyblock
       for (unsigned int s = sets.size(); s-- > 0;)
         result.code += (number >> s) & 1 ? '1' : '0';
       const auto inward = inward_normals(sets, result.code);
-      result.is_empty   = !is_removable(inward);
+      result.is_empty   = !has_interior(inward);
       std::vector<BlockFace<dim>> faces(sets.size());
       for (unsigned int s = 0; s < sets.size(); ++s)
         {

@@ -3,6 +3,7 @@
 // rock that its trials need not move.
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/safety/safety_factor.h>
+#include <keyblock/safety/stress_ratio.h>
 
 #include <algorithm>
 #include <sstream>
@@ -64,7 +65,7 @@ namespace Keyblock
     result.stress_ratio =
       stress_ratio<dim>(scene,
                         statics.around.faces,
-                        statics.limit.faces,
+                        statics.limit,
                         run.contact->report().sum_over_block(block));
   }
 

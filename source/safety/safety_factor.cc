@@ -35,6 +35,7 @@ namespace Keyblock
     bool
     holds_at(const double factor)
     {
+      Assert(factor > 0., dealii::ExcInternalError());
       const bool is_above = warm && warm_start <= factor;
       recall(is_above ? *warm : state, owner.run);
       const Trial trial =
@@ -80,6 +81,19 @@ namespace Keyblock
       const double failed = unstable;
       unstable            = 0.;
       return !holds_at(failed);
+    }
+
+    /** The same of the lower end, which may be known only from a stage, whose
+     * balance may be coarse. */
+    bool
+    confirm_lower_end()
+    {
+      const double lower = stable;
+      for (const Trial &trial : trials)
+        if (trial.factor == lower)
+          return true;
+      stable = 0.;
+      return lower == 0. || holds_at(lower);
     }
 
     /** Back to the state before the first trial. */
@@ -265,7 +279,7 @@ namespace Keyblock
                                                       b) > 0;
                                   }),
                    more.end());
-        guess.hint = 0.5 * (result.group_lower + result.group_upper);
+        guess.hint = result.value_of_group();
       }
     trials.companions.clear();
   }
@@ -279,10 +293,11 @@ namespace Keyblock
   {
     using Outcome                  = SafetyFactor::Outcome;
     const SafetySettings &settings = scene.safety;
-    for (const double middle = search.stable > 0. ? search.stable
-                                                  : search.unstable;
-         search.stable == 0. || search.unstable == 0.;
-         spread *= 4.)
+    const double middle = search.stable > 0. ? search.stable : search.unstable;
+    // with neither end known, from the edges of what is undecided
+    const double below = middle > 0. ? middle : search.undecided_lower,
+                 above = middle > 0. ? middle : search.undecided_upper;
+    for (; search.stable == 0. || search.unstable == 0.; spread *= 4.)
       {
         if (search.stable >= settings.highest)
           return Outcome::immovable;
@@ -291,9 +306,9 @@ namespace Keyblock
         if (search.is_hopeless())
           return Outcome::undecided;
         if (search.stable == 0.)
-          search.holds_at(std::max(settings.lowest, middle / (1. + spread)));
+          search.holds_at(std::max(settings.lowest, below / (1. + spread)));
         else
-          search.holds_at(std::min(settings.highest, middle * (1. + spread)));
+          search.holds_at(std::min(settings.highest, above * (1. + spread)));
       }
     return Outcome::bracketed;
   }
@@ -353,7 +368,7 @@ namespace Keyblock
         while (!search.is_done())
           search.holds_at(search.next());
         spread = settings.bracket;
-    } while (!search.confirm());
+    } while (!search.confirm_lower_end() || !search.confirm());
     return SafetyFactor::Outcome::bracketed;
   }
 
@@ -364,13 +379,15 @@ namespace Keyblock
   StrengthReductionSearch<dim>::sweep(Search &search) const
   {
     const SafetySettings &settings = scene.safety;
-    const double first             = std::max(search.stable, settings.lowest);
+    search.confirm_lower_end();
+    const double first = std::max(search.stable, settings.lowest);
     for (unsigned int i = search.stable > 0. ? 1 : 0;; ++i)
       {
         const double factor = first + i * settings.sweep_step;
         if (factor > settings.highest)
           return SafetyFactor::Outcome::immovable;
-        if (!search.holds_at(factor) && search.unstable > 0.)
+        search.holds_at(factor);
+        if (search.unstable == factor)
           return search.stable > 0. ? SafetyFactor::Outcome::bracketed
                                     : SafetyFactor::Outcome::falls_freely;
       }

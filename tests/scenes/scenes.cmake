@@ -139,6 +139,23 @@ keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
 keyblock_scene(verification/factor_incline)
 keyblock_scene(verification/factor_incline REFERENCES factor_incline_teams
   RANKS 2 SET "Safety factor/Rank groups=2")
+# stages whose balance says nothing of factor 1: cut short, tied, coarse
+foreach(case short,quasi-static,0.02,1e-6 static,static,0,1e-6
+    coarse,quasi-static,0,1 dynamic,dynamic,0.02,1e-6)
+  string(REPLACE "," ";" case ${case})
+  list(GET case 0 name)
+  list(GET case 1 kind)
+  list(GET case 2 duration)
+  list(GET case 3 ratio)
+  keyblock_scene(verification/factor_incline REFERENCES factor_incline_${name}
+    RANKS 1 SET "Stages/rest/Friction angle override=-1"
+    "Stages/rest/Kind=${kind}" "Stages/rest/Duration=${duration}"
+    "Stages/rest/Unbalanced ratio=${ratio}")
+endforeach()
+# the first guesses are undecided, and neither end of the bracket is known
+keyblock_scene(verification/factor_incline REFERENCES factor_incline_undecided
+  RANKS 1 SET "Safety factor/Maximum periods=2" "Safety factor/Bracket=1e-4"
+  "Safety factor/Seismic coefficient=-0.000217, 0")
 # a slot between two blocks, one for each team
 keyblock_scene(verification/factor_incline REFERENCES factor_incline_two_blocks
   RANKS 2 4 SET "Safety factor/Rank groups=2"
@@ -266,6 +283,10 @@ keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_20 RANKS 1
   "Initial state/Stress=-20e3@ 0@ -4e3@ 0")
 keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_45 RANKS 1
   SET "Joints/left/Friction angle=45" "Joints/right/Friction angle=45")
+# joints whose friction is that of the pressure on them
+keyblock_scene(verification/roof_clamped REFERENCES roof_clamped_rough RANKS 1
+  SET "Joints/*/Law=barton-bandis" "Joints/*/JRC=10" "Joints/*/JCS=50e6"
+  "Joints/*/Residual friction angle=25")
 # blocks that cannot move, and that nothing holds
 keyblock_scene(verification/factor_incline REFERENCES factor_level RANKS 1
   SET "Initial state/Gravity=0@ -9.81")

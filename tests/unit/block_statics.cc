@@ -5,7 +5,9 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <keyblock/blocks/block_geometry.h>
 #include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/stress_ratio.h>
 #include <keyblock/step/conditions.h>
 
 #include <cmath>
@@ -31,9 +33,9 @@ namespace
         std::ofstream(file) << "set Dimension = " << dim << '\n' << text;
       MPI_Barrier(world);
       scene.read(world, file, {});
-      const Mesh<dim> mesh = make_mesh(world, scene, silent);
-      blocks               = find_blocks(mesh, scene);
-      split                = split_mesh(mesh, blocks, scene);
+      BlockGeometry<dim> made = make_block_geometry(world, scene, silent);
+      blocks                  = std::move(made.blocks);
+      split                   = std::move(made.split);
     }
 
     BlockStatics<dim>
@@ -427,6 +429,160 @@ BOOST_AUTO_TEST_CASE(what_it_meets_on_its_way)
     has_remark(site.judge(uphill).remark(),
                "meets block " + std::to_string(2 - uphill) + " after 0.1 m"));
   BOOST_TEST(site.judge(1 - uphill).remark() == "");
+}
+
+BOOST_AUTO_TEST_CASE(sheared_support_never_drives)
+{
+  // a dowel along the plane's normal on a block of 5000 N: as it gets stronger,
+  // the factor rises, and then there is none
+  const auto dowelled = [&](const double strength, const std::string &more) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "subsection Bolts\n set Names = b\n subsection b\n  set Stage = "
+            "rest\n  set Heads = 0, 0.5\n  set Ends = 0, -0.05\n  set Spacing "
+            "= 1, 1\n  set Area = 1e-4\n  set Young modulus = 200e9\n  set "
+            "Yield force = 1e-6\n  set Bond stiffness = 1e9\n  set Bond "
+            "strength = 1e7\n  set Plate strength = 1e6\n  set Dowel stiffness "
+            "= 1e6\n  set Dowel strength = "
+         << strength << "\n end\nend\n"
+         << more;
+    return Site<2>(incline(40., 0.5, "", text.str())).judge();
+  };
+  const std::string passive =
+    "subsection Safety factor\n set Bolt convention = passive\nend\n";
+  const double driving = 5000. * sine, resisting = 5000. * cosine * friction;
+  for (const double share : {0.1, 0.5, 0.95, 0.999})
+    {
+      const double dowel = share * driving;
+      BOOST_TEST(is_near(dowelled(dowel, "").limit.factor,
+                         resisting / (driving - dowel),
+                         1e-6));
+      BOOST_TEST(is_near(dowelled(dowel, passive).limit.factor,
+                         (resisting + dowel) / driving,
+                         1e-6));
+    }
+  for (const double share : {1.001, 2., 100.})
+    {
+      const auto borne = dowelled(share * driving, "");
+      BOOST_TEST(borne.mode() == "stable");
+      BOOST_TEST(std::isinf(borne.limit.factor));
+      BOOST_TEST(has_remark(borne.remark(), "which bears all that drives it"));
+      BOOST_TEST(is_near(dowelled(share * driving, passive).limit.factor,
+                         (resisting + share * driving) / driving,
+                         1e-6));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(demand_of_a_block_that_turns)
+{
+  // 0.5 m wide, 1.6 m high, 16 kN: sliding alone has tan 40 / tan 24 = 1.885.
+  // The pressure on its top that turns it back: moments about the lower edge
+  const std::string wanted =
+    "subsection Safety factor\n set Wanted = 1.3\nend\n";
+  const std::string angle = "  set Friction angle = 40\n";
+  const auto turns        = Site<2>(incline(24., 1.6, angle, wanted)).judge();
+  BOOST_TEST(turns.mode() == "rotating on base");
+  BOOST_TEST(is_near(turns.demand.force,
+                     16e3 * (1.6 * std::sin(24. * radian) / 0.5 -
+                             std::cos(24. * radian)),
+                     1e-4));
+  BOOST_TEST(is_near(turns.demand.pressure, turns.demand.force / 0.5, 1e-12));
+  BOOST_TEST(has_remark(turns.remark(), "a factor of 1.3 asks for"));
+  // with that pressure it stands
+  const auto push = [](const double pressure) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "0; " << -pressure;
+    return traction("top", text.str());
+  };
+  BOOST_TEST(
+    Site<2>(incline(24., 1.6, angle, push(1.001 * turns.demand.pressure)))
+      .judge()
+      .mode() == "sliding on base");
+  BOOST_TEST(
+    Site<2>(incline(24., 1.6, angle, push(0.999 * turns.demand.pressure)))
+      .judge()
+      .mode() == "rotating on base");
+  // where sliding asks for more, that counts
+  const auto slides =
+    Site<2>(incline(24.,
+                    1.6,
+                    angle,
+                    "subsection Safety factor\n set Wanted = 3\nend\n"))
+      .judge();
+  BOOST_TEST(
+    is_near(slides.demand.force,
+            16e3 * (3. * std::sin(24. * radian) / std::tan(40. * radian) -
+                    std::cos(24. * radian)),
+            1e-6));
+}
+
+BOOST_AUTO_TEST_CASE(demand_of_a_block_that_water_lifts)
+{
+  // 1 m by 1 m in the floor, over water of 30 kPa
+  const auto floor = [](const double gravity, const std::string &convention) {
+    std::ostringstream text;
+    text
+      << "subsection Domain\n set Corner = -2, -2\n set Size = 4, 2\n set "
+         "Truncated boundaries = left, right, bottom\nend\nsubsection Mesh\n "
+         "set Cells = 8, 4\nend\nsubsection Joints\n set Names = left, right, "
+         "base\n subsection left\n  set Extent = polygon\n  set Vertices = "
+         "-0.5, 0; -0.5, -1\n end\n subsection right\n  set Extent = polygon\n "
+         " set Vertices = 0.5, 0; 0.5, -1\n end\n subsection base\n  set "
+         "Extent = polygon\n  set Vertices = -0.5, -1; 0.5, -1\n  set Water "
+         "pressure = 30e3\n end\nend\nsubsection Materials\n set Names = "
+         "rock\n subsection rock\n  set Density = 2000\n end\nend\nsubsection "
+         "Initial state\n set Gravity = 0; "
+      << -gravity
+      << "\nend\nsubsection Safety factor\n set Wanted = 1.5\n set Bolt "
+         "convention = "
+      << convention << "\nend\n"
+      << stage;
+    return Site<2>(text.str()).judge();
+  };
+  BOOST_TEST(floor(10., "passive").mode() == "lifting");
+  BOOST_TEST(is_near(floor(10., "passive").demand.force, 15e3, 1e-9));
+  BOOST_TEST(is_near(floor(10., "active").demand.force, 10e3, 1e-6));
+  BOOST_TEST(is_near(floor(0., "passive").demand.force, 45e3, 1e-9));
+  BOOST_TEST(is_near(floor(0., "active").demand.force, 30e3, 1e-6));
+}
+
+BOOST_AUTO_TEST_CASE(stress_ratio_of_a_block_that_leaves_its_faces)
+{
+  // in a roof between two sides that lean outwards by @p lean [deg] upwards,
+  // with a normal and a shear force on each, under a seam with cohesion
+  const double N = 50e3, T = 5e3;
+  const auto ratio = [&](const double lean, const bool is_seam_open) {
+    Scene<2> scene;
+    std::vector<BlockFace<2>> faces(3);
+    std::vector<JointSums<2>> sums(4);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        scene.joints.push_back(std::make_unique<Joint<2>>());
+        faces[i].name = scene.joints.back()->name = std::to_string(i);
+        faces[i].tangent_friction                 = friction;
+        faces[i].area                             = 1.;
+        if (i == 2)
+          break;
+        const double sign = i == 0 ? 1. : -1., s = std::sin(lean * radian),
+                     c     = std::cos(lean * radian);
+        faces[i].inward    = Tensor<1, 2>({sign * c, -s});
+        sums[i].force      = {{sign * (N * c + T * s), T * c - N * s}};
+        sums[i].n_sticking = 4;
+      }
+    faces[2].inward   = Tensor<1, 2>({0., -1.});
+    faces[2].cohesion = 100e3;
+    (is_seam_open ? sums[2].n_open : sums[2].n_sticking) = 4;
+    if (!is_seam_open)
+      sums[2].force = {{100., 200.}};
+    const auto limit =
+      solve_limit_equilibrium<2>(faces, Tensor<1, 2>({0., -10e3}));
+    BOOST_TEST(limit.describe(faces) == "falling");
+    return stress_ratio<2>(scene, faces, limit, sums);
+  };
+  for (const double lean : {0., 10., 30.})
+    for (const bool is_seam_open : {true, false})
+      BOOST_TEST(is_near(ratio(lean, is_seam_open), N * friction / T, 1e-12));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

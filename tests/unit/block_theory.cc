@@ -161,6 +161,47 @@ BOOST_AUTO_TEST_CASE(number_of_joint_pyramids)
       }
 }
 
+// the cone of two opposite half-spaces and others that meet in a ray is no
+// block
+BOOST_AUTO_TEST_CASE(pyramids_of_planes_through_one_line)
+{
+  BlockTheorySettings settings;
+  settings.roof_span   = 4.;
+  const Orientations e = {
+    {60., 0.}, {60., 120.}, {60., 240.}, {90., 30.}, {0., 0.}};
+  const auto theory = theory_of<3>(e, settings);
+  for (const FreeFace<3> &face : theory.faces)
+    for (const unsigned int p : face.removable)
+      {
+        // what moves off moves off all of them
+        const auto inward =
+          inward_normals(theory.sets, theory.pyramids[p].code);
+        double best = -1.;
+        for (int i = -60; i <= 60; ++i)
+          for (int j = 0; j < 360; ++j)
+            {
+              const double z = i / 60.5, r = std::sqrt(1. - z * z),
+                           turn = j * dealii::numbers::PI / 180.;
+              const Tensor<1, 3> d({r * std::cos(turn), r * std::sin(turn), z});
+              double least = 1.;
+              for (const Tensor<1, 3> &n : inward)
+                least = std::min(least, n * d);
+              best = std::max(best, least);
+            }
+        BOOST_TEST_INFO(face.name << ' ' << theory.pyramids[p].code);
+        BOOST_TEST(best > 0.05);
+        if (face.name == "roof")
+          {
+            const RoofWedge wedge =
+              find_largest_roof_wedge(theory.sets,
+                                      theory.pyramids[p].code,
+                                      settings);
+            BOOST_TEST(wedge.height < 100.);
+            BOOST_TEST(wedge.volume > 0.01);
+          }
+      }
+}
+
 BOOST_AUTO_TEST_CASE(two_lines_over_a_tunnel)
 {
   const auto theory    = theory_of<2>({{70., 90.}, {50., 270.}});

@@ -3,7 +3,6 @@
 #define keyblock_safety_block_faces_h
 
 #include <keyblock/blocks/free_faces.h>
-#include <keyblock/contact/contact.h>
 #include <keyblock/safety/limit_equilibrium.h>
 
 #include <set>
@@ -66,21 +65,14 @@ namespace Keyblock
    * What @p block touches and what acts on it at @p time. Water and tractions
    * are summed as Loads does, water by its pressure at the faces'
    * vertices; of a block that is known exactly (Block::exact), weight, areas
-   * and water are those between its planes, where the mesh has bent them.
+   * and water are those between its planes, where the mesh has bent them;
+   * tractions are scaled by the ratio of its free areas.
    */
   template <int dim>
   BlockSurroundings<dim> look_around(const Ground<dim> &ground,
                                      const FreeFaces<dim> &free,
                                      const Block<dim> &block,
                                      const double time);
-
-  /** Shear strength over shear force on the faces that a block slides on
-   * (@p sliding, indices; empty: on all), with the forces of now; 0: none. */
-  template <int dim>
-  double stress_ratio(const Scene<dim> &scene,
-                      const std::vector<BlockFace<dim>> &faces,
-                      const std::vector<unsigned int> &sliding,
-                      const std::vector<JointSums<dim>> &sums);
 } // namespace Keyblock
 
 #endif

@@ -4,12 +4,43 @@
 
 #include <keyblock/safety/block_rotation.h>
 #include <keyblock/safety/block_support.h>
+#include <keyblock/safety/support_demand.h>
 
 #include <functional>
 #include <iosfwd>
 
 namespace Keyblock
 {
+  /** How a block with its support would move. */
+  template <int dim>
+  struct SupportedMotion
+  {
+    LimitEquilibrium<dim> limit; ///< rotation included
+    Rotation rotation;
+    double factor_of_sliding; ///< without rotation
+  };
+
+  /** That of a block with @p around and @p support, and with a uniform
+   * @p pressure [Pa] on @p free_faces besides, which pulls as a bolt does.
+   * @param free_faces centres and vector areas, outwards [m, m^(dim-1)] */
+  template <int dim>
+  SupportedMotion<dim>
+  find_motion(BlockSurroundings<dim> &around,
+              const BlockSupport<dim> &support,
+              const bool is_passive,
+              const std::vector<PointForce<dim>> &free_faces = {},
+              const double pressure                          = 0.);
+
+  /** What @p block (index) needs besides its support for a @p factor; nothing
+   * if it has that. */
+  template <int dim>
+  SupportDemand find_demand(const Ground<dim> &ground,
+                            const FreeFaces<dim> &free,
+                            const unsigned int block,
+                            const BlockSurroundings<dim> &around,
+                            const BlockSupport<dim> &support,
+                            const double factor);
+
   /** What limit equilibrium says of a block at a stage. */
   template <int dim>
   struct BlockStatics

@@ -4,7 +4,6 @@
 
 #include <keyblock/rock/bolt_chain.h>
 #include <keyblock/safety/block_faces.h>
-#include <keyblock/safety/support_demand.h>
 
 namespace Keyblock
 {
@@ -67,24 +66,17 @@ namespace Keyblock
 
   /**
    * Limit equilibrium of a block on @p faces under @p load with its support.
-   * Active: their forces are a part of the load. Passive: of their part along
-   * the way that the block would take without them, what is against it is added
-   * to what resists (Hoek and Bray 1981).
+   * Active: the pulls of bolts are a part of the load, as is what dowels and
+   * shotcrete do against the way that the block takes then; where these bear
+   * all that drives it, nothing does. Passive: of all of it, the part along the
+   * way that the block would take without, what is against it is added to what
+   * resists (Hoek and Bray 1981).
    */
   template <int dim>
   LimitEquilibrium<dim> solve_with_support(std::vector<BlockFace<dim>> &faces,
                                            const Tensor<1, dim> &load,
                                            const BlockSupport<dim> &support,
                                            const bool is_passive);
-
-  /** Demand of @p block (index) for a @p factor; nothing if it has that. */
-  template <int dim>
-  SupportDemand find_demand(const Ground<dim> &ground,
-                            const FreeFaces<dim> &free,
-                            const unsigned int block,
-                            const BlockSurroundings<dim> &around,
-                            const BlockSupport<dim> &support,
-                            const double factor);
 } // namespace Keyblock
 
 #endif

@@ -61,6 +61,9 @@ namespace Keyblock
      * lifting; 0 if rotating, infinite if stable [-]. */
     double factor = 0.;
 
+    /** Stable because support bears all that drives the block. */
+    bool is_borne = false;
+
     /** The mode in words: falling, sliding on J1, sliding on J1/J2. */
     std::string describe(const std::vector<BlockFace<dim>> &all) const;
 

@@ -52,6 +52,12 @@ namespace Keyblock
              : outcome == Outcome::immovable ? lower
                                              : 0.;
     }
+
+    double
+    value_of_group() const
+    {
+      return 0.5 * (group_lower + group_upper);
+    }
   };
 
   /** The outcome in words; a value, falls freely, immovable, above 100, held by
