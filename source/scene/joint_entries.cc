@@ -8,6 +8,26 @@
 
 #include <limits>
 
+namespace dealii::Patterns::Tools
+{
+  template <>
+  struct Convert<Keyblock::JointForm>
+    : Keyblock::ChoiceConversion<Keyblock::JointForm>
+  {};
+  template <>
+  struct Convert<Keyblock::JointShape>
+    : Keyblock::ChoiceConversion<Keyblock::JointShape>
+  {};
+  template <>
+  struct Convert<Keyblock::SpacingDistribution>
+    : Keyblock::ChoiceConversion<Keyblock::SpacingDistribution>
+  {};
+  template <>
+  struct Convert<Keyblock::RadiusDistribution>
+    : Keyblock::ChoiceConversion<Keyblock::RadiusDistribution>
+  {};
+} // namespace dealii::Patterns::Tools
+
 namespace Keyblock
 {
   namespace
