@@ -11,6 +11,7 @@ import csv
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -372,6 +373,25 @@ def trough():
         assert len(a) == len(b) == 4
         for p, q in zip(a, b):
             assert math.dist(p, q) < 1e-8, f"{p} is not {q}"
+
+
+def small_parts():
+    """Plane parts of a bent joint that coarse cells lose are told; fine ones keep
+    all of them."""
+    scene = PRM / "verification" / "trough.prm"
+    common = ["Stages/rest/Kind=dynamic", "Stages/rest/Duration=1e-9",
+              "Stages/rest/Unbalanced ratio=0", "Safety factor/Blocks=none"]
+    for size in 3., 2., 0.6:
+        name = f"size_{size}"
+        printed = blocks(scene, name, common + [f"Mesh/Size={size}"])[1]
+        kept = set(re.findall(r"fault_\d+", printed[printed.index("\nBlocks"):]))
+        lost = 12 - len(kept)
+        summary = json.loads((FOLDER / name / "summary.json").read_text("utf-8"))
+        told = summary["mesh"].get("plane_parts_lost", {})
+        assert told == ({"fault": lost} if lost else {}), f"{told} is not {lost}"
+        sentence = f"{lost} of the 12 plane parts of the joint 'fault' are too small"
+        assert (sentence in printed) == (lost > 0)
+        assert (lost > 0) == (size > 1.), f"{lost} lost with cells of {size} m"
 
 
 if __name__ == "__main__":
