@@ -11,6 +11,7 @@ import csv
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -59,6 +60,77 @@ def stl(triangles):
         lines += ["vertex " + " ".join(f"{x:.17g}" for x in p) for p in triangle]
         lines += ["endloop", "endfacet"]
     return "\n".join(lines + ["endsolid surface", ""])
+
+
+STEP_HEAD = """ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION(('faces'),'2;1');
+FILE_NAME('faces','2026-01-01T00:00:00',(''),(''),'','','');
+FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));
+ENDSEC;
+DATA;
+#1 = APPLICATION_CONTEXT('core data for automotive mechanical design processes');
+#2 = PRODUCT_CONTEXT('',#1,'mechanical');
+#3 = PRODUCT('faces','faces','',(#2));
+#4 = PRODUCT_DEFINITION_FORMATION('','',#3);
+#5 = PRODUCT_DEFINITION_CONTEXT('part definition',#1,'design');
+#6 = PRODUCT_DEFINITION('design','',#4,#5);
+#7 = PRODUCT_DEFINITION_SHAPE('','',#6);
+#8 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );
+#9 = ( NAMED_UNIT(*) PLANE_ANGLE_UNIT() SI_UNIT($,.RADIAN.) );
+#10 = ( NAMED_UNIT(*) SI_UNIT($,.STERADIAN.) SOLID_ANGLE_UNIT() );
+#11 = UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-07),#8,'','');
+#12 = ( GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#11))
+GLOBAL_UNIT_ASSIGNED_CONTEXT((#8,#9,#10)) REPRESENTATION_CONTEXT('','') );
+"""
+
+
+def step(polygons):
+    """STEP of plane faces, each with vertices of its own, in millimetres."""
+    lines = []
+
+    def add(text):
+        lines.append(f"#{len(lines) + 13} = {text};")
+        return f"#{len(lines) + 12}"
+
+    def triple(kind, values):
+        return add(f"{kind}('',({','.join(f'{x:.17E}' for x in values)}))")
+
+    def minus(a, b):
+        return [x - y for x, y in zip(a, b)]
+
+    def unit(a):
+        return [x / math.hypot(*a) for x in a]
+
+    def cross(a, b):
+        return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
+
+    faces = []
+    for polygon in polygons:
+        corners = [[1000. * x for x in p] for p in polygon]
+        along = unit(minus(corners[1], corners[0]))
+        normal = unit(cross(along, minus(corners[2], corners[0])))
+        points = [triple("CARTESIAN_POINT", p) for p in corners]
+        vertices = [add(f"VERTEX_POINT('',{p})") for p in points]
+        edges = []
+        for i, corner in enumerate(corners):
+            j = (i + 1) % len(corners)
+            way = triple("DIRECTION", unit(minus(corners[j], corner)))
+            vector = add(f"VECTOR('',{way},1.)")
+            line = add(f"LINE('',{points[i]},{vector})")
+            edge = add(f"EDGE_CURVE('',{vertices[i]},{vertices[j]},{line},.T.)")
+            edges.append(add(f"ORIENTED_EDGE('',*,*,{edge},.T.)"))
+        loop = add(f"EDGE_LOOP('',({','.join(edges)}))")
+        bound = add(f"FACE_BOUND('',{loop},.T.)")
+        axes = triple("DIRECTION", normal), triple("DIRECTION", along)
+        place = add(f"AXIS2_PLACEMENT_3D('',{points[0]},{axes[0]},{axes[1]})")
+        plane = add(f"PLANE('',{place})")
+        faces.append(add(f"ADVANCED_FACE('',({bound}),{plane},.T.)"))
+    shell = add(f"OPEN_SHELL('',({','.join(faces)}))")
+    model = add(f"SHELL_BASED_SURFACE_MODEL('',({shell}))")
+    shape = add(f"MANIFOLD_SURFACE_SHAPE_REPRESENTATION('',({model}),#12)")
+    add(f"SHAPE_DEFINITION_REPRESENTATION(#7,{shape})")
+    return STEP_HEAD + "\n".join(lines + ["ENDSEC;", "END-ISO-10303-21;", ""])
 
 
 def plane_square(point, dip, direction, half, pieces):
@@ -221,6 +293,15 @@ def physical_groups_3d():
     physical_groups(3)
 
 
+def areas(block):
+    """Areas of a block's joints, of the parts of a bent one together."""
+    sums = {}
+    for name, area in block.get("exact_joint_areas", {}).items():
+        surface = name.split("_")[0]
+        sums[surface] = sums.get(surface, 0.) + area
+    return sums
+
+
 def roof_wedge():
     """A wedge of the roof whose three planes come from one file each."""
     scene = PRM / "tutorial" / "roof_wedge.prm"
@@ -232,7 +313,7 @@ def roof_wedge():
               "Stages/dig/Unbalanced ratio=0", "Stages/dig/Maximum steps=1",
               "Initial state/Equilibrium=none", "Safety factor/Wanted=0.01",
               "Safety factor/Lowest=0.009", "Output/Write VTU=false", "Joints/File="]
-    planes, surfaces = [], []
+    planes, surfaces, shapes = [], [], []
     for row in rows:
         name = row["name"]
         point = [float(row[axis]) for axis in "xyz"]
@@ -245,11 +326,72 @@ def roof_wedge():
         pieces = 3 if name == "J2" else 1
         (FOLDER / f"{name}.stl").write_text(
             stl(plane_square(point, dip, direction, 60., pieces)), encoding="utf-8")
-        surfaces += [strength, f"Joints/{name}/Shape=file",
-                     f"Joints/{name}/File={FOLDER / name}.stl"]
+        (FOLDER / f"{name}.step").write_text(
+            step(plane_square(point, dip, direction, 60., pieces)), encoding="utf-8")
+        for list_, suffix in (surfaces, "stl"), (shapes, "step"):
+            list_ += [strength, f"Joints/{name}/Shape=file",
+                      f"Joints/{name}/File={FOLDER / name}.{suffix}"]
     names = ["Joints/Names=" + ", ".join(row["name"] for row in rows)]
-    same(blocks(scene, "surfaces", common + names + surfaces)[0],
-         blocks(scene, "planes", common + names + planes)[0])
+    expected = blocks(scene, "planes", common + names + planes)[0]
+    same(blocks(scene, "surfaces", common + names + surfaces)[0], expected)
+    found = blocks(scene, "shapes", common + names + shapes)[0]
+    assert len(found) == len(expected)
+    # the mesh around them is another one, by rounding
+    found, expected = ([b for b in list_ if "exact_volume" in b]
+                       for list_ in (found, expected))
+    same(found, expected, 1e-8)
+    for a, b in zip(found, expected):
+        assert areas(a).keys() == areas(b).keys()
+        for name in areas(a):
+            close(areas(a)[name], areas(b)[name], 1e-8, f"area of {name}")
+
+
+def trough():
+    """The triangles of a curved fault as STEP faces that share no edge in the
+    file: the plane facets are those of the STL file."""
+    numbers = [float(x) for line in
+               (PRM / "verification" / "trough.stl").read_text("utf-8").splitlines()
+               if "vertex" in line for x in line.split()[1:]]
+    points = [numbers[i:i + 3] for i in range(0, len(numbers), 3)]
+    triangles = [points[i:i + 3] for i in range(0, len(points), 3)]
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    (FOLDER / "trough.step").write_text(step(triangles), encoding="utf-8")
+    scene = PRM / "verification" / "trough.prm"
+    common = ["Mesh/Size=1", "Stages/rest/Kind=dynamic", "Stages/rest/Duration=1e-9",
+              "Stages/rest/Unbalanced ratio=0", "Safety factor/Blocks=none"]
+    blocks(scene, "triangles", common)
+    blocks(scene, "shapes", common + [f"Joints/fault/File={FOLDER / 'trough.step'}"])
+    facets = []
+    for name in ("triangles", "shapes"):
+        with open(FOLDER / name / "joints.csv", encoding="utf-8") as file:
+            facets.append(sorted(
+                sorted(tuple(float(x) for x in p.split(","))
+                       for p in row["vertices (m)"].split(";"))
+                for row in csv.DictReader(file)))
+    assert len(facets[0]) == len(facets[1]) == 12
+    for a, b in zip(*facets):
+        assert len(a) == len(b) == 4
+        for p, q in zip(a, b):
+            assert math.dist(p, q) < 1e-8, f"{p} is not {q}"
+
+
+def small_parts():
+    """Plane parts of a bent joint that coarse cells lose are told; fine ones keep
+    all of them."""
+    scene = PRM / "verification" / "trough.prm"
+    common = ["Stages/rest/Kind=dynamic", "Stages/rest/Duration=1e-9",
+              "Stages/rest/Unbalanced ratio=0", "Safety factor/Blocks=none"]
+    for size in 3., 2., 0.6:
+        name = f"size_{size}"
+        printed = blocks(scene, name, common + [f"Mesh/Size={size}"])[1]
+        kept = set(re.findall(r"fault_\d+", printed[printed.index("\nBlocks"):]))
+        lost = 12 - len(kept)
+        summary = json.loads((FOLDER / name / "summary.json").read_text("utf-8"))
+        told = summary["mesh"].get("plane_parts_lost", {})
+        assert told == ({"fault": lost} if lost else {}), f"{told} is not {lost}"
+        sentence = f"{lost} of the 12 plane parts of the joint 'fault' are too small"
+        assert (sentence in printed) == (lost > 0)
+        assert (lost > 0) == (size > 1.), f"{lost} lost with cells of {size} m"
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace Keyblock
 {
@@ -85,6 +86,80 @@ namespace Keyblock
 
 
 
+    /** Whether points are within the box around a mesh, not on it. */
+    template <int dim>
+    class BoxAround
+    {
+    public:
+      explicit BoxAround(const SimplexMesh<dim> &mesh)
+        : low(mesh.vertices[0])
+        , high(low)
+      {
+        for (const Point<dim> &p : mesh.vertices)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              low[d]  = std::min(low[d], p[d]);
+              high[d] = std::max(high[d], p[d]);
+            }
+      }
+
+      bool
+      contains(const Point<dim> &p) const
+      {
+        bool is_inside = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          is_inside = is_inside && p[d] > low[d] && p[d] < high[d];
+        return is_inside;
+      }
+
+    private:
+      Point<dim> low, high;
+    };
+
+
+
+    /** See MeshReport::lost_parts; of joints that are there. */
+    template <int dim>
+    void
+    find_lost_parts(const SimplexMesh<dim> &mesh,
+                    const JointSheets<dim> &sheets,
+                    const double coarsening,
+                    MeshReport<dim> &report)
+    {
+      const BoxAround<dim> box(mesh);
+      std::set<unsigned int> kept;
+      for (const auto &facet : mesh.marked_facets())
+        for (const auto &mark : mesh.marks.at(facet))
+          if (mesh.surfaces[mark.surface].is_joint())
+            kept.insert(mesh.surfaces[mark.surface].joint);
+      for (const auto &sheet : sheets.sheets)
+        {
+          typename MeshReport<dim>::LostParts lost = {
+            sheet->joints[0], 0, unsigned(sheet->facets.size()), 0., 0.};
+          bool is_there = false;
+          for (unsigned int f = 0; f < sheet->facets.size(); ++f)
+            {
+              const JointExtent<dim> &part = sheet->facets[f];
+              Point<dim> middle;
+              const auto corners = part.outermost_points();
+              for (const Point<dim> &p : corners)
+                middle += p / double(corners.size());
+              if (kept.count(sheet->joints[f]) > 0)
+                is_there = true;
+              else if (box.contains(middle))
+                {
+                  ++lost.n_lost;
+                  lost.width = std::max(lost.width, 2. * part.half_width());
+                }
+            }
+          lost.size = lost.width / coarsening;
+          if (is_there && lost.n_lost > 0)
+            report.lost_parts.push_back(lost);
+        }
+    }
+
+
+
     /** Tells which joints reach into the model: of those without facets
      * whether they are too small or outside, and of the others that lie wholly
      * in its box how much of their area they have. */
@@ -105,26 +180,18 @@ namespace Keyblock
               area[j] += mesh.measure(facet);
               edge[j] += mesh.measure(facet) * mesh.size_at(facet);
             }
-      Point<dim> low = mesh.vertices[0], high = low;
-      for (const Point<dim> &p : mesh.vertices)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            low[d]  = std::min(low[d], p[d]);
-            high[d] = std::max(high[d], p[d]);
-          }
-      const auto is_in_box = [&](const Point<dim> &p) {
-        bool is_inside = true;
-        for (unsigned int d = 0; d < dim; ++d)
-          is_inside = is_inside && p[d] > low[d] && p[d] < high[d];
-        return is_inside;
-      };
+      const BoxAround<dim> box(mesh);
       double found = 0., wanted = 0., found_large = 0., wanted_large = 0.;
       for (unsigned int j = 0; j < sheets.sheets.size(); ++j)
         {
           const JointSheet<dim> &sheet         = *sheets.sheets[j];
           const std::vector<Point<dim>> places = sheet.outermost_points();
           const unsigned int n_inside =
-            std::count_if(places.begin(), places.end(), is_in_box);
+            std::count_if(places.begin(),
+                          places.end(),
+                          [&box](const Point<dim> &p) {
+                            return box.contains(p);
+                          });
           if (area[j] == 0.)
             {
               auto &list = n_inside > 0 ? report.lost : report.outside;
@@ -221,6 +288,7 @@ namespace Keyblock
 
     measure_shifts(mesh, sheets, coarsening, report);
     look_for_joints(mesh, sheets, report);
+    find_lost_parts(mesh, sheets, coarsening, report);
     find_gaps(mesh, sheets, report);
     return report;
   }

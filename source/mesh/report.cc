@@ -91,6 +91,23 @@ namespace Keyblock
         out << "        and so do " << merged.size() - most_pairs
             << " more pairs of joints: summary.json lists them\n";
     }
+
+    template <int dim>
+    void
+    print_lost_parts(std::ostream &out,
+                     const MeshReport<dim> &report,
+                     const Scene<dim> &scene)
+    {
+      for (const auto &lost : report.lost_parts)
+        out << "Warning: " << lost.n_lost << " of the " << lost.n_parts
+            << " plane parts of the joint '"
+            << scene.joints[lost.joint]->surface
+            << "' are too small for the cells there, the largest about "
+            << lost.width
+            << " m wide: the joint is smoothed over them; set 'Mesh/Size at "
+               "joints' to about "
+            << lost.size << ", or give larger parts.\n";
+    }
   } // namespace
 
 
@@ -134,6 +151,7 @@ namespace Keyblock
                 report.lost,
                 scene,
                 "too small for the cells where they lie, and left out");
+    print_lost_parts(out, report, scene);
     print_names(out, report.outside, scene, "outside the model, and left out");
   }
 

@@ -126,6 +126,9 @@ namespace Keyblock
       };
       json["joints_lost"]    = names(report.lost);
       json["joints_outside"] = names(report.outside);
+      for (const auto &lost : report.lost_parts)
+        json["plane_parts_lost"][scene.joints[lost.joint]->surface] =
+          lost.n_lost;
       for (const auto &pair : report.merged)
         json["merged_areas"][scene.joints[pair.joint]->name + " " +
                              scene.joints[pair.other]->name] = pair.area;

@@ -6,6 +6,22 @@
 #include <keyblock/scene/choice_patterns.h>
 #include <keyblock/scene/entry_patterns.h>
 
+namespace dealii::Patterns::Tools
+{
+  template <>
+  struct Convert<Keyblock::SupportKind>
+    : Keyblock::ChoiceConversion<Keyblock::SupportKind>
+  {};
+  template <>
+  struct Convert<Keyblock::HistoryQuantity>
+    : Keyblock::ChoiceConversion<Keyblock::HistoryQuantity>
+  {};
+  template <>
+  struct Convert<Keyblock::SupportDirections>
+    : Keyblock::ChoiceConversion<Keyblock::SupportDirections>
+  {};
+} // namespace dealii::Patterns::Tools
+
 namespace Keyblock
 {
   using namespace EntryPatterns;

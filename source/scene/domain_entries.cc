@@ -7,6 +7,22 @@
 #include <keyblock/scene/domain.h>
 #include <keyblock/scene/entry_patterns.h>
 
+namespace dealii::Patterns::Tools
+{
+  template <>
+  struct Convert<Keyblock::DomainShape>
+    : Keyblock::ChoiceConversion<Keyblock::DomainShape>
+  {};
+  template <>
+  struct Convert<Keyblock::MeshGenerator>
+    : Keyblock::ChoiceConversion<Keyblock::MeshGenerator>
+  {};
+  template <>
+  struct Convert<Keyblock::ExcavationShape>
+    : Keyblock::ChoiceConversion<Keyblock::ExcavationShape>
+  {};
+} // namespace dealii::Patterns::Tools
+
 namespace Keyblock
 {
   using namespace EntryPatterns;

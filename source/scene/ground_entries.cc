@@ -7,6 +7,22 @@
 #include <keyblock/scene/entry_patterns.h>
 #include <keyblock/scene/ground.h>
 
+namespace dealii::Patterns::Tools
+{
+  template <>
+  struct Convert<Keyblock::MaterialModel>
+    : Keyblock::ChoiceConversion<Keyblock::MaterialModel>
+  {};
+  template <>
+  struct Convert<Keyblock::CellIntegration>
+    : Keyblock::ChoiceConversion<Keyblock::CellIntegration>
+  {};
+  template <>
+  struct Convert<Keyblock::InitialEquilibrium>
+    : Keyblock::ChoiceConversion<Keyblock::InitialEquilibrium>
+  {};
+} // namespace dealii::Patterns::Tools
+
 namespace Keyblock
 {
   using namespace EntryPatterns;

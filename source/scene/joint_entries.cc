@@ -8,6 +8,26 @@
 
 #include <limits>
 
+namespace dealii::Patterns::Tools
+{
+  template <>
+  struct Convert<Keyblock::JointForm>
+    : Keyblock::ChoiceConversion<Keyblock::JointForm>
+  {};
+  template <>
+  struct Convert<Keyblock::JointShape>
+    : Keyblock::ChoiceConversion<Keyblock::JointShape>
+  {};
+  template <>
+  struct Convert<Keyblock::SpacingDistribution>
+    : Keyblock::ChoiceConversion<Keyblock::SpacingDistribution>
+  {};
+  template <>
+  struct Convert<Keyblock::RadiusDistribution>
+    : Keyblock::ChoiceConversion<Keyblock::RadiusDistribution>
+  {};
+} // namespace dealii::Patterns::Tools
+
 namespace Keyblock
 {
   namespace
@@ -51,22 +71,25 @@ namespace Keyblock
       form,
       "Form of the joint: plane, by the entries below; or bent or kinked, one "
       "joint of several plane parts called NAME_1, NAME_2, ...: polyline (2D) "
-      "through Vertices; file, the triangles or lines of File; physical group "
+      "through Vertices; file, the triangles, faces or lines of File; physical "
+      "group "
       "of the mesh file (.msh), whose element faces are the joint.");
     prm.add_parameter(
       "File",
       file,
       "File of the surface, relative to the scene file: in 3D triangles, .stl "
-      "or .dxf (3DFACE), in 2D lines, .dxf (polylines, lines, arcs); "
-      "Domain/Origin is subtracted.");
+      "or .dxf (3DFACE), or the faces of a STEP or BREP file (.step, .stp, "
+      ".brep), in 2D lines, .dxf (polylines, lines, arcs); Domain/Origin is "
+      "subtracted.");
     prm.add_parameter("Scale",
                       scale,
-                      "Length of the unit of File [m].",
+                      "Length of the unit of File [m]; STEP files name theirs.",
                       Double(std::numeric_limits<double>::min()));
-    prm.add_parameter("Segments",
-                      segments,
-                      "Number of chords in half a circle of File.",
-                      dealii::Patterns::Integer(1, 1000));
+    prm.add_parameter(
+      "Segments",
+      segments,
+      "Number of chords in half a circle of a .dxf, STEP or BREP file.",
+      dealii::Patterns::Integer(1, 1000));
     prm.add_parameter("Group",
                       group,
                       "Name or number of the physical group; empty: the name "

@@ -147,10 +147,14 @@ namespace Keyblock
                   "/File' is empty, but 'Shape' is file; name the file of the "
                   "surface.");
         const bool is_drawing = boost::iends_with(joint.file, ".dxf");
-        require(is_drawing || (dim == 3 && is_stl(joint.file)),
+        require(is_drawing ||
+                  (dim == 3 && (is_stl(joint.file) || is_cad(joint.file))),
                 subject + " is not one of " +
-                  (dim == 2 ? "lines (.dxf)" : "triangles (.stl, .dxf)") +
+                  (dim == 2 ? "lines (.dxf)"
+                            : "triangles (.stl, .dxf) or faces (.step, .stp, "
+                              ".brep)") +
                   "; convert it.");
+        check_scale(section, joint.file, joint.scale);
       }
 
       void
@@ -204,11 +208,28 @@ namespace Keyblock
         else
           {
             TriangleSurface surface =
-              is_stl(path) ? read_stl(text) : read_dxf_faces(text);
+              is_cad(path)   ? triangulate_faces(path,
+                                               2 * joint.segments,
+                                               smallest_cell() / joint.scale)
+              : is_stl(path) ? read_stl(text)
+                             : read_dxf_faces(text);
             for (Point<3> &p : surface.vertices)
               p = Point<3>(joint.scale * p - scene.domain.origin);
             facets = facets_of_triangles(std::move(surface));
           }
+      }
+
+      /** Smallest cell that the scene asks for [m]; 0: not known. */
+      double
+      smallest_cell() const
+      {
+        const Meshing<dim> &m = scene.meshing;
+        double least          = 0.;
+        for (const double size :
+             {m.size, m.size_at_joints, m.size_at_excavation})
+          if (size > 0. && (least == 0. || size < least))
+            least = size;
+        return least;
       }
 
       void
@@ -237,7 +258,9 @@ namespace Keyblock
                    : subject) +
                   " gives the joint '" + joint.name + "' " +
                   std::to_string(facets.size()) + " plane parts, more than " +
-                  std::to_string(most_facets) + "; make them larger.");
+                  std::to_string(most_facets) + "; make them larger" +
+                  (is_cad(file()) ? ", or lower '" + section + "/Segments'."
+                                  : "."));
       }
 
       /** The surface reaches into the domain and is of its order of size. */
@@ -267,8 +290,9 @@ namespace Keyblock
                      text_of(low[d]) + " to " + text_of(high[d]);
           }
         const std::string remedy =
-          "; check its unit ('" + section +
-          "/Scale') and its coordinates ('Domain/Origin') against 'Domain'.";
+          "; check its unit " +
+          (names_unit(file()) ? "in the file" : "('" + section + "/Scale')") +
+          " and its coordinates ('Domain/Origin') against 'Domain'.";
         require(!is_outside,
                 subject + " has a surface of " + sides +
                   " m, which is outside of the domain" + remedy);

@@ -313,18 +313,18 @@ namespace Keyblock
 
   namespace
   {
-    /** The law's name and entries, unless it is the default. */
+    /** The law's name and entries, of the default one where they say more than
+     * it does by itself. */
     template <typename Add>
     void
     add_law(const JointStrength &strength, const Add &add)
     {
-      if (strength.law != joint_law_kinds().front().name)
-        {
-          add("Law", strength.law);
-          for (const JointLawEntry &entry :
-               joint_law_kind(strength.law).entries)
-            add(entry.name, exact_text(strength.value_of(entry.name)));
-        }
+      const bool is_default = strength.law == joint_law_kinds().front().name;
+      if (!is_default)
+        add("Law", strength.law);
+      for (const JointLawEntry &entry : joint_law_kind(strength.law).entries)
+        if (!is_default || strength.value_of(entry.name) != entry.value)
+          add(entry.name, exact_text(strength.value_of(entry.name)));
       if (JointStiffness(strength).is_compliant())
         for (const JointLawEntry &entry : stiffness_entries())
           add(entry.name, exact_text(strength.value_of(entry.name)));
@@ -338,12 +338,6 @@ namespace Keyblock
   print_joints(const std::vector<std::unique_ptr<Joint<dim>>> &joints)
   {
     std::string text;
-    const auto list = [](const auto &values, const unsigned int n) {
-      std::string list;
-      for (unsigned int d = 0; d < n; ++d)
-        list += (d ? ", " : "") + exact_text(values[d]);
-      return list;
-    };
     const auto add = [&text](const std::string &name,
                              const std::string &value) {
       if (!value.empty())
@@ -352,9 +346,9 @@ namespace Keyblock
     const auto add_plane = [&](const Joint<dim> &joint) {
       std::string vertices;
       for (const Point<dim> &vertex : joint.vertices)
-        vertices += (vertices.empty() ? "" : "; ") + list(vertex, dim);
-      add("Point", list(joint.point, dim));
-      add("Normal", list(joint.normal_entry, joint.normal_entry.size()));
+        vertices += (vertices.empty() ? "" : "; ") + exact_list(vertex, dim);
+      add("Point", exact_list(joint.point, dim));
+      add("Normal", exact_list(joint.normal_entry, joint.normal_entry.size()));
       add("Dip", exact_text(joint.dip));
       add("Dip direction", exact_text(joint.dip_direction));
       add("Extent", name_of(joint.extent));

@@ -36,18 +36,6 @@ namespace Keyblock
       return quoted + '"';
     }
 
-    template <typename Values>
-    std::string
-    joined(const Values &values,
-           const unsigned int n,
-           const std::string &separator)
-    {
-      std::string text;
-      for (unsigned int i = 0; i < n; ++i)
-        text += (i ? separator : "") + exact_text(values[i]);
-      return text;
-    }
-
     /** Where the joint is: the columns from extent to vertices. */
     template <int dim>
     std::string
@@ -62,18 +50,18 @@ namespace Keyblock
           std::string corners;
           for (const Point<dim> &vertex : joint.vertices)
             corners += (corners.empty() ? "" : "; ") +
-                       joined(Point<dim>(vertex + origin), dim, ", ");
+                       exact_list(Point<dim>(vertex + origin), dim);
           return text + no_vector + ",,," +
                  (has_normals ? no_vector + "," : "") + "," + field(corners);
         }
-      text += joined(Point<dim>(joint.point + origin), dim, ",") + ",";
+      text += exact_list(Point<dim>(joint.point + origin), dim, ",") + ",";
       const bool has_normal = !joint.normal_entry.empty();
       text += has_normal
                 ? ","
                 : exact_text(joint.dip) + "," + exact_text(joint.dip_direction);
       if (has_normals)
-        text +=
-          "," + (has_normal ? joined(joint.normal_entry, dim, ",") : no_vector);
+        text += "," + (has_normal ? exact_list(joint.normal_entry, dim, ",")
+                                  : no_vector);
       return text + "," +
              (joint.extent == JointShape::disc ? exact_text(joint.radius)
                                                : "") +
@@ -133,36 +121,42 @@ namespace Keyblock
       return azimuth < 0. ? azimuth + 360. : azimuth;
     }
 
-    /** Entries of those laws, by their indices; none if all joints have the
-     * default. */
-    std::vector<unsigned int>
-    entries_of(const std::set<std::string> &laws)
+    /** Columns of the joints' laws. */
+    struct LawColumns
     {
-      std::vector<unsigned int> indices;
-      for (unsigned int i = 0; i < joint_law_entries().size(); ++i)
-        for (const std::string &law : laws)
-          for (const JointLawEntry &entry : joint_law_kind(law).entries)
-            if (entry.name == joint_law_entries()[i].name &&
-                (indices.empty() || indices.back() != i))
-              indices.push_back(i);
-      return indices;
+      bool has_names = false;            ///< some joint chose a law
+      std::vector<unsigned int> entries; ///< into joint_law_entries()
+    };
+
+    /** Those of the entries that the joints' laws use; of the default law only
+     * what some joint gives. */
+    template <int dim>
+    LawColumns
+    list_law_columns(const Scene<dim> &scene)
+    {
+      const std::string &by_default = joint_law_kinds().front().name;
+      std::set<unsigned int> used;
+      LawColumns columns;
+      for (const auto &joint : scene.joints)
+        {
+          const bool is_chosen = joint->law != by_default;
+          columns.has_names    = columns.has_names || is_chosen;
+          for (unsigned int i = 0; i < joint_law_entries().size(); ++i)
+            for (const JointLawEntry &entry :
+                 joint_law_kind(joint->law).entries)
+              if (entry.name == joint_law_entries()[i].name &&
+                  (is_chosen || joint->law_values[i] != entry.value))
+                used.insert(i);
+        }
+      columns.entries.assign(used.begin(), used.end());
+      return columns;
     }
 
-    bool
-    are_default(const std::set<std::string> &laws)
-    {
-      return laws.empty() ||
-             laws == std::set<std::string>{joint_law_kinds().front().name};
-    }
-
-    /** Titles of the columns `law` and its entries, if some joint chose one. */
     std::string
-    law_titles(const std::set<std::string> &laws)
+    law_titles(const LawColumns &columns)
     {
-      if (are_default(laws))
-        return "";
-      std::string titles = ",law";
-      for (const unsigned int i : entries_of(laws))
+      std::string titles = columns.has_names ? ",law" : "";
+      for (const unsigned int i : columns.entries)
         {
           const JointLawEntry &entry = joint_law_entries()[i];
           titles += "," + entry.name +
@@ -172,12 +166,10 @@ namespace Keyblock
     }
 
     std::string
-    law_fields(const JointStrength &strength, const std::set<std::string> &laws)
+    law_fields(const JointStrength &strength, const LawColumns &columns)
     {
-      if (are_default(laws))
-        return "";
-      std::string fields = "," + strength.law;
-      for (const unsigned int i : entries_of(laws))
+      std::string fields = columns.has_names ? "," + strength.law : "";
+      for (const unsigned int i : columns.entries)
         fields += "," + exact_text(strength.law_values[i]);
       return fields;
     }
@@ -218,9 +210,7 @@ namespace Keyblock
     const std::string axes = dim == 2 ? "x (m),y (m)," : "x (m),y (m),z (m),";
     const std::string normals =
       dim == 2 ? "normal x,normal y," : "normal x,normal y,normal z,";
-    std::set<std::string> laws;
-    for (const auto &joint : scene.joints)
-      laws.insert(joint->law);
+    const LawColumns laws   = list_law_columns(scene);
     const bool is_compliant = are_any_compliant(scene.joints);
     std::ofstream out(file_name);
     out << "name,set,extent," << axes << "dip (deg),dip direction (deg),"

@@ -20,17 +20,6 @@ namespace Keyblock
 
     using Polygon = std::vector<Point<2>>;
 
-    /** Numbers as a list of an entry, exactly. */
-    template <typename Numbers>
-    std::string
-    list_text(const Numbers &numbers, const std::size_t n)
-    {
-      std::string text;
-      for (std::size_t i = 0; i < n; ++i)
-        text += (i ? ", " : "") + exact_text(numbers[i]);
-      return text;
-    }
-
     /** Put what was derived into the entries that used.prm shows. */
     void
     note(ParameterHandler &prm,
@@ -243,8 +232,8 @@ namespace Keyblock
         surround(domain, profiles);
         note(*prm,
              "Domain",
-             {{"Corner", list_text(domain.corner, dim)},
-              {"Size", list_text(domain.size, dim)}});
+             {{"Corner", exact_list(domain.corner, dim)},
+              {"Size", exact_list(domain.size, dim)}});
       }
     std::vector<std::unique_ptr<Excavation<dim>>> expanded;
     for (auto &e : excavations)
@@ -313,7 +302,7 @@ namespace Keyblock
            {{"Surface elevation", exact_text(ground.depth)},
             {"Vertical stress gradient",
              exact_text(standard_gravity * density)},
-            {"Lateral ratios", list_text(ground.k0, ground.k0.size())},
+            {"Lateral ratios", exact_list(ground.k0, ground.k0.size())},
             {"Lateral azimuth", exact_text(ground.azimuth)}});
     if (supports.empty())
       {

@@ -7,6 +7,18 @@
 #include <keyblock/scene/entry_patterns.h>
 #include <keyblock/scene/results.h>
 
+namespace dealii::Patterns::Tools
+{
+  template <>
+  struct Convert<Keyblock::MonitorKind>
+    : Keyblock::ChoiceConversion<Keyblock::MonitorKind>
+  {};
+  template <>
+  struct Convert<Keyblock::ClosedForm>
+    : Keyblock::ChoiceConversion<Keyblock::ClosedForm>
+  {};
+} // namespace dealii::Patterns::Tools
+
 namespace Keyblock
 {
   using namespace EntryPatterns;

@@ -7,6 +7,22 @@
 #include <keyblock/scene/entry_patterns.h>
 #include <keyblock/scene/safety.h>
 
+namespace dealii::Patterns::Tools
+{
+  template <>
+  struct Convert<Keyblock::ReducedJoints>
+    : Keyblock::ChoiceConversion<Keyblock::ReducedJoints>
+  {};
+  template <>
+  struct Convert<Keyblock::FactorSearch>
+    : Keyblock::ChoiceConversion<Keyblock::FactorSearch>
+  {};
+  template <>
+  struct Convert<Keyblock::BoltConvention>
+    : Keyblock::ChoiceConversion<Keyblock::BoltConvention>
+  {};
+} // namespace dealii::Patterns::Tools
+
 namespace Keyblock
 {
   using namespace EntryPatterns;

@@ -87,9 +87,7 @@ namespace Keyblock
                   "shape (only in a mesh from 'Domain/File' does it stand for "
                   "the physical group of the excavation's name).");
         const bool is_drawing = suffix == ".dxf";
-        const bool is_step    = suffix == ".step" || suffix == ".stp",
-                   is_brep = suffix == ".brep", is_triangles = suffix == ".stl";
-        require(is_drawing || is_step || is_brep || is_triangles,
+        require(is_drawing || is_cad(suffix) || is_stl(suffix),
                 subject + " has the extension '" + suffix +
                   "'; convert it to " +
                   (dim == 2 ? ".dxf." : "one of .step, .stp, .brep, .stl."));
@@ -101,10 +99,7 @@ namespace Keyblock
                        "polygon."
                      : " is a solid, but 'Dimension' is 2; give a closed "
                        "outline (.dxf)."));
-        require(!is_step || excavation.scale == 1.,
-                "The entry '" + section + "/Scale' is " +
-                  text_of(excavation.scale) + ", but '" + excavation.file +
-                  "' is a STEP file, which names its unit; leave 'Scale' out.");
+        check_scale(section, excavation.file, excavation.scale);
       }
 
       /** On rank 0. */
@@ -219,11 +214,10 @@ namespace Keyblock
             sides += (d > 0 ? ", " : "") + std::string(1, "xyz"[d]) + " from " +
                      text_of(low[d]) + " to " + text_of(high[d]);
           }
-        const bool has_unit = suffix == ".step" || suffix == ".stp";
         const std::string remedy =
           "; check its unit " +
-          (has_unit ? std::string("in the file")
-                    : "('" + section + "/Scale')") +
+          (names_unit(suffix) ? std::string("in the file")
+                              : "('" + section + "/Scale')") +
           " and its coordinates ('Domain/Origin') against 'Domain'.";
         require(!is_larger,
                 subject + " has a shape of " + sides +

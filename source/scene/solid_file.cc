@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Solids from files: triangles of .stl, and shapes that OpenCASCADE reads by
-// way of Gmsh.
+// Solids and surfaces from files: triangles of .stl, and shapes that
+// OpenCASCADE reads by way of Gmsh.
 #include <gmsh.h>
 #include <keyblock/base/child_process.h>
 #include <keyblock/base/gmsh_session.h>
 #include <keyblock/base/number_text.h>
+#include <keyblock/scene/check.h>
 #include <keyblock/scene/solid_file.h>
 
 #include <boost/algorithm/string/predicate.hpp>
@@ -99,6 +100,30 @@ namespace Keyblock
           throw std::runtime_error("a facet has not three corners");
       return surface;
     }
+
+    /** Make one of the corners that coincide up to the precision of files. */
+    void
+    weld_corners(TriangleSurface &surface)
+    {
+      Point<3> low = surface.vertices[0], high = low;
+      for (const Point<3> &p : surface.vertices)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            if (!std::isfinite(p[d]))
+              throw std::runtime_error("it has a corner that is no finite "
+                                       "number");
+            low[d]  = std::min(low[d], p[d]);
+            high[d] = std::max(high[d], p[d]);
+          }
+      surface.weld(closeness * low.distance(high));
+    }
+
+    /** Let OpenCASCADE turn lengths of files that name a unit into metres. */
+    void
+    take_unit_of_file()
+    {
+      gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+    }
   } // namespace
 
 
@@ -107,6 +132,35 @@ namespace Keyblock
   is_stl(const std::string &path)
   {
     return boost::iends_with(path, ".stl");
+  }
+
+
+
+  bool
+  is_cad(const std::string &path)
+  {
+    return names_unit(path) || boost::iends_with(path, ".brep");
+  }
+
+
+
+  bool
+  names_unit(const std::string &path)
+  {
+    return boost::iends_with(path, ".step") || boost::iends_with(path, ".stp");
+  }
+
+
+
+  void
+  check_scale(const std::string &section,
+              const std::string &path,
+              const double scale)
+  {
+    require(!names_unit(path) || scale == 1.,
+            "The entry '" + section + "/Scale' is " + text_of(scale) +
+              ", but '" + path +
+              "' is a STEP file, which names its unit; leave 'Scale' out.");
   }
 
 
@@ -136,17 +190,7 @@ namespace Keyblock
     if (surface.triangles.empty())
       throw std::runtime_error("it has no triangles");
     require_few_triangles(surface);
-    Point<3> low = surface.vertices[0], high = low;
-    for (const Point<3> &p : surface.vertices)
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          if (!std::isfinite(p[d]))
-            throw std::runtime_error("it has a corner that is no finite "
-                                     "number");
-          low[d]  = std::min(low[d], p[d]);
-          high[d] = std::max(high[d], p[d]);
-        }
-    surface.weld(closeness * low.distance(high));
+    weld_corners(surface);
     return surface;
   }
 
@@ -157,8 +201,8 @@ namespace Keyblock
                 const double scale,
                 const Point<3> &origin)
   {
-    gmsh::option::setString("Geometry.OCCTargetUnit", "M");
     gmsh::vectorpair shapes;
+    take_unit_of_file();
     occ::importShapes(path, shapes);
     std::vector<int> solids;
     gmsh::vectorpair others;
@@ -186,12 +230,22 @@ namespace Keyblock
 
   namespace
   {
-    /** The triangles on the boundary of a meshed volume. */
-    TriangleSurface
-    read_surface(const int volume)
+    /** Make triangles on all faces of Gmsh's model, on curved ones with
+     * @p chords in a full circle. */
+    void
+    triangulate_model(const double chords)
     {
-      gmsh::vectorpair faces;
-      gmsh::model::getBoundary({{3, volume}}, faces, false, false, false);
+      occ::synchronize();
+      for (const std::string source : {"ExtendFromBoundary", "FromPoints"})
+        gmsh::option::setNumber("Mesh.MeshSize" + source, 0.);
+      gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", chords);
+      gmsh::model::mesh::generate(2);
+    }
+
+    /** The triangles on faces, by their dimension and tag. */
+    TriangleSurface
+    read_surface(const gmsh::vectorpair &faces)
+    {
       TriangleSurface surface;
       std::unordered_map<std::size_t, unsigned int> number;
       const std::set<std::pair<int, int>> once(faces.begin(), faces.end());
@@ -222,15 +276,34 @@ namespace Keyblock
     {
       const GmshSession session;
       const std::vector<int> solids = import_solids(path, scale, origin);
-      occ::synchronize();
-      for (const std::string source : {"ExtendFromBoundary", "FromPoints"})
-        gmsh::option::setNumber("Mesh.MeshSize" + source, 0.);
-      gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", chords_of_circle);
-      gmsh::model::mesh::generate(2);
+      triangulate_model(chords_of_circle);
       std::vector<TriangleSurface> surfaces;
       for (const int solid : solids)
-        surfaces.push_back(read_surface(solid));
+        {
+          gmsh::vectorpair faces;
+          gmsh::model::getBoundary({{3, solid}}, faces, false, false, false);
+          surfaces.push_back(read_surface(faces));
+        }
       return surfaces;
+    }
+
+    TriangleSurface
+    triangulate_faces_here(const std::string &path,
+                           const double chords,
+                           const double least_edge)
+    {
+      const GmshSession session;
+      take_unit_of_file();
+      gmsh::option::setNumber("Geometry.OCCSewFaces", 1.);
+      gmsh::vectorpair shapes, faces;
+      occ::importShapes(path, shapes, false);
+      occ::synchronize();
+      gmsh::model::getEntities(faces, 2);
+      if (faces.empty())
+        throw std::runtime_error("it has no faces");
+      gmsh::option::setNumber("Mesh.MeshSizeMin", least_edge);
+      triangulate_model(chords);
+      return read_surface(faces);
     }
   } // namespace
 
@@ -261,5 +334,28 @@ namespace Keyblock
           }
       });
     return surfaces;
+  }
+
+
+
+  TriangleSurface
+  triangulate_faces(const std::string &path,
+                    const unsigned int chords,
+                    const double least_edge)
+  {
+    TriangleSurface surface;
+    in_child_process(
+      [&]() { surface = triangulate_faces_here(path, chords, least_edge); },
+      [&](const PipeEnd &pipe) {
+        pipe.write_list(surface.vertices);
+        pipe.write_list(surface.triangles);
+      },
+      [&](const PipeEnd &pipe) {
+        surface.vertices  = pipe.read_list<Point<3>>();
+        surface.triangles = pipe.read_list<TriangleSurface::Triangle>();
+      });
+    require_few_triangles(surface);
+    weld_corners(surface);
+    return surface;
   }
 } // namespace Keyblock

@@ -7,6 +7,26 @@
 #include <keyblock/scene/entry_patterns.h>
 #include <keyblock/scene/stage.h>
 
+namespace dealii::Patterns::Tools
+{
+  template <>
+  struct Convert<Keyblock::ContactMethod>
+    : Keyblock::ChoiceConversion<Keyblock::ContactMethod>
+  {};
+  template <>
+  struct Convert<Keyblock::Kinematics>
+    : Keyblock::ChoiceConversion<Keyblock::Kinematics>
+  {};
+  template <>
+  struct Convert<Keyblock::StageKind>
+    : Keyblock::ChoiceConversion<Keyblock::StageKind>
+  {};
+  template <>
+  struct Convert<Keyblock::RayleighTerms>
+    : Keyblock::ChoiceConversion<Keyblock::RayleighTerms>
+  {};
+} // namespace dealii::Patterns::Tools
+
 namespace Keyblock
 {
   using namespace EntryPatterns;

@@ -11,6 +11,22 @@
 
 #include <cmath>
 
+namespace dealii::Patterns::Tools
+{
+  template <>
+  struct Convert<Keyblock::Distribution>
+    : Keyblock::ChoiceConversion<Keyblock::Distribution>
+  {};
+  template <>
+  struct Convert<Keyblock::Sampling>
+    : Keyblock::ChoiceConversion<Keyblock::Sampling>
+  {};
+  template <>
+  struct Convert<Keyblock::StudyLevel>
+    : Keyblock::ChoiceConversion<Keyblock::StudyLevel>
+  {};
+} // namespace dealii::Patterns::Tools
+
 namespace Keyblock
 {
   namespace

@@ -158,7 +158,11 @@ BOOST_AUTO_TEST_CASE(used_entries_give_the_same_joints)
 {
   write("table.csv", table);
   write_scene(scene_of_all());
-  const auto scene = read({"Joints/c/Normal=1, 2, 3"});
+  const auto scene = read({"Joints/c/Normal=1, 2, 3",
+                           "Joints/a/Dilation angle=7",
+                           "Joints/b/Law=slip weakening",
+                           "Joints/b/Slip distance=0.02",
+                           "Joints/b/Residual friction angle=11"});
   if (world.is_root())
     scene->write_used(own("used.prm"));
   MPI_Barrier(world);
@@ -176,6 +180,8 @@ BOOST_AUTO_TEST_CASE(used_entries_give_the_same_joints)
       BOOST_TEST((one.point == other.point));
       BOOST_TEST(one.radius == other.radius);
       BOOST_TEST(one.friction_angle == other.friction_angle);
+      BOOST_TEST(one.law == other.law);
+      BOOST_TEST(one.law_values == other.law_values);
     }
   if (world.is_root())
     again->write_used(own("used_again.prm"));
@@ -226,18 +232,34 @@ BOOST_AUTO_TEST_CASE(refused_joints)
 
 BOOST_AUTO_TEST_CASE(written_network_is_read_again)
 {
-  write("table.csv", table);
-  write_scene(scene_of_all());
   // (coordinates in the grid of an origin are rounded there)
-  const std::string origin = "Domain/Origin=0, 0, 0";
-  const auto scene = read({origin, "Joints/b/Water pressure=9810*(20-z)"});
-  if (world.is_root())
-    write_joint_table(own("written.csv"), *scene);
-  MPI_Barrier(world);
-  write_scene("subsection Joints\n set File = " + own("written.csv") +
-              "\nend\n");
-  const auto again = read({origin});
-  BOOST_TEST(print_joints(again->joints) == print_joints(scene->joints));
+  const std::string origin                            = "Domain/Origin=0, 0, 0";
+  const std::vector<std::vector<std::string>> choices = {
+    {},
+    {"Joints/b/Dilation angle=7"},
+    {"Joints/a/Dilation angle=5",
+     "Joints/a/Dilation slip=0.01",
+     "Joints/c/Law=slip weakening",
+     "Joints/c/Slip distance=0.02",
+     "Joints/c/Residual friction angle=11"}};
+  for (auto entries : choices)
+    {
+      write("table.csv", table);
+      write_scene(scene_of_all());
+      entries.insert(entries.begin(),
+                     {origin, "Joints/b/Water pressure=9810*(20-z)"});
+      const auto scene = read(entries);
+      if (world.is_root())
+        write_joint_table(own("written.csv"), *scene);
+      MPI_Barrier(world);
+      write_scene("subsection Joints\n set File = " + own("written.csv") +
+                  "\nend\n");
+      const auto again = read({origin});
+      BOOST_TEST(print_joints(again->joints) == print_joints(scene->joints));
+      for (unsigned int j = 0; j < scene->joints.size(); ++j)
+        BOOST_TEST(again->joints[j]->law_values ==
+                   scene->joints[j]->law_values);
+    }
 }
 
 // a second for 10,000 rows would be slow; on a loaded machine it takes 0.3 s

@@ -13,6 +13,7 @@
 #include <keyblock/mesh/polyhedron.h>
 #include <keyblock/scene/dxf.h>
 #include <keyblock/scene/plane_faces.h>
+#include <keyblock/scene/plane_facets.h>
 #include <keyblock/scene/solid_file.h>
 
 #include <algorithm>
@@ -408,6 +409,57 @@ BOOST_AUTO_TEST_CASE(solids_of_brep)
   std::ofstream(name) << "no shape";
   BOOST_CHECK_THROW(triangulate_solids(name, 1., Point<3>()),
                     std::runtime_error);
+}
+
+
+
+// a joint: curved faces as facets with so many chords, lengths in metres
+BOOST_AUTO_TEST_CASE(faces_of_step)
+{
+  constexpr double radius = 4., length = 40.;
+  const std::string shapes = KEYBLOCK_TEST_SHAPES;
+  std::vector<double> missing;
+  for (const unsigned int chords : {24, 48})
+    {
+      TriangleSurface surface =
+        triangulate_faces(shapes + "/cylinder.step", chords, 0.);
+      BOOST_TEST(surface.orient() == "");
+      missing.push_back(1. -
+                        surface.volume() / (pi * radius * radius * length));
+      const double angle = 2. * pi / chords;
+      BOOST_TEST(missing.back() > 0.);
+      BOOST_TEST(missing.back() < 1. - std::sin(angle) / angle);
+    }
+  BOOST_TEST(missing[1] < missing[0] / 3.5);
+
+  // edges that are not wanted shorter
+  const auto coarse = triangulate_faces(shapes + "/cylinder.step", 48, 2.);
+  double sum        = 0.;
+  for (const auto &t : coarse.triangles)
+    for (unsigned int i = 0; i < 3; ++i)
+      sum += coarse.vertices[t[i]].distance(coarse.vertices[t[(i + 1) % 3]]);
+  BOOST_TEST(sum / (3 * coarse.triangles.size()) > 1.5);
+
+  const std::string name = own(std::to_string(world.rank()) + "_faces.brep");
+  {
+    // two faces that touch along an edge without sharing it, and a body
+    const GmshSession session;
+    gmsh::model::occ::addRectangle(0, 0, 1, 2, 3);
+    gmsh::model::occ::addRectangle(2, 0, 1, 1, 3);
+    gmsh::model::occ::addBox(10, 0, 0, 1, 1, 1);
+    gmsh::model::occ::synchronize();
+    gmsh::write(name);
+  }
+  TriangleSurface surface = triangulate_faces(name, 48, 0.);
+  BOOST_TEST(surface.components().size() == 2u);
+  const auto facets = facets_of_triangles(surface);
+  BOOST_REQUIRE(facets.size() == 1u + 6u);
+  double longest = 0.;
+  for (const Point<3> &p : facets[0].corners)
+    longest = std::max(longest, p.distance(facets[0].corners[0]));
+  BOOST_TEST(std::abs(longest - std::sqrt(18.)) < 1e-12);
+  std::ofstream(name) << "no shape";
+  BOOST_CHECK_THROW(triangulate_faces(name, 48, 0.), std::runtime_error);
 }
 
 

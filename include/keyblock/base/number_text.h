@@ -19,6 +19,19 @@ namespace Keyblock
     return std::string(text, end);
   }
 
+  /** The first @p n of some numbers as a list of an entry, exactly. */
+  template <typename Numbers>
+  std::string
+  exact_list(const Numbers &numbers,
+             const std::size_t n,
+             const std::string &separator = ", ")
+  {
+    std::string text;
+    for (std::size_t i = 0; i < n; ++i)
+      text += (i ? separator : "") + exact_text(numbers[i]);
+    return text;
+  }
+
   /** A number for people, with so many significant digits. */
   inline std::string
   text_of(const double value, const unsigned int digits = 6)

@@ -51,6 +51,17 @@ namespace Keyblock
      * or outside the model; of meshes that Gmsh did not make the latter. */
     std::vector<unsigned int> lost, outside;
 
+    /** A bent joint some of whose plane parts, though they have their middle in
+     * the box around the model, have not a single face. */
+    struct LostParts
+    {
+      unsigned int joint; ///< its first plane part
+      unsigned int n_lost, n_parts;
+      double width; ///< of the largest lost one, about [m]
+      double size;  ///< of cells that would have kept it, about [m]
+    };
+    std::vector<LostParts> lost_parts;
+
     /** Pieces of rock too small for a cell that went to a neighbour. */
     unsigned int n_lost_blocks = 0;
     double largest_lost_volume = 0.; ///< [m^dim]

@@ -4,8 +4,8 @@
 
 #include <deal.II/base/point.h>
 
+#include <keyblock/base/choice.h>
 #include <keyblock/base/time_series.h>
-#include <keyblock/scene/choices.h>
 
 #include <memory>
 #include <string>
@@ -20,6 +20,55 @@ namespace Keyblock
 {
   using dealii::ParameterHandler;
   using dealii::Point;
+
+  /** Whether a support holds its nodes, stands for infinite rock, lets waves
+   * out, or moves with ground that has no excavation. */
+  enum class SupportKind
+  {
+    held,
+    far_field,
+    quiet,
+    free_field
+  };
+  template <>
+  struct ChoiceNames<SupportKind>
+  {
+    static constexpr std::array<const char *, 4> names = {
+      {"held", "far field", "quiet", "free field"}};
+  };
+
+  /** What the history of a support is one of. */
+  enum class HistoryQuantity
+  {
+    velocity,
+    acceleration,
+    stress
+  };
+  template <>
+  struct ChoiceNames<HistoryQuantity>
+  {
+    static constexpr std::array<const char *, 3> names = {
+      {"velocity", "acceleration", "stress"}};
+  };
+
+  /** Directions that a support holds. */
+  enum class SupportDirections
+  {
+    all,
+    normal,
+    x,
+    y,
+    z,
+    xy,
+    xz,
+    yz
+  };
+  template <>
+  struct ChoiceNames<SupportDirections>
+  {
+    static constexpr std::array<const char *, 8> names = {
+      {"all", "normal", "x", "y", "z", "xy", "xz", "yz"}};
+  };
 
   /** Nodes held, or moved in a prescribed way. */
   template <int dim>

@@ -4,7 +4,7 @@
 
 #include <deal.II/base/point.h>
 
-#include <keyblock/scene/choices.h>
+#include <keyblock/base/choice.h>
 
 #include <memory>
 #include <string>
@@ -21,6 +21,62 @@ namespace Keyblock
   using dealii::Point;
 
   class Solid;
+
+  /** Shape of the domain; file: that of a mesh file. */
+  enum class DomainShape
+  {
+    box,
+    parallelepiped,
+    polygon,
+    file
+  };
+  template <>
+  struct ChoiceNames<DomainShape>
+  {
+    static constexpr std::array<const char *, 4> names = {
+      {"box", "parallelepiped", "polygon", "file"}};
+  };
+
+  /** Who makes the cells. */
+  enum class MeshGenerator
+  {
+    structured,
+    gmsh,
+    file
+  };
+  template <>
+  struct ChoiceNames<MeshGenerator>
+  {
+    static constexpr std::array<const char *, 3> names = {
+      {"structured", "gmsh", "file"}};
+  };
+
+  /** Shape of an excavation. */
+  enum class ExcavationShape
+  {
+    polygon,
+    circle,
+    box,
+    extruded_polygon,
+    formula,
+    rectangle,
+    horseshoe,
+    cavern,
+    file
+  };
+  template <>
+  struct ChoiceNames<ExcavationShape>
+  {
+    static constexpr std::array<const char *, 9> names = {{"polygon",
+                                                           "circle",
+                                                           "box",
+                                                           "extruded polygon",
+                                                           "formula",
+                                                           "rectangle",
+                                                           "horseshoe",
+                                                           "cavern",
+                                                           "file"}};
+  };
 
   /** The body of ground that is modelled, before anything is excavated. */
   template <int dim>

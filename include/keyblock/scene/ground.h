@@ -2,7 +2,7 @@
 #ifndef keyblock_scene_ground_h
 #define keyblock_scene_ground_h
 
-#include <keyblock/scene/choices.h>
+#include <keyblock/base/choice.h>
 
 #include <string>
 #include <vector>
@@ -15,6 +15,46 @@ namespace dealii
 namespace Keyblock
 {
   using dealii::ParameterHandler;
+
+  /** Constitutive model of a material. */
+  enum class MaterialModel
+  {
+    elastic,
+    mohr_coulomb,
+    rigid
+  };
+  template <>
+  struct ChoiceNames<MaterialModel>
+  {
+    static constexpr std::array<const char *, 3> names = {
+      {"elastic", "mohr_coulomb", "rigid"}};
+  };
+
+  /** CellIntegration of the volume change of cells. */
+  enum class CellIntegration
+  {
+    automatic,
+    full,
+    mean_dilatation
+  };
+  template <>
+  struct ChoiceNames<CellIntegration>
+  {
+    static constexpr std::array<const char *, 3> names = {
+      {"automatic", "full", "mean dilatation"}};
+  };
+
+  /** Whether the initial stress is brought into equilibrium. */
+  enum class InitialEquilibrium
+  {
+    none,
+    static_solve
+  };
+  template <>
+  struct ChoiceNames<InitialEquilibrium>
+  {
+    static constexpr std::array<const char *, 2> names = {{"none", "static"}};
+  };
 
   /** Ground whose state follows from its depth: what entries leave open of
    * gravity, initial stress, supports and overburden. */

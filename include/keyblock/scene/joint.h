@@ -5,8 +5,8 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <keyblock/base/choice.h>
 #include <keyblock/law/joint_strength.h>
-#include <keyblock/scene/choices.h>
 
 #include <string>
 #include <vector>
@@ -21,6 +21,69 @@ namespace Keyblock
   using dealii::ParameterHandler;
   using dealii::Point;
   using dealii::Tensor;
+
+  /** What a joint is: a plane, or a surface of several plane facets. */
+  enum class JointForm
+  {
+    plane,
+    polyline,
+    file,
+    physical_group
+  };
+  template <>
+  struct ChoiceNames<JointForm>
+  {
+    static constexpr std::array<const char *, 4> names = {
+      {"plane", "polyline", "file", "physical group"}};
+  };
+
+  /** Extent of a joint within its plane. */
+  enum class JointShape
+  {
+    infinite,
+    disc,
+    polygon
+  };
+  template <>
+  struct ChoiceNames<JointShape>
+  {
+    static constexpr std::array<const char *, 3> names = {
+      {"infinite", "disc", "polygon"}};
+  };
+
+  /** Law of the spacings of a set of joints. */
+  enum class SpacingDistribution
+  {
+    exponential,
+    constant
+  };
+  template <>
+  struct ChoiceNames<SpacingDistribution>
+  {
+    static constexpr std::array<const char *, 2> names = {
+      {"exponential", "constant"}};
+  };
+
+  /** Law of the radii of a set of joints; infinite: no rims. */
+  enum class RadiusDistribution
+  {
+    infinite,
+    constant,
+    uniform,
+    exponential,
+    lognormal,
+    power_law
+  };
+  template <>
+  struct ChoiceNames<RadiusDistribution>
+  {
+    static constexpr std::array<const char *, 6> names = {{"infinite",
+                                                           "constant",
+                                                           "uniform",
+                                                           "exponential",
+                                                           "lognormal",
+                                                           "power law"}};
+  };
 
   /**
    * A plane of weakness: where it is and how strong it is. One that is bent or
@@ -42,7 +105,7 @@ namespace Keyblock
     double radius        = 0.;
     std::vector<Point<dim>> vertices;
     JointForm form = JointForm::plane;
-    std::string file;           ///< of its triangles or lines
+    std::string file;           ///< of its triangles, faces or lines
     double scale          = 1.; ///< length of the file's unit [m]
     unsigned int segments = 24; ///< chords in half a circle of the file
     std::string group;          ///< physical group; empty: that of its name

@@ -4,7 +4,7 @@
 
 #include <deal.II/base/point.h>
 
-#include <keyblock/scene/choices.h>
+#include <keyblock/base/choice.h>
 
 #include <string>
 
@@ -17,6 +17,63 @@ namespace Keyblock
 {
   using dealii::ParameterHandler;
   using dealii::Point;
+
+  /** What a monitor looks at. */
+  enum class MonitorKind
+  {
+    point,
+    block,
+    region,
+    joint,
+    support
+  };
+  template <>
+  struct ChoiceNames<MonitorKind>
+  {
+    static constexpr std::array<const char *, 5> names = {
+      {"point", "block", "region", "joint", "support"}};
+  };
+
+  /** Closed form, or other reference, that results are compared with. */
+  enum class ClosedForm
+  {
+    none,
+    resting,
+    incline,
+    bar_impact,
+    oblique_impact,
+    bond_break,
+    newmark,
+    gravity_column,
+    kirsch,
+    salencon,
+    spherical_cavity,
+    footing,
+    value,
+    toppling,
+    rotation,
+    joint_wave
+  };
+  template <>
+  struct ChoiceNames<ClosedForm>
+  {
+    static constexpr std::array<const char *, 16> names = {{"none",
+                                                            "resting",
+                                                            "incline",
+                                                            "bar_impact",
+                                                            "oblique_impact",
+                                                            "bond_break",
+                                                            "newmark",
+                                                            "gravity_column",
+                                                            "kirsch",
+                                                            "salencon",
+                                                            "spherical_cavity",
+                                                            "footing",
+                                                            "value",
+                                                            "toppling",
+                                                            "rotation",
+                                                            "joint_wave"}};
+  };
 
   /** A quantity written to history.csv. */
   template <int dim>

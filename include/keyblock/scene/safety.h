@@ -2,7 +2,7 @@
 #ifndef keyblock_scene_safety_h
 #define keyblock_scene_safety_h
 
-#include <keyblock/scene/choices.h>
+#include <keyblock/base/choice.h>
 
 #include <string>
 #include <vector>
@@ -15,6 +15,45 @@ namespace dealii
 namespace Keyblock
 {
   using dealii::ParameterHandler;
+
+  /** Joints whose strength a trial reduces. */
+  enum class ReducedJoints
+  {
+    of_block,
+    all
+  };
+  template <>
+  struct ChoiceNames<ReducedJoints>
+  {
+    static constexpr std::array<const char *, 2> names = {
+      {"of the block", "all"}};
+  };
+
+  /** Search for the safety factor. */
+  enum class FactorSearch
+  {
+    bisection,
+    sweep
+  };
+  template <>
+  struct ChoiceNames<FactorSearch>
+  {
+    static constexpr std::array<const char *, 2> names = {
+      {"bisection", "sweep"}};
+  };
+
+  /** How the forces of bolts enter a factor. */
+  enum class BoltConvention
+  {
+    active,
+    passive
+  };
+  template <>
+  struct ChoiceNames<BoltConvention>
+  {
+    static constexpr std::array<const char *, 2> names = {
+      {"active", "passive"}};
+  };
 
   /** Safety factors by strength reduction, and what goes with them. */
   struct SafetySettings

@@ -12,6 +12,17 @@ namespace Keyblock
   /** Whether a file is one of triangles, .stl. */
   bool is_stl(const std::string &path);
 
+  /** Whether a file is one that OpenCASCADE reads: .step, .stp, .brep. */
+  bool is_cad(const std::string &path);
+
+  /** Whether a file says in which unit its lengths are: .step, .stp. */
+  bool names_unit(const std::string &path);
+
+  /** Throws InputError if the entry @p section /Scale is given for such one. */
+  void check_scale(const std::string &section,
+                   const std::string &path,
+                   const double scale);
+
   /** Cells follow each triangle of a file: more of them take long, and neither
    * excavations nor joints ask for them. */
   constexpr unsigned int most_triangles = 20000;
@@ -39,6 +50,18 @@ namespace Keyblock
   std::vector<TriangleSurface> triangulate_solids(const std::string &path,
                                                   const double scale,
                                                   const Point<3> &origin);
+
+  /**
+   * All faces of a STEP (in metres) or BREP file (in its unit), of solids and
+   * by themselves, as one surface: exact where they are plane, else with
+   * @p chords in a full circle, but no edges below @p least_edge, in the
+   * lengths of the result, unless the faces have them. Faces that touch along
+   * edges are sewn together. Gmsh reads the file in a child process. Throws
+   * std::runtime_error with what is wrong.
+   */
+  TriangleSurface triangulate_faces(const std::string &path,
+                                    const unsigned int chords,
+                                    const double least_edge);
 } // namespace Keyblock
 
 #endif

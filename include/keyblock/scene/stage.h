@@ -2,7 +2,7 @@
 #ifndef keyblock_scene_stage_h
 #define keyblock_scene_stage_h
 
-#include <keyblock/scene/choices.h>
+#include <keyblock/base/choice.h>
 
 #include <string>
 #include <vector>
@@ -15,6 +15,60 @@ namespace dealii
 namespace Keyblock
 {
   using dealii::ParameterHandler;
+
+  /** How contact is solved; none: joints are ignored. */
+  enum class ContactMethod
+  {
+    exact,
+    published,
+    none
+  };
+  template <>
+  struct ChoiceNames<ContactMethod>
+  {
+    static constexpr std::array<const char *, 3> names = {
+      {"exact", "published", "none"}};
+  };
+
+  /** Geometry of the strains: the reference one or the current one. */
+  enum class Kinematics
+  {
+    small,
+    large
+  };
+  template <>
+  struct ChoiceNames<Kinematics>
+  {
+    static constexpr std::array<const char *, 2> names = {{"small", "large"}};
+  };
+
+  /** How a stage goes to its end. */
+  enum class StageKind
+  {
+    dynamic,
+    quasi_static,
+    static_solve
+  };
+  template <>
+  struct ChoiceNames<StageKind>
+  {
+    static constexpr std::array<const char *, 3> names = {
+      {"dynamic", "quasi-static", "static"}};
+  };
+
+  /** Which parts of Rayleigh damping act. */
+  enum class RayleighTerms
+  {
+    both,
+    mass,
+    stiffness
+  };
+  template <>
+  struct ChoiceNames<RayleighTerms>
+  {
+    static constexpr std::array<const char *, 3> names = {
+      {"both", "mass", "stiffness"}};
+  };
 
   /** How contact is found and solved. */
   struct ContactSettings

@@ -2,7 +2,7 @@
 #ifndef keyblock_scene_study_h
 #define keyblock_scene_study_h
 
-#include <keyblock/scene/choices.h>
+#include <keyblock/base/choice.h>
 
 #include <string>
 
@@ -13,6 +13,52 @@ namespace dealii
 
 namespace Keyblock
 {
+  /** Distribution of a variable of a study. */
+  enum class Distribution
+  {
+    normal,
+    lognormal,
+    exponential,
+    uniform,
+    triangular,
+    sequence
+  };
+  template <>
+  struct ChoiceNames<Distribution>
+  {
+    static constexpr std::array<const char *, 6> names = {{"normal",
+                                                           "lognormal",
+                                                           "exponential",
+                                                           "uniform",
+                                                           "triangular",
+                                                           "sequence"}};
+  };
+
+  /** How samples of a study are drawn. */
+  enum class Sampling
+  {
+    latin_hypercube,
+    random
+  };
+  template <>
+  struct ChoiceNames<Sampling>
+  {
+    static constexpr std::array<const char *, 2> names = {
+      {"latin hypercube", "random"}};
+  };
+
+  /** What judges the blocks of a study's samples. */
+  enum class StudyLevel
+  {
+    rigid,
+    full
+  };
+  template <>
+  struct ChoiceNames<StudyLevel>
+  {
+    static constexpr std::array<const char *, 2> names = {{"rigid", "full"}};
+  };
+
   /** An entry of the scene that differs from sample to sample. */
   struct StudyVariable
   {
