@@ -302,6 +302,16 @@ namespace Keyblock
 
   template <int dim>
   void
+  Conditions<dim>::take_ways(const std::vector<Tensor<1, dim>> &ways)
+  {
+    for (const auto &element : elements)
+      element->take_ways(ways);
+  }
+
+
+
+  template <int dim>
+  void
   Conditions<dim>::set_load(const double time)
   {
     if (is_load_changing())

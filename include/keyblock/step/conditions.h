@@ -108,6 +108,9 @@ namespace Keyblock
      * may follow. */
     void reduce_strength(const StrengthReduction &reduction);
 
+    /** Ways of blocks without support (ForceElement::take_ways). */
+    void take_ways(const std::vector<Tensor<1, dim>> &ways);
+
     /** Bolts that are installed, and what they do. */
     std::vector<BoltReport<dim>>
     report_bolts() const
