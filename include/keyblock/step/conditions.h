@@ -159,6 +159,9 @@ namespace Keyblock
     /** Take up a state; excavate is to follow if its cells are others. */
     void take_up(const StageState &state);
 
+    /** Add what force elements have of inertia to the masses (collective). */
+    void add_masses(const bool is_scaled);
+
     /** List the nodes that may move, in runs (Fields::runs). */
     void list_moving_nodes();
 

@@ -133,6 +133,20 @@ namespace Keyblock
     add_load(const double, std::vector<double> &) const
     {}
 
+    /** What it takes its inertia from. */
+    struct Inertia
+    {
+      double frequency;     ///< highest of the cells [rad/s]
+      bool has_equal_steps; ///< masses are not the true ones: as large as keeps
+                            ///< that frequency
+    };
+
+    /** Add its own inertia to the mass of owned nodes, before step_bound() is
+     * asked for [kg]. */
+    virtual void
+    add_mass(const Inertia &, std::vector<double> &)
+    {}
+
     /** How it shortens the step, given an inverse mass per node (collective)
      * [1/kg]. */
     virtual StepBound
