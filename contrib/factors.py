@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Finds safety factors of random blocks whose exact factors are known.
 
-usage: contrib/factors.py [--kinds incline,incline_3d,water,wedge,wedging] [--seeds 1-20] [--exact]
-         [--tolerance 0] [--statics] [--keyblock build/keyblock] [--keep FOLDER]
+usage: contrib/factors.py [--kinds incline,incline_3d,water,wedge,wedging,bolted_...]
+         [--seeds 1-20] [--exact] [--tolerance 0] [--statics] [--keyblock build/keyblock] [--keep FOLDER]
          [-- arguments for keyblock]
 
 incline, incline_3d: a block slides on a plane through a square (box) of random
@@ -12,13 +12,14 @@ has to be cut into the mesh, which bends it; with --exact it stands alone.
 water: a block before a tension crack, water in crack and plane. wedge: a
 tetrahedron on two planes with friction and cohesion, Poisson ratio 0; wedging: the
 same with 0.25, which locks stress across the line of sliding, so that statics is
-a little low.
+a little low. bolted_active, bolted_passive: a block on a plane with bolts at random
+angles; bolted_roof: one that hangs on them.
 
 A trial that holds at 1.005 of the exact factor or above, or fails at 0.995 or
 below, is wrong; undecided ones are counted. Exits with 1 if an exact factor lies
-outside its bracket by more than --tolerance of it, a trial is wrong, or a run
-fails. --statics: nothing is run, limit equilibrium as --validate prints it is
-compared instead.
+outside its bracket by more than --tolerance of it, limit equilibrium of a bolted
+block is off, a trial is wrong, or a run fails. --statics: nothing is run, limit
+equilibrium as --validate prints it is compared instead.
 """
 import json
 import math
@@ -27,6 +28,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from bolted_scenes import KINDS as BOLTED_KINDS
 from factor_scenes import KINDS
 from script_tools import make_parser, numbers, split_arguments
 from statics_table import read_statics
@@ -48,7 +50,7 @@ def main():
     n_failures = n_trials = n_undecided = n_wrong = 0
     for kind in options.kinds.split(","):
         for seed in options.seeds:
-            text, factor = KINDS[kind](seed, options.exact)
+            text, factor = {**KINDS, **BOLTED_KINDS}[kind](seed, options.exact)
             name = f"{kind}_{seed}"
             (folder / f"{name}.prm").write_text(text)
             what = ["--validate"] if options.statics else ["--output", name]
@@ -86,10 +88,13 @@ def main():
                           f"{trial['factor'] / factor:.5f} of the exact factor", flush=True)
             off = max(lower - factor, factor - upper, 0.) / factor
             is_good = off <= options.tolerance
+            if kind in BOLTED_KINDS:
+                limit = summary["blocks"][0]["limit_equilibrium"][-1]["value"]
+                is_good = is_good and abs(limit / factor - 1.) < 1e-5
             n_failures += not is_good
-            way = summary["mesh"]
+            way = summary.get("mesh", {}).get("largest_shift_in_cells", 0.)
             print(f"{kind} seed {seed}: exact {factor:.5f} in [{lower:.5f}, {upper:.5f}], off by "
-                  f"{100 * off:.3f} %; joints moved by {way['largest_shift_in_cells']:.2g} cells"
+                  f"{100 * off:.3f} %; joints moved by {way:.2g} cells"
                   f"{'' if is_good else '  <-- wrong'}", flush=True)
     if not options.statics:
         print(f"{n_trials} trials: {n_wrong} wrong by more than 0.5 %, {n_undecided} undecided")

@@ -179,6 +179,7 @@ def contradictions(summary):
             if factor["outcome"] != "value":
                 continue
             for outcome in ("above 100", "above 100, held by clamping",
+                            "above 100, held by bolts and clamping",
                             "falls freely", "undecided", "slides"):
                 yield (f"has a value where the outcome is {outcome}",
                        with_value(summary, place + ("outcome",), outcome))
@@ -205,8 +206,13 @@ def faults_of_open_bracket(summary):
     path = ("blocks", 0, "safety_factor", 0)
     if not faults_of(with_value(summary, path, factor), "summary"):
         yield "a value without upper end is accepted"
-    factor["outcome"] = "above 100, held by clamping"
-    yield from faults_of(with_value(summary, path, factor), "summary")
+    for holder in ("clamping", "bolts", "bolts and clamping",
+                   "bolts, shotcrete and structural liners"):
+        factor["outcome"] = f"above 100, held by {holder}"
+        yield from faults_of(with_value(summary, path, factor), "summary")
+    factor["outcome"] = "above 100, held by magic"
+    if not faults_of(with_value(summary, path, factor), "summary"):
+        yield "a block held by magic is accepted"
 
 
 def faults_of_damages(results, kind, more=()):

@@ -140,6 +140,7 @@ namespace Keyblock
                    group + "failure_mode",
                    factors,
                    &SafetyFactor::failure_mode);
+    exchange_texts(file, group + "held_by", factors, &SafetyFactor::held_by);
     exchange_texts(file,
                    group + "limit_mode",
                    factors,
@@ -183,7 +184,7 @@ namespace Keyblock
   {
     // numbers of factors, of their trials, groups and bolts, and texts
     using Rows                    = std::vector<std::vector<double>>;
-    constexpr unsigned int n_rows = 4, n_texts = 5;
+    constexpr unsigned int n_rows = 4, n_texts = 6;
     std::pair<Rows, std::vector<std::string>> packed;
     for (const SafetyFactor &factor : mine)
       {
@@ -204,6 +205,7 @@ namespace Keyblock
                                         factor.failure_mode,
                                         factor.limit_mode,
                                         factor.limit_remark,
+                                        factor.held_by,
                                         sets})
           packed.second.push_back(text);
       }
@@ -223,7 +225,8 @@ namespace Keyblock
           factor.limit_mode   = text[2];
           factor.limit_remark = text[3];
           factor.group.assign(row[2].begin(), row[2].end());
-          std::istringstream sets(text[4]);
+          factor.held_by = text[4];
+          std::istringstream sets(text[5]);
           for (const double number : row[3])
             {
               factor.support_demand.numbers.emplace_back(

@@ -75,6 +75,17 @@ namespace Keyblock
 
 
 
+  double
+  BoltChain::stiffest_segment() const
+  {
+    double stiffest_one = 0.;
+    for (unsigned int j = 0; j + 1 < n; ++j)
+      stiffest_one = std::max(stiffest_one, whole_stiffness(j));
+    return stiffest_one;
+  }
+
+
+
   bool
   BoltChain::is_broken() const
   {

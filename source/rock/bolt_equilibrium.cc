@@ -243,6 +243,30 @@ namespace Keyblock
 
 
 
+  void
+  BoltChain::multiply(double *rock)
+  {
+    factorise(-1.);
+    is_factorised      = was_elastic;
+    const double plate = is_plate_elastic ? properties.plate_stiffness : 0.;
+    double *load       = row(residual);
+    const auto stiffness_of_bond = [&](const unsigned int i) {
+      return row(bond_stiffness)[i] *
+             (bond_is_elastic[i] ? 1. : plastic_stiffness);
+    };
+    for (unsigned int i = 0; i < n; ++i)
+      load[i] = stiffness_of_bond(i) * rock[i];
+    load[0] += plate * rock[0];
+    find_change();
+    const double *w     = row(change);
+    const double pushed = plate * (w[0] - rock[0]);
+    for (unsigned int i = 0; i < n; ++i)
+      rock[i] = stiffness_of_bond(i) * (w[i] - rock[i]);
+    rock[0] += pushed;
+  }
+
+
+
   bool
   BoltChain::is_over_rupture(const unsigned int j) const
   {

@@ -99,16 +99,32 @@ namespace Keyblock
   std::vector<double>
   LinerShell<dim>::row_sums() const
   {
+    // along the axes of what holds each point by itself: out of the liner and
+    // along it
+    std::vector<Tensor<2, dim>> axes(n_points());
+    for (unsigned int p = 0; p < axes.size(); ++p)
+      for (unsigned int i = row_begin[p]; i < row_begin[p + 1]; ++i)
+        if (columns[i] == p)
+          {
+            const auto found = eigenvectors(symmetrize(blocks[i]));
+            for (unsigned int d = 0; d < dim; ++d)
+              axes[p][d] = found[d].second;
+          }
     std::vector<double> sums(n_points(), 0.);
     for (unsigned int p = 0; p < sums.size(); ++p)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          double sum = 0.;
-          for (unsigned int i = row_begin[p]; i < row_begin[p + 1]; ++i)
-            for (unsigned int e = 0; e < dim; ++e)
-              sum += std::abs(blocks[i][d][e]);
-          sums[p] = std::max(sums[p], sum);
-        }
+      {
+        Tensor<1, dim> row;
+        for (unsigned int i = row_begin[p]; i < row_begin[p + 1]; ++i)
+          {
+            const Tensor<2, dim> block =
+              axes[p] * blocks[i] * transpose(axes[columns[i]]);
+            for (unsigned int d = 0; d < dim; ++d)
+              for (unsigned int e = 0; e < dim; ++e)
+                row[d] += std::abs(block[d][e]);
+          }
+        for (unsigned int d = 0; d < dim; ++d)
+          sums[p] = std::max(sums[p], row[d]);
+      }
     return sums;
   }
 

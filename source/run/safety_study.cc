@@ -156,6 +156,9 @@ namespace Keyblock
   {
     const double lowest = model.scene.safety.lowest;
     SafetyFactor result;
+    recall(record.before, model.parts());
+    model.step->excavate(record.present.number());
+    search.tell_ways(block);
     if (holds_when_strong(block))
       {
         typename StrengthReductionSearch<dim>::Known known;

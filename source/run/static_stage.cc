@@ -10,8 +10,12 @@ namespace Keyblock
 {
   namespace
   {
-    /** Static solves that refine each other, at most. */
-    constexpr unsigned int maximum_refinements = 4;
+    /** Static solves that refine each other, where all is linear, and at most
+     * where elements are not: bolts slip and yield. */
+    constexpr unsigned int linear_refinements = 4, maximum_refinements = 20;
+
+    /** Unbalanced ratio with which more are of no use [-]. */
+    constexpr double good_ratio = 1e-12;
   } // namespace
 
 
@@ -26,8 +30,15 @@ namespace Keyblock
                              model.fields,
                              model.fields.supports,
                              model.conditions->elements);
+    const auto &elements = model.conditions->elements;
+    const bool is_linear =
+      std::none_of(elements.begin(), elements.end(), [](const auto &e) {
+        return e->has_product();
+      });
+    const unsigned int most =
+      is_linear ? linear_refinements : maximum_refinements;
     double share = share_of_displacements;
-    for (unsigned int i = 0; i < maximum_refinements; ++i)
+    for (unsigned int i = 0; i < most; ++i)
       {
         model.step->update_forces();
         std::vector<double> force(model.fields.load.size(), 0.);
@@ -35,7 +46,8 @@ namespace Keyblock
           force[k] = model.fields.load[k] - model.fields.internal_force[k];
         const double ratio           = solver.residual_ratio(force);
         model.step->unbalanced_ratio = ratio;
-        if (ratio < 1e-14 && share == 0.)
+        if (share == 0. &&
+            ratio < (i < linear_refinements ? 1e-14 : good_ratio))
           break;
         model.step->add_displacement(
           solver.solve(force, [&](const NodeSupport<dim> &support) {

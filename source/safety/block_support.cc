@@ -24,43 +24,23 @@ namespace Keyblock
 
 
   template <int dim>
-  Tensor<1, dim>
-  BlockSupport<dim>::dowel_force(const Tensor<1, dim> &direction) const
+  std::vector<Tensor<1, dim>>
+  BlockSupport<dim>::forces_against(const Tensor<1, dim> &direction) const
   {
-    Tensor<1, dim> sum;
+    std::vector<Tensor<1, dim>> forces;
+    const auto against = [&](const Tensor<1, dim> &part,
+                             const double strength) {
+      return part.norm() > 1e-12 ? -strength / part.norm() * part
+                                 : Tensor<1, dim>();
+    };
     for (const Pull &pull : pulls)
-      {
-        const Tensor<1, dim> across =
-          direction - (direction * pull.along) * pull.along;
-        if (across.norm() > 1e-12)
-          sum -= pull.dowel_strength / across.norm() * across;
-      }
-    return sum;
-  }
-
-
-
-  template <int dim>
-  Tensor<1, dim>
-  BlockSupport<dim>::shotcrete_force(const Tensor<1, dim> &direction) const
-  {
-    Tensor<1, dim> sum;
+      forces.push_back(
+        pull.force * pull.along +
+        against(direction - (direction * pull.along) * pull.along,
+                pull.dowel_strength));
     for (const auto &[trace, strength] : sections)
-      {
-        const Tensor<1, dim> sheared = trace.in_section(direction);
-        if (sheared.norm() > 1e-12)
-          sum -= strength / sheared.norm() * sheared;
-      }
-    return sum;
-  }
-
-
-
-  template <int dim>
-  Tensor<1, dim>
-  BlockSupport<dim>::force_against(const Tensor<1, dim> &direction) const
-  {
-    return force() + dowel_force(direction) + shotcrete_force(direction);
+      forces.push_back(against(trace.in_section(direction), strength));
+    return forces;
   }
 
 
@@ -205,8 +185,11 @@ namespace Keyblock
       const LimitEquilibrium<dim> unsheared =
         solve_with_laws<dim>(faces, pulled);
       const Tensor<1, dim> way = unsheared.direction;
-      const Tensor<1, dim> reaction =
-        support.dowel_force(way) + support.shotcrete_force(way);
+      if (way.norm() == 0.)
+        return unsheared;
+      Tensor<1, dim> reaction = -support.force();
+      for (const Tensor<1, dim> &force : support.forces_against(way))
+        reaction += force;
       if (reaction.norm() == 0.)
         return unsheared;
       // what is sheared resists, and never by more than drives
@@ -228,18 +211,17 @@ namespace Keyblock
       if (support.is_empty() || bare.direction.norm() == 0.)
         return bare;
       const Tensor<1, dim> way = bare.direction;
-      const Tensor<1, dim> all = support.force_against(way);
-      const double against     = -(all * way);
-      LimitEquilibrium<dim> held =
-        solve_with_laws<dim>(faces, load + all + against * way);
-      if (held.driving_force > 0. && std::isfinite(held.factor))
+      Tensor<1, dim> loading   = load;
+      double resisting         = 0.;
+      for (const Tensor<1, dim> &force : support.forces_against(way))
         {
-          const double driving = held.driving_force + std::max(0., -against);
-          held.factor =
-            (held.factor * held.driving_force + std::max(0., against)) /
-            driving;
-          held.driving_force = driving;
+          const double against = std::max(0., -(force * way));
+          loading += force + against * way;
+          resisting += against;
         }
+      LimitEquilibrium<dim> held = solve_with_laws<dim>(faces, loading);
+      if (held.driving_force > 0. && std::isfinite(held.factor))
+        held.factor += resisting / held.driving_force;
       return held;
     }
   } // namespace
@@ -258,11 +240,36 @@ namespace Keyblock
                       : solve_with_active(faces, all_load, support);
   }
 
+
+
+  template <int dim>
+  Tensor<1, dim>
+  way_without_support(const Ground<dim> &ground,
+                      const FreeFaces<dim> &free,
+                      const Blocks<dim> &blocks,
+                      const unsigned int block,
+                      const double time)
+  {
+    BlockSurroundings<dim> around =
+      look_around(ground, free, blocks.blocks[block], time);
+    BlockSupport<dim> weight;
+    add_shotcrete(ground, block, time, weight);
+    return solve_with_laws<dim>(around.faces,
+                                around.loads.without_water() +
+                                  weight.shotcrete_weight)
+      .direction;
+  }
+
 #define INSTANTIATE(dim)                                                       \
   template struct BlockSupport<dim>;                                           \
   template BlockSupport<dim> find_support_of_block(const Ground<dim> &,        \
                                                    const unsigned int,         \
                                                    const double);              \
+  template Tensor<1, dim> way_without_support(const Ground<dim> &,             \
+                                              const FreeFaces<dim> &,          \
+                                              const Blocks<dim> &,             \
+                                              const unsigned int,              \
+                                              const double);                   \
   template LimitEquilibrium<dim> solve_with_support(                           \
     std::vector<BlockFace<dim>> &,                                             \
     const Tensor<1, dim> &,                                                    \

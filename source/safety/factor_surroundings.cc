@@ -25,7 +25,7 @@ namespace Keyblock
           return "immovable";
         case SafetyFactor::Outcome::clamped:
           return above.str() + (factor.limit_factor < factor.lower
-                                  ? ", held by clamping"
+                                  ? ", held by " + factor.held_by
                                   : "");
         case SafetyFactor::Outcome::undecided:
           return "undecided";
@@ -72,6 +72,26 @@ namespace Keyblock
 
 
   template <int dim>
+  Tensor<1, dim>
+  StrengthReductionSearch<dim>::tell_ways(const unsigned int block)
+  {
+    const Ground<dim> ground = run.conditions.active_cells.ground();
+    const FreeFaces<dim> free(ground);
+    std::vector<Tensor<1, dim>> ways(blocks.blocks.size());
+    for (unsigned int b = 0; b < ways.size(); ++b)
+      if (b == block ||
+          std::count(trials.companions.begin(), trials.companions.end(), b) >
+            0 ||
+          (scene.safety.reduced_joints == ReducedJoints::all &&
+           !blocks.blocks[b].is_infinite && !blocks.blocks[b].is_rigid))
+        ways[b] = way_without_support(ground, free, blocks, b, run.step.time);
+    run.conditions.take_ways(ways);
+    return ways[block];
+  }
+
+
+
+  template <int dim>
   bool
   StrengthReductionSearch<dim>::freeze_beyond_reach(const unsigned int block)
   {
@@ -98,6 +118,10 @@ namespace Keyblock
   StrengthReductionSearch<2>::freeze_beyond_reach(const unsigned int);
   template bool
   StrengthReductionSearch<3>::freeze_beyond_reach(const unsigned int);
+  template Tensor<1, 2>
+  StrengthReductionSearch<2>::tell_ways(const unsigned int);
+  template Tensor<1, 3>
+  StrengthReductionSearch<3>::tell_ways(const unsigned int);
   template std::vector<unsigned int>
   StrengthReductionSearch<2>::ids_of_group(const unsigned int) const;
   template void

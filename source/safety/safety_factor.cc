@@ -24,6 +24,7 @@ namespace Keyblock
       , number(number)
       , start(known.start)
       , first_slip(owner.run.contact->report().mean_slip(block))
+      , way(owner.tell_ways(block))
       , before(take_snapshot(owner.run))
       , state(owner.freeze_beyond_reach(block) ? take_snapshot(owner.run)
                                                : before)
@@ -53,6 +54,8 @@ namespace Keyblock
               warm_start = factor;
             }
           stable = std::max(stable, factor);
+          if (stable >= owner.scene.safety.highest)
+            held_by = owner.trials.list_holders(block, way);
         }
       else if (trial.is_undecided)
         {
@@ -147,6 +150,7 @@ namespace Keyblock
     }
 
     double stable, unstable; ///< 0: none known
+    std::string held_by;     ///< as SafetyFactor::held_by
 
     /** Factors without a verdict; 0: none. */
     double undecided_lower = 0., undecided_upper = 0.;
@@ -181,6 +185,7 @@ namespace Keyblock
     const unsigned int block, number;
     const double start; ///< factor of the state
     const Vector<dim> first_slip;
+    const Tensor<1, dim> way; ///< without support
     const Snapshot<dim> before, state;
     std::vector<Trial> &trials;
     std::unique_ptr<Snapshot<dim>> warm; ///< of the highest factor that held
@@ -226,6 +231,7 @@ namespace Keyblock
       result.upper           = search.unstable;
       result.undecided_lower = search.undecided_lower;
       result.undecided_upper = search.undecided_upper;
+      result.held_by         = search.held_by;
       search.finish();
     }
     if (result.outcome != SafetyFactor::Outcome::immovable)

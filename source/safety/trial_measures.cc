@@ -13,6 +13,9 @@ namespace Keyblock
     /** Way of another block, in the direction of the one that fails and over
      * its way, from which on they move together [-]. */
     constexpr double along_share = 0.5;
+
+    /** Share of its load that what holds a block bears at least [-]. */
+    constexpr double holding_share = 0.1;
   } // namespace
 
 
@@ -51,6 +54,59 @@ namespace Keyblock
     for (unsigned int d = 0; d < dim; ++d)
       motion.velocity[d] = sums[2 * dim + 2 + d] / sums[2 * dim + 1];
     return motion;
+  }
+
+
+
+  template <int dim>
+  std::string
+  StrengthTrials<dim>::list_holders(const unsigned int block,
+                                    const Tensor<1, dim> &way) const
+  {
+    const auto &elements = run.conditions.elements;
+    // resultants on the block: of loads, then of each element
+    std::vector<double> sums;
+    const auto add_sum = [&](const std::vector<double> &force) {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          sums.push_back(0.);
+          for (const unsigned int node : nodes_of_block[block])
+            sums.back() += force[dim * node + d];
+        }
+    };
+    add_sum(run.fields.load);
+    for (const auto &element : elements)
+      {
+        std::vector<double> force(run.fields.load.size(), 0.);
+        element->add_force(run.fields.displacement, force);
+        add_sum(force);
+      }
+    communicator.sum_lists(sums);
+    const auto along_way = [&](const unsigned int i) {
+      double sum = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        sum += sums[dim * i + d] * (way.norm() > 0. ? way[d] : sums[d]);
+      return sum;
+    };
+    std::vector<std::string> holders;
+    const double load = along_way(0);
+    double left       = load;
+    for (unsigned int i = 0; i < elements.size(); ++i)
+      {
+        // forces of elements count against what they do to the rock
+        const double borne = along_way(i + 1);
+        left -= borne;
+        if (borne < holding_share * load)
+          continue;
+        holders.push_back(elements[i]->name());
+        std::replace(holders.back().begin(), holders.back().end(), '_', ' ');
+      }
+    if (holders.empty() || left >= holding_share * load)
+      holders.push_back("clamping");
+    std::string text = holders[0];
+    for (unsigned int i = 1; i < holders.size(); ++i)
+      text += (i + 1 < holders.size() ? ", " : " and ") + holders[i];
+    return text;
   }
 
 
@@ -258,6 +314,12 @@ namespace Keyblock
                                                  const double) const;
   template double StrengthTrials<2>::kinetic_energy(const unsigned int) const;
   template double StrengthTrials<3>::kinetic_energy(const unsigned int) const;
+  template std::string
+  StrengthTrials<2>::list_holders(const unsigned int,
+                                  const Tensor<1, 2> &) const;
+  template std::string
+  StrengthTrials<3>::list_holders(const unsigned int,
+                                  const Tensor<1, 3> &) const;
   template double StrengthTrials<2>::mass_in_use(const unsigned int) const;
   template double StrengthTrials<3>::mass_in_use(const unsigned int) const;
   template unsigned int StrengthTrials<2>::n_intact(const unsigned int) const;

@@ -80,9 +80,9 @@ namespace Keyblock
       "Bolt convention",
       bolt_convention,
       "How the forces of bolts enter a block's factor. active: they are "
-      "undivided, and taken from what drives the block; passive: their part "
-      "along the plane of sliding is divided by the factor like the joints' "
-      "strength, as a part of what resists.");
+      "undivided, and taken from what drives the block; passive: what they "
+      "do against the way that the block would take without them is divided by "
+      "the factor like the joints' strength, as a part of what resists.");
     prm.add_parameter("Method",
                       method,
                       "Search for the factor. bisection: halving of a bracket; "

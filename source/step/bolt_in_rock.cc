@@ -145,7 +145,7 @@ namespace Keyblock
 
   template <int dim>
   void
-  BoltInRock<dim>::subtract_at_joints(const StrengthReduction &reduction,
+  BoltInRock<dim>::subtract_at_joints(const PassiveSupport<dim> &trial,
                                       std::vector<double> &forces) const
   {
     for (unsigned int k = 0; k < dowels.size(); ++k)
@@ -154,21 +154,51 @@ namespace Keyblock
           continue;
         Tensor<1, dim> on_rock            = dowels[k].force;
         const BoltCrossing<dim> &crossing = bolt.crossings[k];
-        const double left = reduction.share_between(crossing.block[0],
-                                                    crossing.block[1],
-                                                    crossing.joint);
-        if (left != 1.)
-          {
-            Tensor<1, dim> tangent =
-              chain.axial_force_of(chain.segment_at(crossing.place)) * way +
-              on_rock;
-            tangent -= (tangent * crossing.normal) * crossing.normal;
-            on_rock -= (1. - left) * tangent;
-          }
-        const RockBinding<dim> *side = bindings.data() + n_nodes() + 2 * k;
-        side[0].add(-share * on_rock, forces);
-        side[1].add(share * on_rock, forces);
+        if (!trial.is_whole())
+          on_rock -=
+            trial.taken(chain.axial_force_of(chain.segment_at(crossing.place)) *
+                            way +
+                          on_rock,
+                        crossing.block,
+                        crossing.joint,
+                        crossing.normal);
+        subtract_at_joint(k, on_rock, forces);
       }
+  }
+
+
+
+  template <int dim>
+  void
+  BoltInRock<dim>::subtract_at_joint(const unsigned int k,
+                                     const Tensor<1, dim> &on_first,
+                                     std::vector<double> &forces) const
+  {
+    const RockBinding<dim> *side = bindings.data() + n_nodes() + 2 * k;
+    side[0].add(-share * on_first, forces);
+    side[1].add(share * on_first, forces);
+  }
+
+
+
+  template <int dim>
+  void
+  BoltInRock<dim>::multiply(double *along,
+                            const double *jump,
+                            std::vector<double> &forces)
+  {
+    chain.multiply(along);
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      along[i] *= share;
+    for (unsigned int k = 0; k < n_jumps(); ++k)
+      if (dowels[k].is_there)
+        {
+          Tensor<1, dim> across = vector_at<dim>(jump + dim * k);
+          across -= (across * way) * way;
+          subtract_at_joint(k,
+                            chain.material().dowel_stiffness * across,
+                            forces);
+        }
   }
 
 

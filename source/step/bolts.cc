@@ -56,11 +56,8 @@ namespace Keyblock
 
   template <int dim>
   void
-  Bolts<dim>::add_force(const std::vector<double> &displacement,
-                        std::vector<double> &force)
+  Bolts<dim>::gather(const std::vector<double> &displacement)
   {
-    if (motion.empty())
-      return;
     points.gather(displacement, motion.data());
     double *jump = motion.data() + points.size();
     for_each_present(bolts, [&](const BoltInRock<dim> &bolt) {
@@ -69,14 +66,38 @@ namespace Keyblock
     });
     if (numbering.communicator.size() > 1)
       numbering.communicator.sum_lists(motion);
+  }
+
+
+
+  template <int dim>
+  template <typename Action>
+  void
+  Bolts<dim>::for_each_motion(const Action &action)
+  {
     double *along = motion.data();
-    jump          = motion.data() + points.size();
+    double *jump  = motion.data() + points.size();
     for_each_present(bolts, [&](BoltInRock<dim> &bolt) {
-      bolt.respond(along, jump);
+      action(bolt, along, jump);
       along += bolt.n_nodes();
       jump += dim * bolt.n_jumps();
-      if (bolt.n_jumps() > 0 || reduction.share != 1.)
-        bolt.subtract_at_joints(reduction, force);
+    });
+  }
+
+
+
+  template <int dim>
+  void
+  Bolts<dim>::add_force(const std::vector<double> &displacement,
+                        std::vector<double> &force)
+  {
+    if (motion.empty())
+      return;
+    gather(displacement);
+    for_each_motion([&](BoltInRock<dim> &bolt, double *along, double *jump) {
+      bolt.respond(along, jump);
+      if (bolt.n_jumps() > 0 || !trial.is_whole())
+        bolt.subtract_at_joints(trial, force);
     });
     // the force counts against what it does to the rock
     points.subtract(motion.data(), force);
@@ -85,11 +106,36 @@ namespace Keyblock
 
 
   template <int dim>
+  bool
+  Bolts<dim>::has_product() const
+  {
+    return !motion.empty();
+  }
+
+
+
+  template <int dim>
   void
-  Bolts<dim>::reduce_strength(const StrengthReduction &new_reduction)
+  Bolts<dim>::add_product(const std::vector<double> &displacement,
+                          std::vector<double> &force)
+  {
+    if (motion.empty())
+      return;
+    gather(displacement);
+    for_each_motion([&](BoltInRock<dim> &bolt, double *along, double *jump) {
+      bolt.multiply(along, jump, force);
+    });
+    points.subtract(motion.data(), force);
+  }
+
+
+
+  template <int dim>
+  void
+  Bolts<dim>::reduce_strength(const StrengthReduction &reduction)
   {
     if (scene.safety.bolt_convention == BoltConvention::passive)
-      reduction = new_reduction;
+      trial.reduce_strength(reduction);
   }
 
 
@@ -101,11 +147,13 @@ namespace Keyblock
     // sums of rows of the stiffness: weights of a point add up to one
     std::vector<double> row(numbering.n_owned(), 0.);
     for_each_present(bolts, [&](const BoltInRock<dim> &bolt) {
-      bolt.for_each_stiffness_bound(
-        [&](const RockBinding<dim> &point, const double stiffness) {
-          for (const auto &[node, weight] : point.carriers)
-            row[node] += stiffness * weight;
-        });
+      bolt.for_each_stiffness_bound(trial.largest_share(),
+                                    [&](const RockBinding<dim> &point,
+                                        const double stiffness) {
+                                      for (const auto &[node, weight] :
+                                           point.carriers)
+                                        row[node] += stiffness * weight;
+                                    });
     });
     return bound_of_rows(row, inverse_mass, numbering);
   }

@@ -168,6 +168,7 @@ namespace Keyblock
   Conditions<dim>::scale_density(const bool is_scaled)
   {
     active_cells.scale_density(is_scaled);
+    add_masses(is_scaled);
     list_moving_nodes();
     stable_step = active_cells.stable_step;
     for (const auto &element : elements)
@@ -177,6 +178,28 @@ namespace Keyblock
         if (element.get() == liners)
           frequency_ratio_of_liners = stable_step.frequency / before;
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::add_masses(const bool is_scaled)
+  {
+    std::vector<double> own(numbering.n_owned(), 0.);
+    for (const auto &element : elements)
+      element->add_mass({active_cells.stable_step.frequency, is_scaled}, own);
+    if (!numbering.communicator.on_any(std::any_of(
+          own.begin(), own.end(), [](const double m) { return m > 0.; })))
+      return;
+    std::vector<double> by_dof(dim * numbering.n_local(), 0.);
+    for (unsigned int node = 0; node < own.size(); ++node)
+      by_dof[dim * node] = own[node];
+    numbering.update_ghosts(by_dof);
+    own.resize(numbering.n_local());
+    for (unsigned int node = 0; node < own.size(); ++node)
+      own[node] = by_dof[dim * node];
+    active_cells.add_mass(own);
   }
 
 
@@ -297,6 +320,16 @@ namespace Keyblock
   {
     for (const auto &element : elements)
       element->reduce_strength(reduction);
+  }
+
+
+
+  template <int dim>
+  void
+  Conditions<dim>::take_ways(const std::vector<Tensor<1, dim>> &ways)
+  {
+    for (const auto &element : elements)
+      element->take_ways(ways);
   }
 
 

@@ -32,6 +32,9 @@ namespace Keyblock
     relevant.add_indices(numbering.partitioner->ghost_indices());
     make_constraints([](const NodeSupport<dim> &) { return Tensor<1, dim>(); },
                      homogeneous);
+    for (const auto &element : elements)
+      if (element->has_product())
+        with_products.push_back(element.get());
     assemble(elements);
   }
 
@@ -188,16 +191,18 @@ namespace Keyblock
   namespace
   {
     /** Sparse matrix plus what couples many nodes. */
-    template <typename VectorType, typename Coupling>
+    template <typename VectorType, typename Coupling, typename Products>
     struct CoupledMatrix
     {
       const dealii::TrilinosWrappers::SparseMatrix &matrix;
       const std::vector<Coupling> &couplings;
+      const Products &add_products;
 
       void
       vmult(VectorType &result, const VectorType &x) const
       {
         matrix.vmult(result, x);
+        add_products(x, result);
         for (const Coupling &coupling : couplings)
           {
             const std::vector<VectorType> &columns = coupling.columns;
@@ -231,8 +236,12 @@ namespace Keyblock
         dealii::SolverCG<TrilinosVector> solver(control);
         try
           {
-            const CoupledMatrix<TrilinosVector, Coupling> coupled{matrix,
-                                                                  couplings};
+            const auto products = [this](const TrilinosVector &x,
+                                         TrilinosVector &result) {
+              add_products(x, result);
+            };
+            const CoupledMatrix<TrilinosVector, Coupling, decltype(products)>
+              coupled{matrix, couplings, products};
             solver.solve(coupled, solution, right_side, preconditioner);
           }
         catch (const dealii::SolverControl::NoConvergence &failure)

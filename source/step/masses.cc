@@ -124,6 +124,31 @@ namespace Keyblock
         });
     else
       fields.mass = fields.weighing_mass;
+    added_mass.clear();
+    invert_masses();
+    stable_step = unscaled_step;
+    if (is_scaled)
+      stable_step.frequency = lowest_frequency;
+  }
+
+
+
+  template <int dim>
+  void
+  ActiveCells<dim>::add_mass(const std::vector<double> &added)
+  {
+    for (unsigned int node = 0; node < fields.mass.size(); ++node)
+      fields.mass[node] += added[node];
+    added_mass = added;
+    invert_masses();
+  }
+
+
+
+  template <int dim>
+  void
+  ActiveCells<dim>::invert_masses()
+  {
     fields.inverse_mass.resize(fields.mass.size());
     for (unsigned int node = 0; node < fields.mass.size(); ++node)
       {
@@ -134,9 +159,6 @@ namespace Keyblock
           is_free && fields.mass[node] > 0. ? 1. / fields.mass[node] : 0.;
       }
     hold_frozen_nodes();
-    stable_step = unscaled_step;
-    if (is_scaled)
-      stable_step.frequency = lowest_frequency;
   }
 
 
@@ -213,6 +235,7 @@ namespace Keyblock
   template void ActiveCells<dim>::set_up_mass_scaling();                       \
   template void ActiveCells<dim>::set_up_weighing_mass();                      \
   template void ActiveCells<dim>::scale_density(const bool);                   \
+  template void ActiveCells<dim>::add_mass(const std::vector<double> &);       \
   template std::vector<double> ActiveCells<dim>::squared_frequencies_at(       \
     const std::vector<unsigned int> &) const;                                  \
   template void ActiveCells<dim>::set_damping(const Stage &);

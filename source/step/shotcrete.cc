@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/shotcrete.h>
 
+#include <keyblock/step/liner_mass.h>
 #include <keyblock/step/row_bound.h>
 
 #include <algorithm>
@@ -24,6 +25,7 @@ namespace Keyblock
     , split(split)
     , numbering(numbering)
     , weighed_mass(numbering.n_owned(), 0.)
+    , inert_mass(numbering.n_owned(), 0.)
   {
     for (unsigned int i = 0; i < split.liners.size(); ++i)
       for (const LinerTrace<dim> &trace : split.liners[i].traces)
@@ -55,24 +57,16 @@ namespace Keyblock
                            !ground.is_excavated(section.trace.cell[0]) &&
                            !ground.is_excavated(section.trace.cell[1]);
     std::fill(weighed_mass.begin(), weighed_mass.end(), 0.);
+    std::fill(inert_mass.begin(), inert_mass.end(), 0.);
     reports.clear();
     for (unsigned int i = 0; i < split.liners.size(); ++i)
       if (is_there(i))
         {
-          const Liner &liner = *scene.liners[i];
           reports.push_back({i});
-          for (const LinerArea &part : split.liners[i].areas)
-            if (!ground.is_excavated(part.cell))
-              {
-                reports.back().area += part.area;
-                split.for_each_carrier(
-                  part.vertex,
-                  [&](const unsigned int carrier, const double weight) {
-                    if (numbering.is_owned(carrier))
-                      weighed_mass[numbering.local_node(carrier)] +=
-                        weight * part.area * liner.thickness * liner.density;
-                  });
-              }
+          reports.back().area =
+            add_liner_mass(ground, numbering, i, weighed_mass);
+          if (!scene.liners[i]->is_structural())
+            add_liner_mass(ground, numbering, i, inert_mass);
         }
   }
 
@@ -147,10 +141,7 @@ namespace Keyblock
         section.slip         = Tensor<1, dim>();
       }
     const double stiffness = stiffness_of(section);
-    const double strength =
-      strength_of(section) * reduction.share_between(section.trace.block[0],
-                                                     section.trace.block[1],
-                                                     section.trace.joint);
+    const double strength  = strength_of(section);
     const Tensor<1, dim> stretch =
       section.trace.in_section(opening - section.rest) - section.slip;
     section.force       = -stiffness * stretch;
@@ -181,13 +172,19 @@ namespace Keyblock
         if (!section.is_present)
           continue;
         respond(opening[i], section);
+        Tensor<1, dim> on_second = section.force;
+        if (!trial.is_whole())
+          on_second += trial.taken(-section.force,
+                                   section.trace.block,
+                                   section.trace.joint,
+                                   Tensor<1, dim>());
         // against what it does to the rock
         for (unsigned int side = 0; side < 2; ++side)
           if (const unsigned int v = section.trace.vertex[side];
               numbering.is_owned(v))
             for (unsigned int d = 0; d < dim; ++d)
               force[dim * numbering.local_node(v) + d] +=
-                (side == 0 ? 1. : -1.) * section.force[d];
+                (side == 0 ? 1. : -1.) * on_second[d];
       }
   }
 
@@ -209,10 +206,29 @@ namespace Keyblock
 
   template <int dim>
   void
-  Shotcrete<dim>::reduce_strength(const StrengthReduction &new_reduction)
+  Shotcrete<dim>::reduce_strength(const StrengthReduction &reduction)
   {
     if (scene.safety.bolt_convention == BoltConvention::passive)
-      reduction = new_reduction;
+      trial.reduce_strength(reduction);
+  }
+
+
+
+  template <int dim>
+  void
+  Shotcrete<dim>::add_mass(const typename ForceElement<dim>::Inertia &inertia,
+                           std::vector<double> &mass)
+  {
+    frequency = inertia.frequency;
+    own_mass  = inert_mass;
+    if (inertia.has_equal_steps)
+      {
+        own_mass = row_sums();
+        for (double &m : own_mass)
+          m /= frequency * frequency;
+      }
+    for (unsigned int node = 0; node < own_mass.size(); ++node)
+      mass[node] += own_mass[node];
   }
 
 
@@ -221,12 +237,26 @@ namespace Keyblock
   StepBound
   Shotcrete<dim>::step_bound(const std::vector<double> &inverse_mass) const
   {
+    // its own mass bears as much as the cells' highest frequency asks of it
+    std::vector<double> row = row_sums();
+    for (unsigned int node = 0; node < own_mass.size(); ++node)
+      row[node] -= frequency * frequency * own_mass[node];
+    return bound_of_rows(row, inverse_mass, numbering);
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Shotcrete<dim>::row_sums() const
+  {
     std::vector<double> row(numbering.n_owned(), 0.);
     for (const Section &section : sections)
       for (const unsigned int v : section.trace.vertex)
         if (section.is_present && numbering.is_owned(v))
-          row[numbering.local_node(v)] += 2. * stiffness_of(section);
-    return bound_of_rows(row, inverse_mass, numbering);
+          row[numbering.local_node(v)] +=
+            2. * trial.largest_share() * stiffness_of(section);
+    return row;
   }
 
 

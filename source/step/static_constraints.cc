@@ -195,6 +195,26 @@ namespace Keyblock
 
 
   template <int dim>
+  void
+  StaticSolver<dim>::add_products(const TrilinosVector &x,
+                                  TrilinosVector &result) const
+  {
+    if (with_products.empty())
+      return;
+    TrilinosVector all(x);
+    homogeneous.distribute(all);
+    std::vector<double> moved(dim * numbering.n_local(), 0.),
+      force(moved.size(), 0.);
+    for (unsigned int i = 0; i < dim * numbering.n_owned(); ++i)
+      moved[i] = all(numbering.partitioner->local_to_global(i));
+    for (ForceElement<dim> *element : with_products)
+      element->add_product(moved, force);
+    result += condense(force);
+  }
+
+
+
+  template <int dim>
   std::vector<double>
   StaticSolver<dim>::force_of_lift(const std::vector<double> &lift) const
   {
@@ -229,6 +249,8 @@ namespace Keyblock
   template void StaticSolver<dim>::make_constraints(                           \
     const StaticSolver<dim>::Prescribed &,                                     \
     dealii::AffineConstraints<double> &) const;                                \
+  template void StaticSolver<dim>::add_products(const TrilinosVector &,        \
+                                                TrilinosVector &) const;       \
   template std::vector<double> StaticSolver<dim>::force_of_lift(               \
     const std::vector<double> &) const;
   INSTANTIATE(2)

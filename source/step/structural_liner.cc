@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/step/liner_mass.h>
 #include <keyblock/step/structural_liner.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace Keyblock
@@ -77,6 +77,9 @@ namespace Keyblock
         lining.is_there = is_there;
         build(lining);
       }
+    true_mass.assign(numbering.n_owned(), 0.);
+    for (const Lining &lining : linings)
+      add_liner_mass(ground, numbering, lining.liner, true_mass);
   }
 
 
@@ -234,49 +237,6 @@ namespace Keyblock
                                  });
               }
         }
-  }
-
-
-
-  template <int dim>
-  StepBound
-  StructuralLiners<dim>::step_bound(
-    const std::vector<double> &inverse_mass) const
-  {
-    StepBound bound;
-    std::map<unsigned int, double> rows; // by vertex that carries
-    for (const Lining &lining : linings)
-      if (lining.is_present)
-        {
-          const std::vector<double> sums = lining.shell.row_sums();
-          for (const Anchor &anchor : lining.anchors)
-            if (anchor.share > 0.)
-              split.for_each_carrier(anchor.vertex,
-                                     [&](const unsigned int carrier,
-                                         const double weight) {
-                                       rows[carrier] += weight * anchor.share *
-                                                        sums[anchor.point];
-                                     });
-        }
-    std::vector<unsigned int> vertices;
-    for (const auto &[vertex, sum] : rows)
-      vertices.push_back(vertex);
-    if (vertices.empty())
-      return bound;
-    const std::vector<double> of_rock =
-      active_cells.squared_frequencies_at(vertices);
-    const double highest =
-      active_cells.stable_step.frequency * active_cells.stable_step.frequency;
-    for (unsigned int i = 0; i < vertices.size(); ++i)
-      if (numbering.is_owned(vertices[i]))
-        bound.squared_frequency =
-          std::max(bound.squared_frequency,
-                   of_rock[i] - highest +
-                     rows[vertices[i]] *
-                       inverse_mass[numbering.local_node(vertices[i])]);
-    bound.squared_frequency =
-      numbering.communicator.max(bound.squared_frequency);
-    return bound;
   }
 
 

@@ -255,6 +255,10 @@ keyblock_scene(verification/lined_roof REFERENCES lined_roof_weight RANKS 1
   SET "Shotcrete/shell/Density=2400")
 keyblock_scene(verification/lined_roof REFERENCES lined_roof_thin RANKS 1
   SET "Shotcrete/shell/Thickness=0.02")
+keyblock_scene(verification/lined_roof REFERENCES lined_roof_bends RANKS 1 2
+  SET "Shotcrete/shell/Young modulus=10e9")
+keyblock_scene(verification/lined_roof REFERENCES lined_roof_active RANKS 1
+  SET "Safety factor/Bolt convention=active")
 # a second shell in a stage that does nothing else
 keyblock_scene(verification/lined_roof REFERENCES lined_roof_twice RANKS 1 2
   SET "Stages/Names=dig, again" "Stages/again/Kind=quasi-static"

@@ -6,6 +6,8 @@
 #include <keyblock/rock/bolt_chain.h>
 
 #include <cmath>
+#include <limits>
+#include <random>
 
 using namespace Keyblock;
 
@@ -279,4 +281,64 @@ BOOST_AUTO_TEST_CASE(bolt_goes_on_from_its_state)
         BOOST_TEST(chain.force_on_rock(i) == copy.force_on_rock(i));
     }
   BOOST_TEST(chain.dissipated_energy() == copy.dissipated_energy());
+}
+
+BOOST_AUTO_TEST_CASE(bolt_product_is_the_change_of_its_forces)
+{
+  // elastic, with a plate that pushes or not, and where the grout slips
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> between(-1., 1.);
+  for (const double size : {1e-6, 1e-4, 3e-3})
+    for (unsigned int trial = 0; trial < 8; ++trial)
+      {
+        BoltProperties p  = properties();
+        p.plate_stiffness = 1e9;
+        BoltChain chain(p, {0., 0.7, 1.1, 2., 2.4, 3.});
+        std::vector<double> rock(chain.n_nodes()), way(rock.size());
+        for (unsigned int i = 0; i < rock.size(); ++i)
+          {
+            rock[i] = size * between(random);
+            way[i]  = between(random);
+          }
+        chain.follow(rock.data());
+        std::vector<double> before, product = way;
+        for (unsigned int i = 0; i < rock.size(); ++i)
+          before.push_back(chain.force_on_rock(i));
+        chain.multiply(product.data());
+        // backwards along the way where what slips would slip on
+        double least = std::numeric_limits<double>::max(), scale = 0.;
+        for (const double sign : {1., -1.})
+          {
+            BoltChain moved            = chain;
+            std::vector<double> beside = rock;
+            const double step          = 1e-4 * size * sign;
+            for (unsigned int i = 0; i < rock.size(); ++i)
+              beside[i] += step * way[i];
+            moved.follow(beside.data());
+            double off = 0.;
+            for (unsigned int i = 0; i < rock.size(); ++i)
+              {
+                const double change =
+                  (moved.force_on_rock(i) - before[i]) / step;
+                off   = std::max(off, std::abs(change - product[i]));
+                scale = std::max(scale, std::abs(change));
+              }
+            least = std::min(least, off);
+          }
+        if (size < 1e-3)
+          BOOST_TEST(least < 1e-3 * scale);
+        // symmetric
+        std::vector<double> other(rock.size()), answer;
+        for (double &value : other)
+          value = between(random);
+        answer = other;
+        chain.multiply(answer.data());
+        double a = 0., b = 0.;
+        for (unsigned int i = 0; i < rock.size(); ++i)
+          {
+            a += product[i] * other[i];
+            b += answer[i] * way[i];
+          }
+        BOOST_TEST(std::abs(a - b) < 1e-9 * (std::abs(a) + std::abs(b)));
+      }
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <random>
 
 using namespace Keyblock;
 
@@ -471,4 +472,61 @@ BOOST_AUTO_TEST_CASE(liner_corner)
   // 1/2 D (angle / arm)^2 on a strip of the width of an arm
   BOOST_TEST(std::abs(energy / (0.5 * section.bending * angle * angle / arm) -
                       1.) < 0.1);
+}
+
+namespace
+{
+  /** Largest ratio of the work of @p shell to that of springs of row_sums(), by
+   * power iteration. */
+  template <int dim>
+  double
+  share_of_bound(const LinerShell<dim> &shell)
+  {
+    const std::vector<double> bound = shell.row_sums();
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> between(-1., 1.);
+    Vectors<dim> u(shell.n_points());
+    for (Tensor<1, dim> &value : u)
+      for (unsigned int d = 0; d < dim; ++d)
+        value[d] = between(random);
+    double share = 0.;
+    for (unsigned int i = 0; i < 2000; ++i)
+      {
+        double work = 0., most = 0., size = 0.;
+        Vectors<dim> next(u.size());
+        for (unsigned int p = 0; p < u.size(); ++p)
+          {
+            const Tensor<1, dim> force = shell.force_at(p, u);
+            work += force * u[p];
+            most += bound[p] * u[p].norm_square();
+            next[p] = force / bound[p];
+            size    = std::max(size, next[p].norm());
+          }
+        share = work / most;
+        for (unsigned int p = 0; p < u.size(); ++p)
+          u[p] = next[p] / size;
+      }
+    return share;
+  }
+} // namespace
+
+BOOST_AUTO_TEST_CASE(liner_and_its_bound)
+{
+  // above the stiffest mode, and near it
+  Model<2> arc;
+  for (unsigned int i = 0; i <= 20; ++i)
+    arc.points.emplace_back(std::cos(0.1 * i), std::sin(0.1 * i));
+  for (unsigned int i = 0; i < 20; ++i)
+    arc.add_face({{i, i + 1}});
+  const double bar = share_of_bound(arc.shell());
+  BOOST_TEST(bar < 1. + 1e-9);
+  BOOST_TEST(bar > 0.9);
+  const Model<3> sheet =
+    make_plate(8, true, [](const double x, const double y) {
+      return Point<3>(x, y, 0.2 * x * x);
+    });
+  const double plate = share_of_bound(sheet.shell());
+  BOOST_TEST_MESSAGE("share of the bound: " << bar << ", " << plate);
+  BOOST_TEST(plate < 1. + 1e-9);
+  BOOST_TEST(plate > 0.6);
 }

@@ -119,6 +119,31 @@ BOOST_AUTO_TEST_CASE(structural_liner_and_the_step)
   BOOST_TEST(soft < 1.03);
 }
 
+BOOST_AUTO_TEST_CASE(structural_liner_has_mass)
+{
+  const auto mass_of = [](const Plate &plate) {
+    double sum = 0.;
+    for (unsigned int node = 0; node < plate.numbering->n_owned(); ++node)
+      sum += plate.fields.mass[node];
+    return world.sum(sum);
+  };
+  for (const std::string modulus : {"10e9", "0"})
+    {
+      Plate plate(slot("  set Young modulus = " + modulus +
+                       "\n  set Shear strength = 1e6\n"));
+      const double rock = Plate::density * (2. - 0.5), shell = 2400. * 0.1 * 2.;
+      plate.step->excavate(2);
+      BOOST_TEST(std::abs(mass_of(plate) / (rock + shell) - 1.) < 1e-12);
+      // as heavy as keeps the step that all cells take
+      plate.conditions->scale_density(true);
+      BOOST_TEST(plate.conditions->stable_step.frequency <
+                 (1. + 1e-12) *
+                   plate.conditions->active_cells.stable_step.frequency);
+      plate.conditions->scale_density(false);
+      BOOST_TEST(std::abs(mass_of(plate) / (rock + shell) - 1.) < 1e-12);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(section_of_a_liner)
 {
   Liner liner;

@@ -103,6 +103,14 @@ namespace Keyblock
       return plate_on_rock;
     }
 
+    /** Put what elastic springs would change the forces of the bolt on the rock
+     * by in the place of a further displacement of the rock at each node, all
+     * nodes in equilibrium [m, N]. */
+    void multiply(double *rock);
+
+    /** Of the stiffest segment before it is cut or breaks [N/m]. */
+    double stiffest_segment() const;
+
     double stored_energy() const; ///< [J]
 
     double

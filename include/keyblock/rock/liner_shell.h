@@ -144,8 +144,9 @@ namespace Keyblock
       return force;
     }
 
-    /** Largest sum of absolute values of a row of the stiffness at each point
-     * [N/m]. */
+    /** Largest sum of absolute values of a row of the stiffness at each point,
+     * along the axes of its own block: as many springs to the ground, in every
+     * direction, are stiffer than the liner [N/m]. */
     std::vector<double> row_sums() const;
 
     /** By face. */

@@ -42,16 +42,10 @@ namespace Keyblock
     /** Sum of the forces along the bolts [N]. */
     Tensor<1, dim> force() const;
 
-    /** Sum of what dowels do against a motion of the block along @p direction
-     * (unit vector) [N]. */
-    Tensor<1, dim> dowel_force(const Tensor<1, dim> &direction) const;
-
-    /** The same of sections of shotcrete [N]. */
-    Tensor<1, dim> shotcrete_force(const Tensor<1, dim> &direction) const;
-
-    /** What resists a motion of the block along @p direction (unit vector),
-     * and what bolts do besides [N]. */
-    Tensor<1, dim> force_against(const Tensor<1, dim> &direction) const;
+    /** All forces on the block as it moves along @p direction (unit vector):
+     * of each bolt, with its dowel, and of each section [N]. */
+    std::vector<Tensor<1, dim>>
+    forces_against(const Tensor<1, dim> &direction) const;
 
     /** Number, capacity and what limits them, in words. */
     std::string describe() const;
@@ -68,15 +62,24 @@ namespace Keyblock
    * Limit equilibrium of a block on @p faces under @p load with its support.
    * Active: the pulls of bolts are a part of the load, as is what dowels and
    * shotcrete do against the way that the block takes then; where these bear
-   * all that drives it, nothing does. Passive: of all of it, the part along the
-   * way that the block would take without, what is against it is added to what
-   * resists (Hoek and Bray 1981).
+   * all that drives it, nothing does. Passive: of each force its part against
+   * the way that the block would take without them is added to what resists
+   * (Hoek and Bray 1981); the rest of it is load.
    */
   template <int dim>
   LimitEquilibrium<dim> solve_with_support(std::vector<BlockFace<dim>> &faces,
                                            const Tensor<1, dim> &load,
                                            const BlockSupport<dim> &support,
                                            const bool is_passive);
+
+  /** Way that @p block would take without support by limit equilibrium, at a
+   * @p time [s]; zero: it cannot move. */
+  template <int dim>
+  Tensor<1, dim> way_without_support(const Ground<dim> &ground,
+                                     const FreeFaces<dim> &free,
+                                     const Blocks<dim> &blocks,
+                                     const unsigned int block,
+                                     const double time);
 } // namespace Keyblock
 
 #endif

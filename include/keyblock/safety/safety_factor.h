@@ -15,7 +15,8 @@ namespace Keyblock
       bracketed,
       falls_freely, ///< fails at SafetySettings::lowest
       immovable,    ///< holds at SafetySettings::highest
-      clamped,      ///< the same, though it can move (limit equilibrium)
+      clamped,      ///< the same, though it can move (limit equilibrium); what
+                    ///< holds it says held_by
       undecided,    ///< neither holds nor fails wherever it was tried
       met           ///< holds at SafetySettings::wanted; not looked further
     };
@@ -30,6 +31,10 @@ namespace Keyblock
     double undecided_lower = 0., undecided_upper = 0.;
 
     std::string failure_mode;
+
+    /** What holds it at the highest factor, if it is clamped: clamping, bolts,
+     * or both, and so on. */
+    std::string held_by;
 
     /** Ids of the blocks that move together when this one fails, ascending;
      * empty: it moves alone. With the strength of all their joints divided by
@@ -61,7 +66,7 @@ namespace Keyblock
   };
 
   /** The outcome in words; a value, falls freely, immovable, above 100, held by
-   * clamping, undecided, or above 1.5, as wanted. */
+   * clamping (or what else), undecided, or above 1.5, as wanted. */
   std::string describe_outcome(const SafetyFactor &factor);
 
   /**
@@ -101,6 +106,10 @@ namespace Keyblock
     /** Limit equilibrium and stress ratio of @p block in the present state. */
     void add_cheap_answers(const unsigned int block,
                            SafetyFactor &result) const;
+
+    /** Tell support which ways @p block and its companions would take without
+     * it, for reduced strengths; returns the block's. */
+    Tensor<1, dim> tell_ways(const unsigned int block);
 
   private:
     class Search;

@@ -87,6 +87,12 @@ namespace Keyblock
       return last_along;
     }
 
+    /** What holds @p block against @p way (unit vector; zero: its load) now, in
+     * words: every kind of support that bears a tenth of its load, and clamping
+     * if that is left a tenth (collective). */
+    std::string list_holders(const unsigned int block,
+                             const Tensor<1, dim> &way) const;
+
     /** How the block moved in the last trial that failed; empty: none. */
     const std::string &
     failure() const

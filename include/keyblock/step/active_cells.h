@@ -88,6 +88,17 @@ namespace Keyblock
      * have inverse mass zero. Gravity is not affected. */
     void scale_density(const bool is_scaled);
 
+    /** Add to the masses in use what else moves with local nodes, until they
+     * are set anew [kg]. */
+    void add_mass(const std::vector<double> &added);
+
+    /** What was added at local @p node [kg]. */
+    double
+    added_mass_at(const unsigned int node) const
+    {
+      return added_mass.empty() ? 0. : added_mass[node];
+    }
+
     /** Highest frequency, squared, of the cells around each of @p vertices of
      * the split mesh with the masses in use; what acts on hanging ones acts on
      * their masters (the same on every rank, collective) [rad^2/s^2]. */
@@ -113,6 +124,7 @@ namespace Keyblock
     void set_up_mass_scaling();
     void share_out_masses();
     void set_up_weighing_mass();
+    void invert_masses();
     void hold_frozen_nodes();
 
     /** Of the block of a cell of `cells`; null without mass_scaling. */
@@ -132,8 +144,9 @@ namespace Keyblock
     Fields<dim> &fields;
 
     std::vector<unsigned int> cell_of_local; ///< into cells, or `none`
-    StableStep<dim> unscaled_step; ///< of masses that are not all scaled
-    double lowest_frequency = 0.;  ///< of all cells [rad/s]
+    StableStep<dim> unscaled_step;  ///< of masses that are not all scaled
+    double lowest_frequency = 0.;   ///< of all cells [rad/s]
+    std::vector<double> added_mass; ///< by local node; empty: none [kg]
   };
 } // namespace Keyblock
 

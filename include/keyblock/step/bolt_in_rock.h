@@ -2,8 +2,8 @@
 #ifndef keyblock_step_bolt_in_rock_h
 #define keyblock_step_bolt_in_rock_h
 
-#include <keyblock/contact/state.h>
 #include <keyblock/rock/bolt_chain.h>
+#include <keyblock/step/passive_support.h>
 #include <keyblock/step/rock_binding.h>
 
 #include <string>
@@ -88,25 +88,38 @@ namespace Keyblock
      */
     void respond(double *along, const double *jump);
 
-    /** Subtract forces across it at joints, and what @p reduction takes from
-     * its forces along them, but a share, from forces on this rank's nodes [N].
-     */
-    void subtract_at_joints(const StrengthReduction &reduction,
+    /** The same of a small further displacement and elastic springs (the change
+     * of the forces); subtract those of dowels from forces on this rank's
+     * nodes. */
+    void
+    multiply(double *along, const double *jump, std::vector<double> &forces);
+
+    /** Subtract forces across it at joints, less what a @p trial takes from all
+     * its forces there, from forces on this rank's nodes [N]. */
+    void subtract_at_joints(const PassiveSupport<dim> &trial,
                             std::vector<double> &forces) const;
 
     /** Call @p add(binding, bound): no more than this stiffness in any
-     * direction of an axis acts at it [N/m]. */
+     * direction of an axis acts at it, when forces at joints are up to @p
+     * larger times as large as by themselves [N/m, -]. */
     template <typename Action>
     void
-    for_each_stiffness_bound(const Action &add) const
+    for_each_stiffness_bound(const double larger, const Action &add) const
     {
       const std::vector<double> bound = chain.stiffness_bound();
       const double shape              = row_sum(way);
       for (unsigned int i = 0; i < bound.size(); ++i)
         add(bindings[i], share * shape * bound[i]);
-      if (chain.material().dowel_strength > 0.)
-        for (unsigned int i = bound.size(); i < bindings.size(); ++i)
-          add(bindings[i], 2. * share * chain.material().dowel_stiffness);
+      for (unsigned int i = bound.size(); i < bindings.size(); ++i)
+        {
+          double at_joint = 0.;
+          if (chain.material().dowel_strength > 0.)
+            at_joint = larger * chain.material().dowel_stiffness;
+          if (larger > 1.)
+            at_joint += (larger - 1.) * dim * chain.stiffest_segment();
+          if (at_joint > 0.)
+            add(bindings[i], 2. * share * at_joint);
+        }
     }
 
     double stored_energy() const;     ///< [J]
@@ -139,6 +152,13 @@ namespace Keyblock
     static double row_sum(const Tensor<1, dim> &way);
 
     void install(const double *along, const double *jump);
+
+    /** Subtract @p on_first, a force of a dowel on the rock before joint @p k,
+     * and what is on the rock behind it, from forces on this rank's nodes [N].
+     */
+    void subtract_at_joint(const unsigned int k,
+                           const Tensor<1, dim> &on_first,
+                           std::vector<double> &forces) const;
 
     /** Follow the jump of the rock across a joint [m]. */
     void follow(Dowel &dowel, Tensor<1, dim> jump) const;

@@ -33,15 +33,25 @@ namespace Keyblock
                    std::vector<double> &force) override;
     StepBound
     step_bound(const std::vector<double> &inverse_mass) const override;
+    bool has_product() const override;
+
+    /** Of the springs that are elastic now, nodes without mass in equilibrium.
+     */
+    void add_product(const std::vector<double> &displacement,
+                     std::vector<double> &force) override;
     double
     stored_energy(const std::vector<double> &displacement) const override;
     double plastic_work() const override;
     ForceElementState remember() const override;
     void recall(const ForceElementState &state) override;
 
-    /** In the passive convention divide the part of the bolts' forces along
-     * the joints that are meant, as the joints' strength. */
+    /** In the passive convention divide what bolts hold (PassiveSupport). */
     void reduce_strength(const StrengthReduction &reduction) override;
+    void
+    take_ways(const std::vector<Tensor<1, dim>> &ways) override
+    {
+      trial.take_ways(ways);
+    }
 
     /** Those that are installed (the same on every rank). */
     std::vector<BoltReport<dim>> report() const;
@@ -57,6 +67,14 @@ namespace Keyblock
           action(bolt);
     }
 
+    /** Set motion to a displacement of the rock (collective). */
+    void gather(const std::vector<double> &displacement);
+
+    /** Call @p action(bolt, along, jump) with the present ones and their parts
+     * of motion. */
+    template <typename Action>
+    void for_each_motion(const Action &action);
+
     const Scene<dim> &scene;
     const Numbering<dim> &numbering;
     std::vector<BoltInRock<dim>> bolts;
@@ -67,7 +85,7 @@ namespace Keyblock
      * for one sum over the ranks [m, N]. */
     std::vector<double> motion;
     unsigned int stage_number = 1;
-    StrengthReduction reduction;
+    PassiveSupport<dim> trial;
   };
 } // namespace Keyblock
 

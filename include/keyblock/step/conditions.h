@@ -110,6 +110,9 @@ namespace Keyblock
      * may follow. */
     void reduce_strength(const StrengthReduction &reduction);
 
+    /** Ways of blocks without support (ForceElement::take_ways). */
+    void take_ways(const std::vector<Tensor<1, dim>> &ways);
+
     /** Bolts that are installed, and what they do. */
     std::vector<BoltReport<dim>>
     report_bolts() const
@@ -157,6 +160,9 @@ namespace Keyblock
 
     /** Take up a state; excavate is to follow if its cells are others. */
     void take_up(const StageState &state);
+
+    /** Add what force elements have of inertia to the masses (collective). */
+    void add_masses(const bool is_scaled);
 
     /** List the nodes that may move, in runs (Fields::runs). */
     void list_moving_nodes();

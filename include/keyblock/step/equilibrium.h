@@ -22,7 +22,8 @@ namespace Keyblock
    * gradients with algebraic multigrid (Trilinos ML). The matrix is made of the
    * same cell loops as the explicit step, so that a body in static equilibrium
    * stays at rest in it. Ties, supports and nodes without cells are constraint
-   * lines. Geometry is the reference one; plastic cells count as elastic.
+   * lines. Geometry is the reference one; plastic cells count as elastic, and
+   * what springs of bolts do now as what they will do.
    */
   template <int dim>
   class StaticSolver
@@ -107,6 +108,9 @@ namespace Keyblock
     /** Nodal forces with those of constrained nodes added to the nodes that
      * lead them. */
     TrilinosVector condense(const std::vector<double> &force) const;
+
+    /** Add to @p result what elements' products make of @p x (collective). */
+    void add_products(const TrilinosVector &x, TrilinosVector &result) const;
     TrilinosVector solve_system(TrilinosVector &right_side,
                                 const dealii::AffineConstraints<double> &lines,
                                 const double tolerance);
@@ -116,6 +120,7 @@ namespace Keyblock
     const CellArrays<dim> &cells;
     const Fields<dim> &fields;
     const std::vector<NodeSupport<dim>> &supports;
+    std::vector<ForceElement<dim> *> with_products;
 
     dealii::IndexSet owned, relevant;
     dealii::AffineConstraints<double> homogeneous;

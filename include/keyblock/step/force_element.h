@@ -80,6 +80,12 @@ namespace Keyblock
     reduce_strength(const StrengthReduction &)
     {}
 
+    /** Before that: the ways (unit vectors, by block) that blocks would take
+     * without support; zero, or behind the last: not known. */
+    virtual void
+    take_ways(const std::vector<Tensor<1, dim>> &)
+    {}
+
     /** Owned nodes on which it acts. */
     virtual std::vector<unsigned int> nodes() const = 0;
 
@@ -127,6 +133,20 @@ namespace Keyblock
     add_load(const double, std::vector<double> &) const
     {}
 
+    /** What it takes its inertia from. */
+    struct Inertia
+    {
+      double frequency;     ///< highest of the cells [rad/s]
+      bool has_equal_steps; ///< masses are not the true ones: as large as keeps
+                            ///< that frequency
+    };
+
+    /** Add its own inertia to the mass of owned nodes, before step_bound() is
+     * asked for [kg]. */
+    virtual void
+    add_mass(const Inertia &, std::vector<double> &)
+    {}
+
     /** How it shortens the step, given an inverse mass per node (collective)
      * [1/kg]. */
     virtual StepBound
@@ -152,6 +172,21 @@ namespace Keyblock
      * one rank, where all of its degrees of freedom are local. */
     virtual void
     for_each_stiffness(const AddStiffness &) const
+    {}
+
+    /** Whether a part of its present stiffness is told by add_product() (the
+     * same on every rank). */
+    virtual bool
+    has_product() const
+    {
+      return false;
+    }
+
+    /** Add the product of that part with @p displacement to @p force, both of
+     * local degrees of freedom, of which owned ones count (collective) [m, N].
+     */
+    virtual void
+    add_product(const std::vector<double> &, std::vector<double> &)
     {}
 
     /** The part of the stiffness that has no small pieces. */

@@ -3,8 +3,8 @@
 #define keyblock_step_shotcrete_h
 
 #include <keyblock/base/expression.h>
-#include <keyblock/contact/state.h>
 #include <keyblock/step/force_element.h>
+#include <keyblock/step/passive_support.h>
 
 namespace Keyblock
 {
@@ -49,6 +49,10 @@ namespace Keyblock
     void add_force(const std::vector<double> &displacement,
                    std::vector<double> &force) override;
     void add_load(const double time, std::vector<double> &load) const override;
+
+    /** Of liners that are not structural; these have their own. */
+    void add_mass(const typename ForceElement<dim>::Inertia &inertia,
+                  std::vector<double> &mass) override;
     StepBound
     step_bound(const std::vector<double> &inverse_mass) const override;
     double
@@ -57,9 +61,13 @@ namespace Keyblock
     ForceElementState remember() const override;
     void recall(const ForceElementState &state) override;
 
-    /** In the passive convention divide the strength of what holds the blocks
-     * that are meant. */
+    /** In the passive convention divide what sections hold (PassiveSupport). */
     void reduce_strength(const StrengthReduction &reduction) override;
+    void
+    take_ways(const std::vector<Tensor<1, dim>> &ways) override
+    {
+      trial.take_ways(ways);
+    }
 
     /** By liner that is there (the same on every rank). */
     std::vector<LinerReport> report() const;
@@ -86,6 +94,9 @@ namespace Keyblock
     std::vector<Tensor<1, dim>>
     openings(const std::vector<double> &displacement) const;
 
+    /** Sums of the rows of the stiffness, by owned node [N/m]. */
+    std::vector<double> row_sums() const;
+
     /** Move @p section to an opening. */
     void respond(const Tensor<1, dim> &opening, Section &section) const;
 
@@ -94,9 +105,12 @@ namespace Keyblock
     const Numbering<dim> &numbering;
     std::vector<Section> sections;
     std::vector<double> weighed_mass; ///< by owned node [kg]
+    std::vector<double> inert_mass;   ///< that of liners without their own
+    std::vector<double> own_mass;     ///< in use, by owned node [kg]
+    double frequency = 0.;            ///< highest of the cells [rad/s]
     std::vector<LinerReport> reports; ///< but for loads
     std::unique_ptr<Expression<dim>> gravity;
-    StrengthReduction reduction;
+    PassiveSupport<dim> trial;
   };
 } // namespace Keyblock
 

@@ -7,6 +7,8 @@
 #include <keyblock/step/force_element.h>
 #include <keyblock/step/section_check.h>
 
+#include <map>
+
 namespace Keyblock
 {
   /** What a structural liner bears now. */
@@ -55,6 +57,9 @@ namespace Keyblock
     std::vector<unsigned int> nodes() const override;
     void add_force(const std::vector<double> &displacement,
                    std::vector<double> &force) override;
+
+    void add_mass(const typename ForceElement<dim>::Inertia &inertia,
+                  std::vector<double> &mass) override;
 
     /** No more than takes the highest frequency of all to that of a node with
      * the cells around it: where the rock is softer than the stiffest cell the
@@ -118,6 +123,10 @@ namespace Keyblock
 
     void build(Lining &lining) const;
 
+    /** Sums of the rows of the stiffness, by vertex that carries (the same on
+     * every rank) [N/m]. */
+    std::map<unsigned int, double> row_sums() const;
+
     /** Deal out the pieces to the ranks (collective). */
     void deal_out(Lining &lining) const;
 
@@ -132,6 +141,8 @@ namespace Keyblock
     const Numbering<dim> &numbering;
     const ActiveCells<dim> &active_cells;
     std::vector<Lining> linings;
+    std::vector<double> true_mass; ///< by owned node [kg]
+    std::vector<double> own_mass;  ///< in use, the same
   };
 } // namespace Keyblock
 
