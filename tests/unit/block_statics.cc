@@ -474,6 +474,27 @@ BOOST_AUTO_TEST_CASE(sheared_support_never_drives)
     }
 }
 
+BOOST_AUTO_TEST_CASE(passive_bolt_across_the_way)
+{
+  // 20 kN on 40 degrees; 5 kN, a part of it along the strike, which turns the
+  // way
+  const auto statics =
+    Site<3>(cube("",
+                 "subsection Bolts\n set Names = b\n subsection b\n  set Stage "
+                 "= rest\n  set Heads = 0, 0.25, 0.7\n  set Ends = 0, -0.25, "
+                 "-0.5\n  set Area = 1e-4\n  set Young modulus = 200e9\n  set "
+                 "Yield force = 5e3\n  set Bond stiffness = 1e9\n  set Bond "
+                 "strength = 1e7\n  set Plate strength = 1e6\n end\nend\n"
+                 "subsection Safety factor\n set Bolt convention = passive\n"
+                 "end\n"))
+      .judge();
+  const double across  = 5e3 * 0.5 / 1.3,
+               normal  = 20e3 * cosine + 5e3 * 1.2 / 1.3,
+               driving = std::hypot(20e3 * sine, across);
+  BOOST_TEST(is_near(statics.limit.driving_force, driving, 1e-9));
+  BOOST_TEST(is_near(statics.limit.factor, friction * normal / driving, 1e-9));
+}
+
 BOOST_AUTO_TEST_CASE(demand_of_a_block_that_turns)
 {
   // 0.5 m wide, 1.6 m high, 16 kN: sliding alone has tan 40 / tan 24 = 1.885.
