@@ -69,8 +69,7 @@ def faults_of_groups(keyblock, scene, folder):
         folder / "group", "Study/Level=full", "Study/Names=friction",
         "Study/Samples=1", "Study/friction/Entry=Joints/upper/Friction angle",
         "Study/friction/Distribution=sequence", "Study/friction/Minimum=20",
-        "Study/Threshold=1.25", "Safety factor/Critical factor=1.5",
-        "Safety factor/Wanted=0.9")
+        "Study/Threshold=1.25", "Safety factor/Wanted=0.9")
     header, row = table.splitlines()[1:3]
     values = dict(zip(header.split(","), row.split(",")))
     faults = []
