@@ -74,7 +74,7 @@ def faults_of_groups(keyblock, scene, folder):
     values = dict(zip(header.split(","), row.split(",")))
     faults = []
     for name in ("factor", "factor_1", "factor_2"):
-        if abs(float(values[name]) - together) > 2e-3:
+        if abs(float(values[name] or "inf") - together) > 2e-3:
             faults.append(f"{name} of blocks that fail together: {values[name]}")
     if values["failed_blocks"] != "2" or results["probability"]["value"] != 1:
         faults.append("of blocks that fail together not both failed")
