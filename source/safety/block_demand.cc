@@ -70,8 +70,9 @@ namespace Keyblock
     for (const unsigned int i : free.of_block(block))
       {
         const CellFace &f = free.faces[i];
-        free_faces.push_back({mesh.face_center(f.cell, f.face),
-                              mesh.face_area_vector(f.cell, f.face)});
+        free_faces.push_back(
+          {mesh.face_center(f.cell, f.face),
+           around.free_area_ratio * mesh.face_area_vector(f.cell, f.face)});
       }
     const double area = sum_of(free_faces).norm();
     SupportDemand demand;

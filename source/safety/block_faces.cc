@@ -130,6 +130,24 @@ namespace Keyblock
           add_touching_face(free, free.faces[i]);
       }
 
+      /** Its faces close a surface: what the joints leave is free. */
+      void
+      measure_free_area(const FreeFaces<dim> &free)
+      {
+        if (!block.exact.is_known || result.is_attached || result.is_on_fill)
+          return;
+        Tensor<1, dim> between_planes, in_mesh;
+        for (const auto &[key, entry] : entries)
+          between_planes +=
+            result.faces[entry].area * result.faces[entry].inward;
+        for (const unsigned int i : free.of_block(index))
+          in_mesh +=
+            mesh.face_area_vector(free.faces[i].cell, free.faces[i].face);
+        const double ratio = between_planes * in_mesh / in_mesh.norm_square();
+        if (ratio > 0.)
+          result.free_area_ratio = ratio;
+      }
+
       BlockSurroundings<dim> result;
 
     private:
@@ -306,7 +324,7 @@ namespace Keyblock
                   const FreeFaces<dim> &free,
                   const unsigned int block,
                   const double time,
-                  BlockLoads<dim> &loads)
+                  BlockSurroundings<dim> &around)
     {
       const Mesh<dim> &mesh = ground.split.mesh;
       std::vector<CellFace> own;
@@ -320,9 +338,10 @@ namespace Keyblock
           for (const CellFace &f : list_loaded_faces(ground, own, *traction))
             {
               const Point<dim> center = mesh.face_center(f.cell, f.face);
-              loads.tractions.push_back(
+              around.loads.tractions.push_back(
                 {center,
-                 mesh.face_area_vector(f.cell, f.face).norm() *
+                 around.free_area_ratio *
+                   mesh.face_area_vector(f.cell, f.face).norm() *
                    value.vector(center, time)});
             }
         }
@@ -343,9 +362,9 @@ namespace Keyblock
       collector.add_joint_face(ground.split.interface.joint_faces[i]);
     collector.sort_faces();
     collector.add_other_faces(free);
-    BlockLoads<dim> &loads = collector.result.loads;
-    add_body_forces(ground, free, block, time, loads);
-    add_tractions(ground, free, block.id - 1, time, loads);
+    collector.measure_free_area(free);
+    add_body_forces(ground, free, block, time, collector.result.loads);
+    add_tractions(ground, free, block.id - 1, time, collector.result);
     return collector.result;
   }
 

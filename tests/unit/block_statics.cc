@@ -10,6 +10,7 @@
 #include <keyblock/safety/stress_ratio.h>
 #include <keyblock/step/conditions.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numeric>
@@ -473,6 +474,27 @@ BOOST_AUTO_TEST_CASE(sheared_support_never_drives)
     }
 }
 
+BOOST_AUTO_TEST_CASE(passive_bolt_across_the_way)
+{
+  // 20 kN on 40 degrees; 5 kN, a part of it along the strike, which turns the
+  // way
+  const auto statics =
+    Site<3>(cube("",
+                 "subsection Bolts\n set Names = b\n subsection b\n  set Stage "
+                 "= rest\n  set Heads = 0, 0.25, 0.7\n  set Ends = 0, -0.25, "
+                 "-0.5\n  set Area = 1e-4\n  set Young modulus = 200e9\n  set "
+                 "Yield force = 5e3\n  set Bond stiffness = 1e9\n  set Bond "
+                 "strength = 1e7\n  set Plate strength = 1e6\n end\nend\n"
+                 "subsection Safety factor\n set Bolt convention = passive\n"
+                 "end\n"))
+      .judge();
+  const double across  = 5e3 * 0.5 / 1.3,
+               normal  = 20e3 * cosine + 5e3 * 1.2 / 1.3,
+               driving = std::hypot(20e3 * sine, across);
+  BOOST_TEST(is_near(statics.limit.driving_force, driving, 1e-9));
+  BOOST_TEST(is_near(statics.limit.factor, friction * normal / driving, 1e-9));
+}
+
 BOOST_AUTO_TEST_CASE(demand_of_a_block_that_turns)
 {
   // 0.5 m wide, 1.6 m high, 16 kN: sliding alone has tan 40 / tan 24 = 1.885.
@@ -583,6 +605,50 @@ BOOST_AUTO_TEST_CASE(stress_ratio_of_a_block_that_leaves_its_faces)
   for (const double lean : {0., 10., 30.})
     for (const bool is_seam_open : {true, false})
       BOOST_TEST(is_near(ratio(lean, is_seam_open), N * friction / T, 1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(free_areas_between_planes)
+{
+  // a wedge in a floor whose cells are too coarse for its planes, pulled up by
+  // a traction on its top, the triangle that the planes cut out of it
+  const auto plane =
+    [](const std::string &name, const double dip, const double dip_direction) {
+      return " subsection " + name +
+             "\n  set Point = 0.13, -0.21, -1\n  set Dip = " +
+             std::to_string(dip) +
+             "\n  set Dip direction = " + std::to_string(dip_direction) +
+             "\n end\n";
+    };
+  const Site<3> site(
+    "subsection Domain\n set Corner = -3, -3, -2.5\n set Size = 6, 6, 2.5\n "
+    "set Truncated boundaries = left, right, front, back, "
+    "bottom\nend\nsubsection Mesh\n set Generator = gmsh\n set Size = "
+    "0.8\nend\nsubsection Joints\n set Names = a, b, c\n" +
+    plane("a", 64.3, 53.3) + plane("b", 69.8, 209.3) + plane("c", 58.2, 336.) +
+    "end\nsubsection Materials\n set Names = rock\n subsection rock\n  set "
+    "Density = 2500\n end\nend\nsubsection Initial state\n set Gravity = 0; 0; "
+    "-9.81\nend\nsubsection Safety factor\n set Wanted = 1.5\nend\n" +
+    traction("top", "2000; -5000; 15000") + stage);
+  const auto &joints = site.scene.joints;
+  std::array<Tensor<1, 3>, 3> corners; // from the tip
+  for (unsigned int i = 0; i < 3; ++i)
+    {
+      corners[i] =
+        cross_product_3d(joints[i]->normal(), joints[(i + 1) % 3]->normal());
+      corners[i] /= corners[i][2];
+    }
+  const double area =
+    0.5 *
+    cross_product_3d(corners[1] - corners[0], corners[2] - corners[0]).norm();
+  const auto statics = site.judge();
+  BOOST_TEST(std::abs(3. * site.blocks.blocks[0].volume / area - 1.) > 0.05);
+  BOOST_TEST(is_near(site.blocks.blocks[0].exact.volume, area / 3., 1e-9));
+  const Tensor<1, 3> pulled({2000. * area, -5000. * area, 15000. * area});
+  BOOST_TEST((sum_of(statics.around.loads.tractions) - pulled).norm() <
+             1e-9 * pulled.norm());
+  BOOST_TEST(statics.demand.force > 0.);
+  BOOST_TEST(
+    is_near(statics.demand.force / statics.demand.pressure, area, 1e-9));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -54,8 +54,15 @@ namespace Keyblock
     std::vector<std::set<unsigned int>> others;
 
     BlockLoads<dim> loads;
-    double largest_bend = 0.;   ///< of a face against its joint's plane [deg]
-    std::string bent;           ///< name of that joint
+
+    /** Of a face against its joint's plane [deg]. */
+    double largest_bend = 0.;
+
+    /** Of the free faces between the planes over that in the mesh, by their
+     * mean normal [-]. */
+    double free_area_ratio = 1.;
+
+    std::string bent;           ///< name of the joint that is bent most
     bool is_attached   = false; ///< to rock that is not excavated yet
     bool is_on_fill    = false;
     bool has_free_face = false; ///< that touches another one
