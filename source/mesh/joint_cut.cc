@@ -23,8 +23,11 @@ namespace Keyblock
     constexpr double wanted_quality = 0.35, wanted_between = 0.25;
 
     /** At the end joints are bent so far, over the target size, where cells are
-     * below this. */
-    constexpr double largest_bend = 0.25, least_quality = 0.12;
+     * below this: the stable step is then a tenth of that of cells of the
+     * wanted size without joints, or more. */
+    constexpr double largest_bend = 0.25;
+    template <int dim>
+    constexpr double least_quality = (dim == 2) ? 0.12 : 0.16;
 
     /** Joints are put back into their planes where cells stay as good. */
     constexpr double least_quality_of_flattening = 0.2;
@@ -284,7 +287,7 @@ namespace Keyblock
     improvement.improve(wanted_quality, 2);
     improvement.flatten(least_quality_of_flattening);
 
-    improvement.improve_by_bending(least_quality, 8, largest_bend);
+    improvement.improve_by_bending(least_quality<dim>, 8, largest_bend);
 
     measure_shifts(mesh, sheets, coarsening, report);
     look_for_joints(mesh, sheets, report);
