@@ -51,10 +51,6 @@ namespace Keyblock
                 support.history_stage + "', which is before '" + support.stage +
                 "', from which on the support is quiet; name "
                 "a later stage.");
-      require(support.displacement.empty() || scene.has_stage_to_balance(),
-              who + "has a 'Displacement', which is reached in the first "
-                    "quasi-static or static stage, and there is none; add one "
-                    "to 'Stages/Names', or give a 'Velocity'.");
       require(support.history_quantity != HistoryQuantity::stress ||
                 support.is_quiet(),
               who + "has 'History quantity' stress, which only a quiet support "
@@ -62,6 +58,10 @@ namespace Keyblock
       require(!support.is_quiet() || support.displacement.empty(),
               who + "is quiet, which no 'Displacement' can be given to; set "
                     "'Velocity' for the wave that it lets in.");
+      require(support.displacement.empty() || scene.has_stage_to_balance(),
+              who + "has a 'Displacement', which is reached in the first "
+                    "quasi-static or static stage, and there is none; add one "
+                    "to 'Stages/Names', or give a 'Velocity'.");
       require(!support.is_free_field() ||
                 (support.velocity.empty() && !support.history),
               who + "is a free field with a 'Velocity' or a 'History file'; "

@@ -365,8 +365,10 @@ namespace Keyblock
             yky += force[i] * y[i];
             ymy += fields.mass[i / dim] * y[i] * y[i];
           }
-        yky                 = numbering.communicator.sum(yky);
-        ymy                 = numbering.communicator.sum(ymy);
+        yky = numbering.communicator.sum(yky);
+        ymy = numbering.communicator.sum(ymy);
+        if (!(yky > 0.))
+          return 0.; // nothing is left that moves
         x                   = y;
         const double before = period;
         period              = 2. * dealii::numbers::PI * std::sqrt(ymy / yky);

@@ -104,7 +104,10 @@ namespace Keyblock
     resting.forget();
     deformation_damping.begin_stage();
     n_searches_seen = none; // contact searches in the first step
-    dt              = longest_step(stage);
+    // where nothing moves any more, any step will do
+    const double longest = longest_step(stage);
+    if (std::isfinite(longest) || dt == 0.)
+      dt = longest;
     // a whole number of steps in the stage
     if (stage.duration > 0.)
       dt = stage.duration / count_steps(stage, dt);

@@ -21,7 +21,9 @@ namespace
     return "subsection Supports\n set Names = base, top\n subsection base\n  "
            "set Boundaries = bottom\n end\n subsection top\n  set Boundaries = "
            "top\n  set " +
-           motion + "\n end\nend\n" + one_stage;
+           motion + "\n end\nend\n" +
+           "subsection Stages\n set Names = press\n subsection press\n  set "
+           "Kind = quasi-static\n end\nend\n";
   }
 
   bool

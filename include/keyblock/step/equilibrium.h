@@ -58,7 +58,7 @@ namespace Keyblock
     double residual_ratio(const std::vector<double> &force) const;
 
     /** Period of the lowest mode with the masses in use, by inverse iteration
-     * and the Rayleigh quotient [s]. */
+     * and the Rayleigh quotient; 0 if nothing moves [s]. */
     double lowest_period();
 
     unsigned int n_iterations = 0; ///< of the last solve
