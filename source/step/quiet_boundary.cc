@@ -259,6 +259,11 @@ namespace Keyblock
   {
     for (unsigned int i = 0; i < dead_load.size(); ++i)
       load[i] += dead_load[i];
+    // a history is the same at all places
+    std::vector<Tensor<1, dim>> of_history(acts.size());
+    for (unsigned int s = 0; s < acts.size(); ++s)
+      if (acts[s] && !waves[s])
+        of_history[s] = incoming_velocity(s, Point<dim>(), time);
     for (const Dashpot &dashpot : dashpots)
       if (has_wave(dashpot.support))
         {
@@ -266,7 +271,9 @@ namespace Keyblock
             split.mesh.vertices[numbering.vertex_of_node[dashpot.node]];
           const Tensor<1, dim> force =
             2. * dashpot.impedance *
-            incoming_velocity(dashpot.support, place, time);
+            (waves[dashpot.support]
+               ? incoming_velocity(dashpot.support, place, time)
+               : of_history[dashpot.support]);
           for (unsigned int d = 0; d < dim; ++d)
             load[dim * dashpot.node + d] += force[d];
         }

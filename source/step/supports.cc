@@ -45,7 +45,8 @@ namespace Keyblock
       for (unsigned int k = 0; k < support.n_directions; ++k)
         {
           const Tensor<1, dim> held = tensor_of<dim>(support.directions[k]);
-          if (motion >= 0 && std::abs(axis * held) > 1. - same_direction)
+          if (motion >= 0 &&
+              (axis - (axis * held) * held).norm() < same_direction)
             {
               support.axes[k]    = list_of<dim>(axis);
               support.motions[k] = motion;
