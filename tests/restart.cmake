@@ -1,6 +1,6 @@
 # friction, and surface contact once the block slides
 keyblock_restart(sliding_block tutorial/sliding_block)
-keyblock_restart(sliding_block_2 tutorial/sliding_block RANKS 2
+keyblock_restart(sliding_block_2 tutorial/sliding_block SLOW RANKS 2
   ARGUMENTS --ranks 2)
 keyblock_restart(sliding_block_stopped tutorial/sliding_block
   ARGUMENTS --by stop --breaks 2)
@@ -14,7 +14,7 @@ keyblock_restart(incline_3d_20 verification/incline_3d SLOW
 # hang on the last digit
 keyblock_restart(newmark_other_ranks verification/newmark RANKS 2
   ARGUMENTS --ranks 1 2 --tolerance 1e-8)
-keyblock_restart(friction_rod_other_ranks verification/friction_rod RANKS 2
+keyblock_restart(friction_rod_other_ranks verification/friction_rod SLOW RANKS 2
   ARGUMENTS --ranks 2 1 --tolerance 1e-8)
 # large kinematics
 keyblock_restart(toppling verification/toppling_slides_and_topples)
@@ -31,7 +31,7 @@ set(two_stages --set "Excavations/Names=room, floor"
   --set "Stages/Names=dig, deepen" --set "Stages/deepen/Kind=quasi-static"
   --set "Safety factor/Removal slip=0.05" --set "Safety factor/Blocks=all"
   --set "Safety factor/Bracket=0.02" --set "Check/Closed form=none")
-keyblock_restart(two_stages verification/roof_block_falls
+keyblock_restart(two_stages verification/roof_block_falls SLOW
   ARGUMENTS ${two_stages})
 keyblock_restart(two_stages_2 verification/roof_block_falls RANKS 2
   ARGUMENTS --ranks 2 ${two_stages})
@@ -55,7 +55,7 @@ set(bolted --set "Stages/Names=rest, again" --set "Stages/again/Kind=quasi-stati
   --set "Bolts/late/Yield force=50" --set "Bolts/late/Bond stiffness=1e8"
   --set "Bolts/late/Bond strength=1e5" --set "Bolts/late/Dowel stiffness=1e5"
   --set "Bolts/late/Dowel strength=2" --set "Mesh/Cells=80, 16")
-keyblock_restart(bolted verification/bolted_incline ARGUMENTS ${bolted})
+keyblock_restart(bolted verification/bolted_incline SLOW ARGUMENTS ${bolted})
 keyblock_restart(bolted_2 verification/bolted_incline RANKS 2
   ARGUMENTS --ranks 2 ${bolted})
 # long enough for a signal to arrive before the end
@@ -72,7 +72,7 @@ set(two_teams --ranks 2 --set "Safety factor/Rank groups=2" --set "Mesh/Cells=80
   --set "Stages/again/Unbalanced ratio=1e-7")
 keyblock_restart(teams verification/factor_incline RANKS 2
   ARGUMENTS ${two_teams})
-keyblock_restart(teams_stopped verification/factor_incline RANKS 2
+keyblock_restart(teams_stopped verification/factor_incline SLOW RANKS 2
   ARGUMENTS --by stop --breaks 2 ${two_teams})
 keyblock_restart(teams_20 verification/factor_incline RANKS 2 SLOW
   ARGUMENTS --breaks 20 ${two_teams})
@@ -88,11 +88,11 @@ set(structural --set "Shotcrete/shell/Young modulus=1e9" --set "Stages/Names=dig
   --set "Excavations/side/Vertices=1, -1@ 1.5, -1@ 1.5, 0@ 1, 0"
   --set "Stages/again/Kind=quasi-static" --set "Stages/dig/Maximum steps=2000"
   --set "Stages/again/Maximum steps=2000" --set "Safety factor/Blocks=none")
-keyblock_restart(structural_liner verification/lined_roof ARGUMENTS ${structural})
+keyblock_restart(structural_liner verification/lined_roof SLOW ARGUMENTS ${structural})
 keyblock_restart(structural_liner_2 verification/lined_roof RANKS 2
   ARGUMENTS --ranks 2 ${structural})
 # ground beside the model that moves
-keyblock_restart(free_field verification/free_field ARGUMENTS
+keyblock_restart(free_field verification/free_field SLOW ARGUMENTS
   --set "Stages/shake/Duration=0.3")
 keyblock_restart(free_field_2 verification/free_field RANKS 2
   ARGUMENTS --ranks 2 --set "Stages/shake/Duration=0.3")
@@ -101,12 +101,12 @@ set(compliant --set "Joints/*/Normal stiffness=1e9"
   --set "Joints/*/Shear stiffness=5e8")
 keyblock_restart(compliant_joints verification/incline_3d
   ARGUMENTS ${compliant})
-keyblock_restart(compliant_joints_2 verification/incline_3d RANKS 2
+keyblock_restart(compliant_joints_2 verification/incline_3d SLOW RANKS 2
   ARGUMENTS --ranks 2 ${compliant})
-keyblock_restart(compliant_joints_other_ranks verification/newmark RANKS 2
+keyblock_restart(compliant_joints_other_ranks verification/newmark SLOW RANKS 2
   ARGUMENTS --ranks 1 2 --tolerance 1e-8 ${compliant})
 # with turning normals, and born under stress, with stages and factors
-keyblock_restart(compliant_joints_large verification/toppling_slides_and_topples
+keyblock_restart(compliant_joints_large verification/toppling_slides_and_topples SLOW
   ARGUMENTS ${compliant})
 keyblock_restart(compliant_joints_two_stages verification/roof_block_falls
   ARGUMENTS ${two_stages} ${compliant})

@@ -160,6 +160,57 @@ namespace Keyblock
              "move joints; choose 'Stages/NAME/Kind = quasi-static' to see "
              "their compliance.";
     }
+
+
+
+    /** Whether rock that yields lies on a boundary that a support names. */
+    template <int dim>
+    bool
+    is_beside_yielding_rock(const Support<dim> &support,
+                            const Scene<dim> &scene,
+                            const Mesh<dim> &mesh)
+    {
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        if (scene.materials[mesh.material[c]]->is_plastic())
+          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+            for (const std::string &boundary : support.boundaries)
+              if (mesh.is_on(c, f, boundary))
+                return true;
+      return false;
+    }
+
+
+
+    /** What the ground beside free fields leaves out in this scene. */
+    template <int dim>
+    std::vector<std::string>
+    warnings_of_free_fields(const Scene<dim> &scene, const Mesh<dim> &mesh)
+    {
+      std::vector<std::string> warnings;
+      const bool has_damping_ratio = std::any_of(
+        scene.stages.begin(), scene.stages.end(), [](const auto &stage) {
+          return stage->kind == StageKind::dynamic && stage->damping_ratio > 0.;
+        });
+      for (const auto &support : scene.supports)
+        if (support->is_free_field())
+          {
+            const std::string who = "The support '" + support->name +
+                                    "' is a free field whose ground beside "
+                                    "the model ";
+            if (is_beside_yielding_rock(*support, scene, mesh))
+              warnings.push_back(who +
+                                 "stays elastic, while the rock at it may "
+                                 "yield; give the rock along the sides an "
+                                 "elastic material if the shaking brings it "
+                                 "to its strength.");
+            if (has_damping_ratio)
+              warnings.push_back(who +
+                                 "has no 'Damping ratio', while the rock of a "
+                                 "dynamic stage has; use 'Rayleigh ratio' and "
+                                 "'Rayleigh frequency', which act on both.");
+          }
+      return warnings;
+    }
   } // namespace
 
 
@@ -178,6 +229,7 @@ namespace Keyblock
         warnings.push_back(warning);
     for (const std::vector<std::string> &more :
          {warnings_of_short_waves(model.scene, model.split.mesh),
+          warnings_of_free_fields(model.scene, model.split.mesh),
           warnings_of_cut_bolts(model.scene, model.split),
           warnings_of_coarse_mesh(model.scene, model.split, model.blocks)})
       warnings.insert(warnings.end(), more.begin(), more.end());

@@ -567,6 +567,17 @@ def coarse_mesh():
     assert b"Warning: The mesh " not in done.stdout, done.stdout
 
 
+def free_field_warnings():
+    """What the ground beside a free field leaves out is said."""
+    scene = PRM / "verification/free_field.prm"
+    valid(validate(scene))
+    valid(validate(scene, ["Materials/soft/Model=mohr_coulomb",
+                           "Materials/soft/Cohesion=1e6"]),
+          "ground beside the model stays elastic")
+    valid(validate(scene, ["Stages/shake/Damping ratio=0.01"]),
+          "ground beside the model has no 'Damping ratio'")
+
+
 def main():
     case = globals()[sys.argv[3]]
     with tempfile.TemporaryDirectory() as folder:

@@ -1,13 +1,13 @@
-keyblock_scene(tutorial/sliding_block)
+keyblock_scene(tutorial/sliding_block SLOW_RANKS 4)
 keyblock_scene(tutorial/joint_network)
 keyblock_scene(tutorial/roof_wedge RANKS 1 REFERENCES tutorial_roof_wedge)
-keyblock_scene(tutorial/first_tunnel RANKS 1
+keyblock_scene(tutorial/first_tunnel RANKS 1 SLOW
   SET "Safety factor/Blocks=critical" "Safety factor/Stages=heading"
   "Safety factor/Bracket=0.02")
 keyblock_scene(verification/resting)
-keyblock_scene(verification/incline_25)
+keyblock_scene(verification/incline_25 SLOW_RANKS 4)
 keyblock_scene(verification/incline_30)
-keyblock_scene(verification/incline_35)
+keyblock_scene(verification/incline_35 SLOW_RANKS 4)
 # one cell of the block, at the top, is quartered and does not set the step
 keyblock_scene(verification/incline_30 REFERENCES incline_30_scaled RANKS 1 2
   SET "Mesh/Refinement levels=(x > 0.325)*(x < 0.36)*(y > 0)*(y < 0.04)"
@@ -16,23 +16,26 @@ keyblock_scene(verification/incline_3d)
 keyblock_scene(verification/bar_impact)
 keyblock_scene(verification/oblique_impact)
 keyblock_scene(verification/oblique_impact_stick)
-keyblock_scene(verification/newmark)
-keyblock_scene(verification/newmark_rectangular)
-keyblock_scene(verification/shaken_incline)
+keyblock_scene(verification/newmark SLOW_RANKS 4)
+keyblock_scene(verification/newmark_rectangular SLOW_RANKS 4)
+keyblock_scene(verification/shaken_incline SLOW_RANKS 4)
 keyblock_scene(verification/shaken_incline REFERENCES shaken_incline_8 RANKS 1
   SET "Domain/Corner=-1, -0.0625" "Domain/Size=3, 0.5625" "Mesh/Cells=48, 9")
 keyblock_scene(verification/shaken_incline REFERENCES shaken_incline_damped
   RANKS 1 SET "Stages/shake/Damping ratio=1")
-keyblock_scene(verification/shaken_incline_full_sine RANKS 1)
+keyblock_scene(verification/shaken_incline_full_sine RANKS 1 SLOW)
 foreach(case e1 e2a e2b e3a e3b e3c e3d sets_2d lines tunnel_15 tunnel_20
     tunnel_25 tunnel_30 cube_3 cube_4 sets_3d planes_4 planes_5 planes_6)
   keyblock_scene(verification/blocks_${case})
 endforeach()
-keyblock_scene(verification/rotation)
-foreach(case stays_friction slides_friction stays_slender topples_slender
-    slides_slender slides_and_topples topples_rough topples_steep
+keyblock_scene(verification/rotation SLOW_RANKS 4)
+foreach(case slides_and_topples topples_rough topples_steep
     slides_and_topples_steep)
   keyblock_scene(verification/toppling_${case})
+endforeach()
+foreach(case stays_friction slides_friction stays_slender topples_slender
+    slides_slender)
+  keyblock_scene(verification/toppling_${case} SLOW_RANKS 4)
 endforeach()
 keyblock_scene(verification/crossing)
 keyblock_scene(verification/pile)
@@ -100,7 +103,7 @@ keyblock_scene(verification/salencon RANKS 1 2)
 keyblock_scene(verification/salencon_associated RANKS 2)
 keyblock_scene(verification/footing RANKS 2)
 keyblock_scene(verification/cavity_elastic RANKS 1 2)
-keyblock_scene(verification/cavity_mohr_coulomb RANKS 1)
+keyblock_scene(verification/cavity_mohr_coulomb RANKS 1 SLOW)
 keyblock_scene(verification/friction_rod)
 # factors of the same slope by strength reduction
 keyblock_scene(verification/slope_crack REFERENCES slope_weak_dry RANKS 1)
@@ -215,8 +218,9 @@ keyblock_scene(verification/factor_incline REFERENCES water_drained RANKS 1
   "Stages/drained/Friction angle override=84.2894"
   "Stages/drained/Unbalanced ratio=1e-7" "Stages/drained/Drained joints=base")
 keyblock_scene(verification/friction_rod_400 RANKS 2)
-foreach(angle 10 20 30 35)
-  keyblock_scene(verification/footing_${angle} RANKS 1)
+keyblock_scene(verification/footing_10 RANKS 1)
+foreach(angle 20 30 35)
+  keyblock_scene(verification/footing_${angle} RANKS 1 SLOW)
 endforeach()
 keyblock_scene(verification/wedge_3d RANKS 2)
 keyblock_scene(verification/wedge_slides RANKS 2)
