@@ -41,7 +41,7 @@ namespace Keyblock
       return text;
     }
 
-    /** Its nodes, and the rock at them. */
+    /** Its nodes at equal distances, and the rock at them. */
     template <int dim>
     void
     divide(const BoltSet<dim> &set,
@@ -71,17 +71,15 @@ namespace Keyblock
                              "'Free length'."));
     }
 
-    /** Whether anything is dug after stage @p number. */
+    /** A place between nodes @p j and j + 1, k of n_between + 1 parts on. */
     template <int dim>
-    bool
-    is_dug_after(const Scene<dim> &scene, const unsigned int number)
+    double
+    place_between(const Bolt<dim> &bolt,
+                  const unsigned int j,
+                  const unsigned int k)
     {
-      return std::any_of(scene.excavations.begin(),
-                         scene.excavations.end(),
-                         [&](const auto &excavation) {
-                           return scene.stage_number(excavation->stage) >
-                                  number;
-                         });
+      const double share = double(k) / (n_between + 1);
+      return (1. - share) * bolt.places[j] + share * bolt.places[j + 1];
     }
 
     /** Cells between a bolt's nodes. */
@@ -92,14 +90,20 @@ namespace Keyblock
       std::vector<unsigned int> passed;
       for (unsigned int j = 0; j + 1 < bolt.places.size(); ++j)
         for (unsigned int k = 1; k <= n_between; ++k)
-          {
-            const double share = double(k) / (n_between + 1);
-            passed.push_back(rock
-                               .find(bolt.at((1. - share) * bolt.places[j] +
-                                             share * bolt.places[j + 1]))
-                               .cell);
-          }
+          passed.push_back(rock.find(bolt.at(place_between(bolt, j, k))).cell);
       return passed;
+    }
+
+    /** Cell at a place_between(), nodes included. */
+    template <int dim>
+    unsigned int
+    cell_between(const Bolt<dim> &bolt,
+                 const unsigned int j,
+                 const unsigned int k)
+    {
+      if (k == 0 || k == n_between + 1)
+        return bolt.rock[k == 0 ? j : j + 1].cell;
+      return bolt.passed[n_between * j + k - 1];
     }
 
     /** The joint of the cell's face nearest to a crossing, and its normal. */
@@ -134,39 +138,105 @@ namespace Keyblock
                    const CellLocator<dim> &rock,
                    const SplitMesh<dim> &split)
     {
-      const auto block_of = [&](const CellPoint<dim> &point) {
-        return point.cell == none ? none : split.block_of_cell[point.cell];
+      const auto block_of = [&](const unsigned int cell) {
+        return cell == none ? none : split.block_of_cell[cell];
+      };
+      const auto block_at = [&](const double place) {
+        return block_of(rock.find(bolt.at(place)).cell);
       };
       std::vector<BoltCrossing<dim>> crossings;
-      for (unsigned int i = 1; i < bolt.places.size(); ++i)
-        {
-          const unsigned int before = block_of(bolt.rock[i - 1]),
-                             behind = block_of(bolt.rock[i]);
-          if (before == behind || before == none || behind == none)
-            continue;
-          double near = bolt.places[i - 1], far = bolt.places[i];
-          for (unsigned int k = 0; k < n_halvings; ++k)
-            {
-              const double middle = 0.5 * (near + far);
-              (block_of(rock.find(bolt.at(middle))) == before ? near : far) =
-                middle;
-            }
-          BoltCrossing<dim> crossing;
-          const double aside = beside * bolt.length();
-          crossing.place     = 0.5 * (near + far);
-          crossing.side      = {{rock.find(bolt.at(crossing.place - aside)),
-                                 rock.find(bolt.at(crossing.place + aside))}};
-          crossing.block     = {
-                {block_of(crossing.side[0]), block_of(crossing.side[1])}};
-          if (crossing.side[0].cell != none)
-            find_joint(split.mesh,
-                       crossing.side[0].cell,
-                       bolt.at(crossing.place),
-                       crossing);
-          if (crossing.joint != none)
-            crossings.push_back(crossing);
-        }
+      for (unsigned int j = 0; j + 1 < bolt.places.size(); ++j)
+        for (unsigned int k = 0; k <= n_between; ++k)
+          {
+            const unsigned int before = block_of(cell_between(bolt, j, k)),
+                               behind = block_of(cell_between(bolt, j, k + 1));
+            if (before == behind || before == none || behind == none)
+              continue;
+            double near = place_between(bolt, j, k),
+                   far  = place_between(bolt, j, k + 1);
+            for (unsigned int i = 0; i < n_halvings; ++i)
+              {
+                const double middle                       = 0.5 * (near + far);
+                (block_at(middle) == before ? near : far) = middle;
+              }
+            BoltCrossing<dim> crossing;
+            const double aside = beside * bolt.length();
+            crossing.place     = 0.5 * (near + far);
+            crossing.side      = {{rock.find(bolt.at(crossing.place - aside)),
+                                   rock.find(bolt.at(crossing.place + aside))}};
+            crossing.block     = {{block_of(crossing.side[0].cell),
+                                   block_of(crossing.side[1].cell)}};
+            if (crossing.side[0].cell != none)
+              find_joint(split.mesh,
+                         crossing.side[0].cell,
+                         bolt.at(crossing.place),
+                         crossing);
+            if (crossing.joint != none)
+              crossings.push_back(crossing);
+          }
       return crossings;
+    }
+
+    /** Put a node between two joints that have none between them. */
+    template <int dim>
+    void
+    add_nodes_between_joints(const CellLocator<dim> &rock, Bolt<dim> &bolt)
+    {
+      const unsigned int n_before = bolt.places.size();
+      for (unsigned int c = 0; c + 1 < bolt.crossings.size(); ++c)
+        {
+          const double first = bolt.crossings[c].place,
+                       last  = bolt.crossings[c + 1].place;
+          const auto next =
+            std::upper_bound(bolt.places.begin(), bolt.places.end(), first);
+          if (*next < last)
+            continue;
+          const double middle = 0.5 * (first + last);
+          bolt.rock.insert(bolt.rock.begin() + (next - bolt.places.begin()),
+                           rock.find(bolt.at(middle)));
+          bolt.places.insert(next, middle);
+        }
+      if (bolt.places.size() > n_before)
+        bolt.passed = list_passed(bolt, rock);
+    }
+
+    /**
+     * How far the grout of the nodes at both ends of a segment goes into it
+     * [m]: to the joint that it crosses; to where the rock ends, half between
+     * two places that were looked at; or to the middle, if there is rock all
+     * the way.
+     */
+    template <int dim, typename IsRock>
+    std::array<double, 2>
+    divide_grout(const Bolt<dim> &bolt,
+                 const unsigned int j,
+                 const IsRock &is_rock)
+    {
+      std::array<double, 2> border{{bolt.places[j + 1], bolt.places[j]}};
+      bool is_crossed = false;
+      for (const BoltCrossing<dim> &crossing : bolt.crossings)
+        if (crossing.place >= bolt.places[j] &&
+            crossing.place < bolt.places[j + 1])
+          {
+            border.fill(crossing.place);
+            is_crossed = true;
+          }
+      unsigned int last = 0, first = n_between + 1;
+      while (last <= n_between && is_rock(cell_between(bolt, j, last + 1)))
+        ++last;
+      while (first > 0 && is_rock(cell_between(bolt, j, first - 1)))
+        --first;
+      if (last <= n_between)
+        border[0] = std::min(border[0],
+                             0.5 * (place_between(bolt, j, last) +
+                                    place_between(bolt, j, last + 1)));
+      if (first > 0)
+        border[1] = std::max(border[1],
+                             0.5 * (place_between(bolt, j, first - 1) +
+                                    place_between(bolt, j, first)));
+      if (last > n_between && first == 0 && !is_crossed)
+        border.fill(0.5 * (bolt.places[j] + bolt.places[j + 1]));
+      return border;
     }
   } // namespace
 
@@ -194,9 +264,9 @@ namespace Keyblock
         for (Bolt<dim> &bolt : of_set)
           {
             divide(set, rock, bolt);
+            bolt.passed    = list_passed(bolt, rock);
             bolt.crossings = list_crossings(bolt, rock, split);
-            if (is_dug_after(scene, ground.stage_number))
-              bolt.passed = list_passed(bolt, rock);
+            add_nodes_between_joints(rock, bolt);
             bolts.push_back(bolt);
           }
       }
@@ -227,11 +297,17 @@ namespace Keyblock
         remains.is_held.push_back(point.cell != none && !node_is_dug.back());
       }
     const unsigned int n = bolt.places.size() - 1;
+    remains.grout.assign(n + 1, {{bolt.places[0], bolt.places[n]}});
     for (unsigned int j = 0; j < n; ++j)
       {
-        const auto first = bolt.passed.begin() + j * bolt.passed.size() / n;
-        const auto last =
-          bolt.passed.begin() + (j + 1) * bolt.passed.size() / n;
+        const std::array<double, 2> border =
+          divide_grout(bolt, j, [&](const unsigned int cell) {
+            return cell != none && !is_dug(cell);
+          });
+        remains.grout[j][1]     = border[0];
+        remains.grout[j + 1][0] = border[1];
+        const auto first        = bolt.passed.begin() + j * n_between;
+        const auto last         = first + n_between;
         remains.is_cut.push_back(node_is_dug[j] || node_is_dug[j + 1] ||
                                  std::any_of(first, last, is_dug));
         if (remains.is_cut.back())

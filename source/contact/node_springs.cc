@@ -86,11 +86,47 @@ namespace Keyblock
   {
     double largest = 0.;
     for (const NodeSpring<dim> &spring : memory.node_springs)
-      largest = std::max(largest,
-                         spring.has_offset
-                           ? -spring.offset
-                           : -dot<dim>(spring.state.stretch, spring.normal));
+      largest = std::max({largest,
+                          -spring.offset,
+                          spring.has_offset
+                            ? 0.
+                            : -dot<dim>(spring.state.stretch, spring.normal)});
     return largest;
+  }
+
+
+
+  template <int dim>
+  void
+  JointSprings<dim>::measure_offsets()
+  {
+    for (NodeSpring<dim> &spring : memory.node_springs)
+      {
+        if (spring.has_offset || spring.last_step != memory.n_steps ||
+            norm<dim>(spring.normal) == 0.)
+          continue;
+        const unsigned int v = surface.vertex_of_node[spring.node];
+        const auto [begin, end] =
+          topology.pairs_of_group(topology.group_of_node[spring.node]);
+        for (unsigned int p = begin; p < end; ++p)
+          {
+            const Pair<dim> &pair = interface.pairs[p];
+            if (pair.joint != spring.joint ||
+                (pair.minus != v && pair.plus != v))
+              continue;
+            const unsigned int partner =
+              surface.node_of_vertex[pair.minus == v ? pair.plus : pair.minus];
+            double gap = 0.;
+            for (int d = 0; d < dim; ++d)
+              gap += (nodes.position[dim * spring.node + d] -
+                      nodes.position[dim * partner + d]) *
+                     spring.normal[d];
+            if (strength.has_memory)
+              gap -= memory.pair_histories[p].dilation;
+            spring.offset = dot<dim>(spring.state.stretch, spring.normal) - gap;
+            break;
+          }
+      }
   }
 
 
@@ -159,9 +195,10 @@ namespace Keyblock
     if (spring.last_step == memory.n_steps && norm<dim>(spring.normal) > 0.)
       return dot<dim>(spring.state.stretch, spring.normal) - contact.point.gap;
     const NodeSpring<dim> *const partner = find_partner(contact);
-    return partner != nullptr && partner->has_offset
-             ? partner->offset
-             : std::max(0., -contact.point.gap);
+    if (partner != nullptr && partner->has_offset)
+      return partner->offset;
+    return norm<dim>(spring.normal) > 0. ? spring.offset
+                                         : std::max(0., -contact.point.gap);
   }
 
 
@@ -273,8 +310,6 @@ namespace Keyblock
                                                      nodes.velocity.data()),
                               point.status,
                               point.strength);
-        if (point.status == ContactStatus::sliding)
-          spring.offset -= point.strength.dilation * norm<dim>(change.slip);
         spring.state  = change.after;
         spring.stored = point.spring.energy(change.after.force, point.normal);
       }

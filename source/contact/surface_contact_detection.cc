@@ -123,6 +123,7 @@ namespace Keyblock
                  (nodes.position[i] - memory.searched_position[i]);
         square = std::max(square, way);
       }
+    springs.measure_offsets();
     search.evaluate(nodes.position,
                     reach + history.largest_dilation() +
                       springs.largest_offset(),

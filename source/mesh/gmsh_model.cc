@@ -233,6 +233,18 @@ namespace Keyblock
       return found;
     }
 
+    /** Tags of what bounds the pieces of an excavation together. */
+    std::set<int>
+    outline_of(const vectorpair &pieces)
+    {
+      vectorpair boundary;
+      gmsh::model::getBoundary(pieces, boundary, true, false, false);
+      std::set<int> tags;
+      for (const auto &[dimension, tag] : boundary)
+        tags.insert(tag);
+      return tags;
+    }
+
     /** Remove all that is not part of the domain, from the model and from
      * @p model: joints and excavations may reach beyond. */
     template <int dim>
@@ -315,6 +327,8 @@ namespace Keyblock
       model.joints[joint_of_tool[i]] =
         pieces_of[1 + n_tools_of_excavations + i];
     occ::synchronize();
+    for (std::size_t i = 0; i < n_tools_of_excavations; ++i)
+      model.outlines.merge(outline_of(pieces_of[1 + i]));
     clip(model);
     return model;
   }

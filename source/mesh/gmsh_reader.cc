@@ -84,10 +84,12 @@ namespace Keyblock
         gmsh::model::mesh::getElements(types, elements, nodes, dim - 1, tag);
         std::string type;
         gmsh::model::getType(dim - 1, tag, type);
-        const auto joints    = joints_of_entity.find(tag);
-        const bool is_joint  = (joints != joints_of_entity.end());
-        const bool is_curved = dim == 3 && !is_joint && type != "Plane";
-        bool is_new          = !is_joint;
+        const auto joints   = joints_of_entity.find(tag);
+        const bool is_joint = (joints != joints_of_entity.end());
+        // (a joint may lie on the face of an excavation)
+        const bool is_outline = !is_joint || model.outlines.count(tag) > 0;
+        const bool is_curved  = dim == 3 && !is_joint && type != "Plane";
+        bool is_new           = is_outline;
         for (unsigned int t = 0; t < types.size(); ++t)
           for (std::size_t i = 0; i + dim <= nodes[t].size(); i += dim)
             {
@@ -111,9 +113,9 @@ namespace Keyblock
                   // each triangle on a curved one has its plane
                   is_new = is_curved;
                 }
-              if (!is_joint)
+              if (is_outline)
                 mark(face, result.surfaces.size() - 1, places);
-              else
+              if (is_joint)
                 for (const unsigned int j : joints->second)
                   mark(face, j, places);
             }

@@ -36,19 +36,23 @@ namespace Keyblock
                             const double from,
                             const double to) const
   {
-    const double begin = i > 0 ? 0.5 * (place[i - 1] + place[i]) : place[0];
-    const double end   = i + 1 < n ? 0.5 * (place[i] + place[i + 1]) : place[i];
     return std::max(0.,
-                    std::min(end, to) -
-                      std::max({begin, from, properties.free_length}));
+                    std::min(grout[i][1], to) -
+                      std::max({grout[i][0], from, properties.free_length}));
   }
 
 
 
   void
   BoltChain::set_ground(const std::vector<bool> &is_held,
-                        const std::vector<bool> &are_cut)
+                        const std::vector<bool> &are_cut,
+                        const std::vector<GroutRange> &ranges)
   {
+    grout = ranges;
+    if (grout.empty())
+      for (unsigned int i = 0; i < n; ++i)
+        grout.push_back({{0.5 * (place[i > 0 ? i - 1 : 0] + place[i]),
+                          0.5 * (place[i] + place[i + 1 < n ? i + 1 : i])}});
     for (unsigned int i = 0; i < n; ++i)
       {
         const double length =

@@ -155,7 +155,7 @@ namespace Keyblock
             if (is_near == is_far)
               continue;
             BoltChain chain(properties_of(set), bolt.places);
-            chain.set_ground(remains.is_held, remains.is_cut);
+            chain.set_ground(remains.is_held, remains.is_cut, remains.grout);
             if (chain.is_cut_at(chain.segment_at(crossing.place)))
               continue;
             const BoltChain::Capacity capacity = chain.capacity(crossing.place);

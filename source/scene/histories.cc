@@ -30,7 +30,7 @@ namespace Keyblock
       if (stage_number(stage->name) <= number)
         {
           for (const std::string &name : stage->drained_joints)
-            if (name == own.name || name == own.set)
+            if (name == own.name || name == own.set || name == own.surface)
               return "";
           if (!stage->water_level.empty())
             level = stage->water_level;

@@ -62,7 +62,7 @@ namespace Keyblock
       for (const CellPoint<dim> &side : crossing.side)
         bindings.emplace_back(side, ground, numbering);
     const BoltRemains remains = find_remains(bolt, ground);
-    chain.set_ground(remains.is_held, remains.is_cut);
+    chain.set_ground(remains.is_held, remains.is_cut, remains.grout);
     cut_length = remains.cut_length;
     for (unsigned int k = 0; k < dowels.size(); ++k)
       {

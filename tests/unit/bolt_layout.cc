@@ -6,8 +6,10 @@
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/bolt_layout.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <random>
 
 #include "world.h"
 
@@ -20,11 +22,14 @@ namespace
                          "  set Bond stiffness = 1e8\n"
                          "  set Bond strength = 1e5\n";
 
-  /** The bolts of a scene with a cavern 4 m wide and 3 m high, in 3D 20 m
-   * long. @p entries: of the set of bolts; @p joints: a section. */
-  template <int dim>
-  std::vector<Bolt<dim>>
-  bolts_of(const std::string &entries, const std::string &joints = "")
+  /** Call @p action(bolts, split, scene) for the bolts of a scene with a cavern
+   * 4 m wide and 3 m high, in 3D 20 m long. @p entries: of the set of bolts;
+   * @p sections: more of the scene. */
+  template <int dim, typename Action>
+  void
+  with_bolts(const std::string &entries,
+             const std::string &sections,
+             const Action &action)
   {
     const std::string name = "bolt_layout_" + std::to_string(dim) + "_" +
                              std::to_string(world.size()) + ".prm";
@@ -42,13 +47,48 @@ namespace
         << "\n  set Stage = dig\n end\nend\nsubsection Materials\n"
            " set Names = rock\nend\nsubsection Stages\n set Names = dig\n"
            " subsection dig\n  set Duration = 1\n end\nend\n"
-        << joints << "subsection Bolts\n set Names = bar\n subsection bar\n"
+        << sections << "subsection Bolts\n set Names = bar\n subsection bar\n"
         << bar << entries << " end\nend\n";
     Scene<dim> scene;
     scene.read(world, name, {});
     auto [mesh, blocks]        = make_mesh_for_blocks(world, scene, silent);
     const SplitMesh<dim> split = split_mesh(mesh, blocks, scene);
-    return lay_out_bolts(scene, split);
+    action(lay_out_bolts(scene, split), split, scene);
+  }
+
+  template <int dim>
+  std::vector<Bolt<dim>>
+  bolts_of(const std::string &entries, const std::string &joints = "")
+  {
+    std::vector<Bolt<dim>> found;
+    with_bolts<dim>(entries,
+                    joints,
+                    [&](const std::vector<Bolt<dim>> &bolts,
+                        const SplitMesh<dim> &,
+                        const Scene<dim> &) { found = bolts; });
+    return found;
+  }
+
+  /** Two level joints, 1 m and 1.5 m above the roof. */
+  const std::string beds =
+    "subsection Joints\n set Names = low, high\n subsection low\n"
+    "  set Point = 0, 8\n  set Dip = 0\n end\n subsection high\n"
+    "  set Point = 0, 8.5\n  set Dip = 0\n end\nend\n";
+
+  /** Grout of the nodes of a bolt in each of the three layers [m]. */
+  std::array<double, 3>
+  grout_by_layer(const Bolt<2> &bolt, const BoltRemains &remains)
+  {
+    std::array<double, 3> length{};
+    for (unsigned int i = 0; i < bolt.places.size(); ++i)
+      if (remains.is_held[i])
+        {
+          const double y = bolt.at(bolt.places[i])[1];
+          length[y < 8.    ? 0
+                 : y < 8.5 ? 1
+                           : 2] += remains.grout[i][1] - remains.grout[i][0];
+        }
+    return length;
   }
 
   const std::string pattern = "  set Excavations = cavern\n  set Length = 2\n"
@@ -119,4 +159,62 @@ BOOST_AUTO_TEST_CASE(bolt_crosses_a_joint)
   BOOST_TEST(crossing.joint == 0u);
   BOOST_TEST(std::abs(crossing.normal[1] - 1.) < 1e-12);
   BOOST_TEST(crossing.block[0] != crossing.block[1]);
+}
+
+// The grout of a node ends with its block, however long segments are; a layer
+// between two nodes gets one of its own.
+BOOST_AUTO_TEST_CASE(bolt_grout_ends_at_joints)
+{
+  std::mt19937 random(5);
+  for (unsigned int n = 0; n < 20; ++n)
+    {
+      const double segment =
+        std::uniform_real_distribution<double>(0.06, 3.)(random);
+      with_bolts<2>("  set Heads = 5, 7\n  set Ends = 5.5, 9.5\n"
+                    "  set Segment length = " +
+                      std::to_string(segment) + "\n",
+                    beds,
+                    [&](const std::vector<Bolt<2>> &bolts,
+                        const SplitMesh<2> &split,
+                        const Scene<2> &scene) {
+                      const Bolt<2> &bolt = bolts[0];
+                      BOOST_REQUIRE(bolt.crossings.size() == 2u);
+                      const auto length = grout_by_layer(
+                        bolt, find_remains(bolt, Ground<2>{scene, split, 1}));
+                      const double slope = bolt.length() / 2.5;
+                      for (unsigned int l = 0; l < 3; ++l)
+                        BOOST_TEST(std::abs(length[l] / slope -
+                                            (l == 1 ? 0.5 : 1.)) < 1e-6,
+                                   "segments of " << segment << " m, layer "
+                                                  << l << ": " << length[l]);
+                    });
+    }
+}
+
+// and with the rock that is dug later
+BOOST_AUTO_TEST_CASE(bolt_grout_ends_where_rock_is_dug)
+{
+  const std::string gallery =
+    "subsection Excavations\n set Names = cavern, gallery\n"
+    " subsection gallery\n  set Shape = box\n  set Corner = 4, 8\n"
+    "  set Size = 3, 0.5\n  set Stage = again\n end\nend\n"
+    "subsection Stages\n set Names = dig, again\n subsection again\n"
+    "  set Duration = 1\n end\nend\n";
+  for (const double segment : {0.1, 0.37, 0.9, 2.})
+    with_bolts<2>("  set Heads = 5, 7\n  set Ends = 5.5, 9.5\n"
+                  "  set Segment length = " +
+                    std::to_string(segment) + "\n",
+                  gallery,
+                  [&](const std::vector<Bolt<2>> &bolts,
+                      const SplitMesh<2> &split,
+                      const Scene<2> &scene) {
+                    const Bolt<2> &bolt = bolts[0];
+                    const auto length   = grout_by_layer(
+                      bolt, find_remains(bolt, Ground<2>{scene, split, 2}));
+                    const double slope = bolt.length() / 2.5,
+                                 near  = segment / 16. * (1. + 1e-9);
+                    BOOST_TEST(std::abs(length[0] - slope) < near);
+                    BOOST_TEST(length[1] == 0.);
+                    BOOST_TEST(std::abs(length[2] - slope) < near);
+                  });
 }

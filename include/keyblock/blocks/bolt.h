@@ -34,8 +34,7 @@ namespace Keyblock
     /** The rock at each of them when it is installed. */
     std::vector<CellPoint<dim>> rock;
 
-    /** Cells that it passes between its nodes, as many on each segment; empty
-     * if nothing is dug after it is installed. */
+    /** Cells that it passes between its nodes, as many on each segment. */
     std::vector<unsigned int> passed;
 
     /** Where it goes from one block to another when it is installed. */

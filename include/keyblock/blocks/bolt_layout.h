@@ -30,6 +30,11 @@ namespace Keyblock
     std::vector<bool> is_held; ///< nodes: by rock
     std::vector<bool> is_cut;  ///< segments: dug with the rock around them
     double cut_length = 0.;    ///< of all of these [m]
+
+    /** The rock that is a node's, by distances from the head: to the joint
+     * between two blocks, to where the rock ends, else to the middle between
+     * two nodes [m]. */
+    std::vector<std::array<double, 2>> grout;
   };
 
   /**

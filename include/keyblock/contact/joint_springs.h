@@ -65,6 +65,10 @@ namespace Keyblock
      * meet others from now on. */
     void pass_on(const unsigned int pair);
 
+    /** Find the offsets of springs that pairs have just left to their nodes,
+     * for those that do not touch now and may later. */
+    void measure_offsets();
+
     /** How far apart faces may be that still press on each other [m]. */
     double largest_offset() const;
 
@@ -106,7 +110,8 @@ namespace Keyblock
                          NodeSpring<dim> &spring);
 
     /** Stretch minus gap of a spring that bears for the first time: so that it
-     * goes on as it was, or as its partner, or without force. */
+     * goes on as it was, or as its partner or their pair did, or without
+     * force. */
     double first_offset(const NodeSpring<dim> &spring,
                         const SurfaceContact<dim> &contact);
 

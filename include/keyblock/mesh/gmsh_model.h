@@ -7,6 +7,7 @@
 #include <gmsh.h>
 #include <keyblock/scene/scene.h>
 
+#include <set>
 #include <vector>
 
 namespace Keyblock
@@ -21,6 +22,10 @@ namespace Keyblock
     /** Pieces of each joint, by index of the joint; empty if the model was
      * built without joints. */
     std::vector<gmsh::vectorpair> joints;
+
+    /** Tags of the entities of dimension dim - 1 that bound an excavation,
+     * also where a joint lies on them. */
+    std::set<int> outlines;
 
     Point<3> low, high; ///< the least box around the domain [m]
   };

@@ -4,6 +4,7 @@
 
 #include <keyblock/scene/bolts.h>
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -25,6 +26,10 @@ namespace Keyblock
     double dowel_stiffness = 0.; ///< across a joint [N/m]
     double dowel_strength  = 0.; ///< across a joint [N]
   };
+
+  /** Where the grout of a node begins and ends: distances from the head of
+   * its bolt [m]. */
+  using GroutRange = std::array<double, 2>;
 
   /**
    * One bolt without mass: axial springs in a row from the head into the rock,
@@ -51,9 +56,11 @@ namespace Keyblock
     }
 
     /** Nodes of which @p is_held is false have no rock around them, and
-     * segments of which @p is_cut is true are no more. */
+     * segments of which @p is_cut is true are no more. @p ranges: of the
+     * nodes; empty: from middle to middle between nodes. */
     void set_ground(const std::vector<bool> &is_held,
-                    const std::vector<bool> &is_cut);
+                    const std::vector<bool> &is_cut,
+                    const std::vector<GroutRange> &ranges = {});
 
     /** Pull the head with the pretension against the plate, and lock it. */
     void tension();
@@ -251,12 +258,13 @@ namespace Keyblock
     std::vector<double> numbers; ///< all rows
     std::vector<double> place;   ///< of the nodes [m]
     std::vector<char> bond_is_elastic, segment_is_elastic;
-    std::vector<bool> is_cut;     ///< of segments
-    double stiffest       = 0.;   ///< of all springs [N/m]
-    double plate_shift    = 0.;   ///< of the plate on the bolt [m]
-    double plate_on_rock  = 0.;   ///< [N]
-    double dissipated     = 0.;   ///< [J]
-    bool is_plate_held    = true; ///< by rock
+    std::vector<bool> is_cut;      ///< of segments
+    std::vector<GroutRange> grout; ///< of nodes
+    double stiffest       = 0.;    ///< of all springs [N/m]
+    double plate_shift    = 0.;    ///< of the plate on the bolt [m]
+    double plate_on_rock  = 0.;    ///< [N]
+    double dissipated     = 0.;    ///< [J]
+    bool is_plate_held    = true;  ///< by rock
     bool is_plate_elastic = true;
     bool was_elastic      = true; ///< all springs; and no force in a plate
                                   ///< that is not

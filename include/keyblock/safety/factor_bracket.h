@@ -79,7 +79,8 @@ namespace Keyblock
 
     /** Whether the block failed at the end of the bracket by a small change
      * of strength from a factor that held: a large one may shake it loose. If
-     * it did not, it is tried; if it holds, the bracket is open again. */
+     * it did not, it is tried; if it does not fail then, the bracket is open
+     * again. */
     bool
     confirm()
     {
@@ -87,7 +88,8 @@ namespace Keyblock
         return true;
       const double failed = unstable;
       unstable            = 0.;
-      return !holds_at(failed);
+      holds_at(failed);
+      return unstable > 0.;
     }
 
     /** The same of the lower end, which may be known only from a stage, whose
