@@ -90,6 +90,7 @@ namespace Keyblock
     exchange_rows(file, group + "numbers", reports);
     exchange_texts(file, group + "name", reports, &StageReport::name);
     exchange_texts(file, group + "remark", reports, &StageReport::remark);
+    exchange_texts(file, group + "warning", reports, &StageReport::warning);
   }
 
 

@@ -84,8 +84,11 @@ namespace Keyblock
     spring.step        = present.step;
     spring.before      = before;
     const double scale = present.kick * present.step * inverse_mass;
-    spring.tau         = share_of(scale * spring.normal);
-    spring.tau_shear   = share_of(scale * spring.shear);
+    const auto share   = [&](const double stiffness) {
+      return present.seeks_rest ? 1. : share_of(scale * stiffness);
+    };
+    spring.tau       = share(spring.normal);
+    spring.tau_shear = share(spring.shear);
     if (is_partly_held)
       spring.tau = spring.tau_shear = std::min(spring.tau, spring.tau_shear);
     return spring;

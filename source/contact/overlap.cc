@@ -202,15 +202,19 @@ namespace Keyblock
               distance    = norm<dim>(now.offset);
               is_in_front = now.is_inside && now.gap > 0.;
             }
-          if (!now.is_inside || now.gap >= 0. ||
+          if (!now.is_inside ||
               now.gap <
                 -search.make_candidate(position, node, f).largest_overlap ||
-              !surface.opposes(position, node, now.normal) ||
-              std::any_of(paired.begin(),
+              !surface.opposes(position, node, now.normal))
+            continue;
+          // on the face that its pair is on it is at the block's surface
+          if (std::any_of(paired.begin(),
                           paired.end(),
                           [&](const Projection<dim> &other) {
                             return is_coplanar(other, now);
                           }))
+            return 0.;
+          if (now.gap >= 0.)
             continue;
           const double before =
             surface

@@ -19,18 +19,19 @@ namespace Keyblock
   std::vector<JointLawEntry>
   dilation_entries()
   {
-    return {{"Dilation angle",
-             0.,
-             0.,
-             60.,
-             "deg",
-             "Angle by which the joint opens while it slips [deg]; 0: it does "
-             "not."},
-            {"Dilation slip",
-             0.,
-             0.,
-             std::numeric_limits<double>::max(),
-             "m",
-             "Slip after which the joint opens no further [m]; 0: no limit."}};
+    return {
+      {"Dilation angle",
+       0.,
+       0.,
+       60.,
+       "deg",
+       "Angle by which the joint opens while it slips, whichever way, also "
+       "back [deg]; 0: it does not."},
+      {"Dilation slip",
+       0.,
+       0.,
+       std::numeric_limits<double>::max(),
+       "m",
+       "Slip after which the joint opens no further [m]; 0: no limit."}};
   }
 } // namespace Keyblock

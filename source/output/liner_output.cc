@@ -2,6 +2,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/base/number_text.h>
 #include <keyblock/output/liner_output.h>
 #include <keyblock/scene/network_output.h>
 
@@ -152,13 +153,20 @@ namespace Keyblock
         out << ')';
       }
     out << '\n';
-    if (figures.check.factor < 1.)
-      out << "Warning: thrust and moment of liner " << liner.name
-          << " are beyond its strength on " << figures.exceeded_area << " of "
-          << figures.area
-          << " m2; it is computed as elastic and holds more there than it "
-             "can.\n";
     return out.str();
+  }
+
+
+
+  std::string
+  warning_of(const LinerFigures &figures, const Liner &liner)
+  {
+    if (!(figures.check.factor < 1.))
+      return "";
+    return "Thrust and moment of the liner '" + liner.name +
+           "' are beyond its strength on " + text_of(figures.exceeded_area, 4) +
+           " of " + text_of(figures.area, 4) +
+           " m2; it is computed as elastic and holds more there than it can.";
   }
 
 

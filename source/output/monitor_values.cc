@@ -133,12 +133,21 @@ namespace Keyblock
   Monitors<dim>::sample_joint(const Monitor<dim> &monitor,
                               std::vector<double> &row)
   {
+    // all: what meets faces on no joint, too, but for shear and motion
     const bool is_all = monitor.joint == "all";
-    const std::vector<unsigned int> joints =
-      is_all ? std::vector<unsigned int>() : scene.joints_called(monitor.joint);
+    std::vector<unsigned int> joints;
+    if (is_all)
+      for (unsigned int j = 0; j < scene.joints.size(); ++j)
+        joints.push_back(j);
+    else
+      joints = scene.joints_called(monitor.joint);
     JointSums<dim> sums;
-    if (contact && (is_all || !joints.empty()))
+    if (contact && is_all)
+      sums = contact->report().sum_over_joints({});
+    else if (contact && !joints.empty())
       sums = contact->report().sum_over_joints(joints);
+    if (contact && is_all && !joints.empty())
+      sums.shear = contact->report().sum_over_joints(joints).shear;
     row.push_back(sums.normal);
     row.push_back(sums.shear);
     row.insert(row.end(), sums.force.begin(), sums.force.end());
@@ -147,7 +156,7 @@ namespace Keyblock
          {sums.n_open, sums.n_sliding, sums.n_sticking, sums.n_intact})
       row.push_back(n);
     JointMotion motion;
-    if (contact && !is_all)
+    if (contact && !joints.empty())
       motion = contact->report().mean_motion(joints);
     row.push_back(motion.slip);
     row.push_back(motion.opening);

@@ -192,6 +192,8 @@ namespace Keyblock
                    {"converged", stage.is_converged}};
       if (!stage.remark.empty())
         json["remark"] = stage.remark;
+      if (!stage.warning.empty())
+        json["warning"] = stage.warning;
       json["max_displacement"]      = stage.max_displacement;
       json["cells"]                 = stage.cells;
       json["plastic_cells"]         = stage.plastic_cells;
@@ -330,6 +332,10 @@ namespace Keyblock
     root["run"]                      = run_as_json(run);
     root["run"]["peak_memory_bytes"] = memory;
     root["warnings"]                 = run.warnings;
+    for (const StageReport &stage : stages)
+      if (!stage.warning.empty())
+        root["warnings"].push_back("Stage " + stage.name + ": " +
+                                   stage.warning);
     root["energy"] =
       energies_as_json(stages.empty() ? Energies() : stages.back().energies);
     root["blocks"] = blocks_as_json<dim>(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/blocks/block_measures.h>
 #include <keyblock/python/any_blocks.h>
-#include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/block_cascade.h>
 
 #include <algorithm>
 #include <iostream>
@@ -68,12 +68,11 @@ namespace Keyblock::Python
     describe(const Ground<dim> &ground,
              const FreeFaces<dim> &free,
              const Blocks<dim> &blocks,
-             const unsigned int block,
-             const double wanted,
-             const double time)
+             const JudgedBlock<dim> &judged,
+             const double wanted)
     {
-      const BlockStatics<dim> statics =
-        judge_block(ground, free, blocks, block, time);
+      const unsigned int block           = judged.block;
+      const BlockStatics<dim> &statics   = judged.statics;
       const LimitEquilibrium<dim> &limit = statics.limit;
       Judgement result;
       result.block         = blocks.blocks[block].id;
@@ -81,6 +80,7 @@ namespace Keyblock::Python
                                ? "start"
                                : ground.scene.stages[ground.stage_number - 2]->name;
       result.factor        = limit.factor;
+      result.least_factor  = judged.least_factor;
       result.mode          = statics.mode();
       result.weight        = statics.around.loads.weight.norm();
       result.driving_force = limit.driving_force;
@@ -224,14 +224,13 @@ namespace Keyblock::Python
                            "' has other joints than the one whose blocks are "
                            "to be judged by it; find its own blocks."));
     std::vector<Judgement> list;
-    for_each_exposed_block<dim>(
+    for_each_changed_ground<dim>(
       same ? same->scene : scene,
       split,
-      blocks,
-      [&](const Ground<dim> &ground,
-          const FreeFaces<dim> &free,
-          const unsigned int b) {
-        list.push_back(describe(ground, free, blocks, b, wanted, time));
+      [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
+        for (const JudgedBlock<dim> &one :
+             judge_exposed_blocks(ground, free, blocks, time))
+          list.push_back(describe(ground, free, blocks, one, wanted));
       });
     return list;
   }

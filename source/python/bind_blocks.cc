@@ -172,6 +172,10 @@ namespace Keyblock::Python
         .def_readonly("factor",
                       &Judgement::factor,
                       "Resistance over driving force; inf: it cannot move.")
+        .def_readonly("least_factor",
+                      &Judgement::least_factor,
+                      "The same, or the least one when blocks that fail have "
+                      "gone.")
         .def_readonly(
           "mode",
           &Judgement::mode,

@@ -163,6 +163,33 @@ namespace Keyblock
 
 
 
+    /** That joints which are shaken open with every slip, or empty. */
+    template <int dim>
+    std::string
+    warning_of_dilation(const Scene<dim> &scene)
+    {
+      if (std::none_of(scene.supports.begin(),
+                       scene.supports.end(),
+                       [](const auto &support) {
+                         return support->history || !support->velocity.empty();
+                       }))
+        return "";
+      for (const auto &joint : scene.joints)
+        {
+          const auto &strength = *joint;
+          if (strength.value_of("Dilation angle") > 0. &&
+              strength.value_of("Dilation slip") <= 0.)
+            return "The joint '" + joint->name +
+                   "' is shaken and has a 'Dilation angle' without a 'Dilation "
+                   "slip': it opens with every slip, also back where it came "
+                   "from, and presses on what confines it without a limit; "
+                   "give the slip after which it opens no further.";
+        }
+      return "";
+    }
+
+
+
     /** Whether rock that yields lies on a boundary that a support names. */
     template <int dim>
     bool
@@ -224,7 +251,8 @@ namespace Keyblock
          {warning_of_tension(
             model.communicator, model.scene, model.split, model.cells),
           warning_of_welded_joints(model.scene, model.split),
-          warning_of_compliant_joints(model.scene)})
+          warning_of_compliant_joints(model.scene),
+          warning_of_dilation(model.scene)})
       if (!warning.empty())
         warnings.push_back(warning);
     for (const std::vector<std::string> &more :

@@ -130,6 +130,29 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** What a stage warns of, as sentences. */
+    template <int dim>
+    std::string
+    warning_of_stage(const Model<dim> &model, const StageReport &report)
+    {
+      std::string text;
+      const auto add = [&text](const std::string &sentence) {
+        text += (text.empty() || sentence.empty() ? "" : " ") + sentence;
+      };
+      for (const LinerLoads<dim> &loads :
+           model.conditions->report_structural_liners())
+        add(warning_of(list_figures(loads), *model.scene.liners[loads.liner]));
+      if (report.through_rock > 0)
+        add(std::to_string(report.through_rock) +
+            " contacts act through the rock of a block.");
+      return text;
+    }
+  } // namespace
+
+
+
   template <int dim>
   StageReport
   report_stage(const Model<dim> &model, StageProgress<dim> &progress)
@@ -180,6 +203,7 @@ namespace Keyblock
           largest = std::max(largest, square);
       }
     result.max_displacement = std::sqrt(model.communicator.max(largest));
+    result.warning          = warning_of_stage(model, result);
     return result;
   }
 
@@ -224,9 +248,8 @@ namespace Keyblock
           << std::setprecision(3)
           << 100. - 100. / model.conditions->frequency_ratio_of_liners
           << " per cent\n";
-    if (report.through_rock > 0)
-      out << "Warning: " << report.through_rock
-          << " contacts act through the rock of a block." << '\n';
+    if (!report.warning.empty())
+      out << "Warning: " << report.warning << '\n';
     out << std::flush;
   }
 

@@ -3,7 +3,7 @@
 #include <keyblock/base/number_text.h>
 #include <keyblock/run/probability_study.h>
 #include <keyblock/run/simulation.h>
-#include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/block_cascade.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,20 +21,19 @@ namespace Keyblock
       std::vector<double>(all.size(), std::numeric_limits<double>::infinity()),
       std::vector<unsigned int>(all.size(), 0),
       std::vector<bool>(all.size(), false)};
-    for_each_exposed_block<dim>(
+    for_each_changed_ground<dim>(
       sample,
       g.split,
-      g.blocks,
-      [&](const Ground<dim> &ground,
-          const FreeFaces<dim> &free,
-          const unsigned int b) {
-        found.is_exposed[b] = true;
-        const double factor =
-          judge_block(ground, free, g.blocks, b, 0.).limit.factor;
-        if (factor < found.factor[b])
+      [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
+        for (const JudgedBlock<dim> &one :
+             judge_exposed_blocks(ground, free, g.blocks, 0.))
           {
-            found.factor[b] = factor;
-            found.stage[b]  = ground.stage_number;
+            found.is_exposed[one.block] = true;
+            if (one.least_factor < found.factor[one.block])
+              {
+                found.factor[one.block] = one.least_factor;
+                found.stage[one.block]  = ground.stage_number;
+              }
           }
       });
     return found;

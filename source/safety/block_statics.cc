@@ -80,8 +80,13 @@ namespace Keyblock
              << (dim == 2 ? "/m" : "") << " against its free faces, "
              << 1e-3 * demand.pressure << " kPa";
         for (const auto &[name, number] : demand.numbers)
-          last << ", or " << number << " bolts"
-               << (dim == 2 ? " per metre" : "") << " of " << name;
+          {
+            last << ", or " << number << (number == 1 ? " bolt" : " bolts")
+                 << " of the set " << name;
+            for (const auto &set : scene.bolts)
+              if (dim == 2 && set->name == name)
+                last << " every " << set->spacing.back() << " m of tunnel";
+          }
       }
 
       void
@@ -325,31 +330,6 @@ namespace Keyblock
 
 
   template <int dim>
-  void
-  for_each_exposed_block(const Scene<dim> &scene,
-                         const SplitMesh<dim> &split,
-                         const Blocks<dim> &blocks,
-                         const ExposedBlockAction<dim> &action)
-  {
-    for (unsigned int number = 1; number < scene.stages.size() + 2; ++number)
-      {
-        if (number > 1 && !is_changing(scene, number))
-          continue;
-        const Ground<dim> ground{scene, split, number, nullptr};
-        const FreeFaces<dim> free(ground);
-        for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
-          {
-            const auto &classes = blocks.blocks[b].class_of_stage;
-            if (classes[std::min<std::size_t>(number, classes.size() - 1)] ==
-                BlockClass::exposed)
-              action(ground, free, b);
-          }
-      }
-  }
-
-
-
-  template <int dim>
   bool
   has_initial_stress(const Scene<dim> &scene)
   {
@@ -368,14 +348,6 @@ namespace Keyblock
                                        const Blocks<3> &,
                                        const unsigned int,
                                        const double);
-  template void for_each_exposed_block(const Scene<2> &,
-                                       const SplitMesh<2> &,
-                                       const Blocks<2> &,
-                                       const ExposedBlockAction<2> &);
-  template void for_each_exposed_block(const Scene<3> &,
-                                       const SplitMesh<3> &,
-                                       const Blocks<3> &,
-                                       const ExposedBlockAction<3> &);
   template bool has_initial_stress(const Scene<2> &);
   template bool has_initial_stress(const Scene<3> &);
 } // namespace Keyblock

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Limit equilibrium for people.
-#include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/block_cascade.h>
 
 #include <cmath>
 #include <iomanip>
@@ -106,23 +106,22 @@ namespace Keyblock
   {
     std::vector<std::unique_ptr<BlockStatics<dim>>> last(blocks.blocks.size());
     std::ostringstream rows;
-    for_each_exposed_block<dim>(
-      scene,
-      split,
-      blocks,
-      [&](const Ground<dim> &ground,
-          const FreeFaces<dim> &free,
-          const unsigned int b) {
-        auto statics = std::make_unique<BlockStatics<dim>>(
-          judge_block(ground, free, blocks, b, 0.));
-        if (!last[b] || !agree(*last[b], *statics))
-          print_row(rows,
-                    blocks.blocks[b].id,
-                    ground.stage_number == 1
-                      ? "the start"
-                      : scene.stages[ground.stage_number - 2]->name,
-                    *statics);
-        last[b] = std::move(statics);
+    for_each_changed_ground<dim>(
+      scene, split, [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
+        for (JudgedBlock<dim> &one :
+             judge_exposed_blocks(ground, free, blocks, 0.))
+          {
+            auto &before = last[one.block];
+            if (!before || !agree(*before, one.statics))
+              print_row(rows,
+                        blocks.blocks[one.block].id,
+                        ground.stage_number == 1
+                          ? "the start"
+                          : scene.stages[ground.stage_number - 2]->name,
+                        one.statics);
+            before =
+              std::make_unique<BlockStatics<dim>>(std::move(one.statics));
+          }
       });
     if (rows.str().empty())
       return;

@@ -45,6 +45,9 @@ namespace Keyblock
       result.held_by         = search.held_by;
       search.finish();
     }
+    Assert(result.outcome != SafetyFactor::Outcome::bracketed ||
+             result.lower < result.upper,
+           dealii::ExcInternalError());
     if (result.outcome != SafetyFactor::Outcome::immovable)
       result.failure_mode =
         result.outcome == SafetyFactor::Outcome::met ? "" : trials.failure();
@@ -116,6 +119,8 @@ namespace Keyblock
                  above = middle > 0. ? middle : search.undecided_upper;
     for (; search.stable == 0. || search.unstable == 0.; spread *= 4.)
       {
+        if (settings.wanted > 0. && search.stable >= settings.wanted)
+          return Outcome::met;
         if (search.stable >= settings.highest)
           return Outcome::immovable;
         if (search.unstable > 0. && search.unstable <= settings.lowest)
@@ -172,21 +177,25 @@ namespace Keyblock
     double spread       = 0.4 * settings.bracket;
     if (settings.wanted > 0. && search.is_open(settings.wanted))
       search.holds_at(settings.wanted);
-    if (settings.wanted > 0. && search.stable >= settings.wanted)
-      return SafetyFactor::Outcome::met;
+    const auto is_met = [&]() {
+      return settings.wanted > 0. && search.stable >= settings.wanted;
+    };
     for (const double middle : {guess, known.limit})
-      try_guess(search, middle, known.onset, spread);
+      if (!is_met())
+        try_guess(search, middle, known.onset, spread);
     spread = has_hint ? 4. * spread : 0.5;
-    do
+    while (!is_met())
       {
         const auto outcome = find_bracket(search, spread);
         if (outcome != SafetyFactor::Outcome::bracketed)
           return outcome;
-        while (!search.is_done())
+        while (!search.is_done() && !is_met())
           search.holds_at(search.next());
+        if (!is_met() && search.confirm_lower_end() && search.confirm())
+          return SafetyFactor::Outcome::bracketed;
         spread = settings.bracket;
-    } while (!search.confirm_lower_end() || !search.confirm());
-    return SafetyFactor::Outcome::bracketed;
+      }
+    return SafetyFactor::Outcome::met;
   }
 
 

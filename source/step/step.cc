@@ -297,7 +297,8 @@ namespace Keyblock
                     scene.time_stepping.is_large(),
                     keeps_ledger,
                     conditions.loads.ramp_share_left(),
-                    false});
+                    false,
+                    stage.is_quasi_static()});
     contact_seconds += MPI_Wtime() - start;
   }
 

@@ -567,6 +567,49 @@ def coarse_mesh():
     assert b"Warning: The mesh " not in done.stdout, done.stdout
 
 
+def blocks_that_lean():
+    """A block is stable only while the one stays that holds it."""
+    scene = PRM / "verification/factor_group.prm"
+    rows = {}
+    for friction in (35, 20):
+        done = validate(scene, [f"Joints/lower/Friction angle={friction}"])
+        assert done.returncode == 0, done.stderr
+        text = done.stdout.decode("utf-8")
+        table = text[text.index("factor  mode and forces"):].splitlines()[1:]
+        rows[friction] = {line.split()[0]: line for line in table
+                          if line[:6].strip().isdigit()}
+        print(rows[friction])
+    for row in rows.values():
+        assert "block 2 leans on it, left out" in row["1"], row
+    assert "has gone" not in rows[35]["2"]
+    assert "once block 1 has gone" in rows[20]["2"]
+    # a study counts it among those that fail
+    study = ["Study/Names=phi", "Study/phi/Entry=Joints/lower/Friction angle",
+             "Study/phi/Distribution=uniform", "Study/phi/Minimum=20",
+             "Study/phi/Maximum=20.01", "Study/Samples=3"]
+    done = run(["--study", scene, "--output", "o"]
+               + [word for entry in study for word in ("--set", entry)])
+    assert done.returncode == 0, done.stderr
+    results = json.loads(pathlib.Path("o/study.json").read_text("utf-8"))
+    print(results["blocks"])
+    assert [block["probability"]["value"] for block in results["blocks"]] == [1., 1.]
+
+
+def monitor_of_all_joints():
+    """Of one joint the same as of all."""
+    done = run([INCLINE, "--output", "o", *SHORT, "--set", "Monitors/Names=one, every",
+                "--set", "Monitors/one/Kind=joint", "--set", "Monitors/one/Joint=base",
+                "--set", "Monitors/every/Kind=joint", "--set", "Monitors/every/Joint=all",
+                "--set", "Check/Closed form=none"])
+    assert done.returncode == 0, done.stderr
+    names, *rows = (line.split(",") for line in pathlib.Path(
+        "o/history.csv").read_text("utf-8").splitlines())
+    last = dict(zip(names, map(float, rows[-1])))
+    for name in ("normal_force [N]", "shear_force [N]", "slip [m]", "opening [m]"):
+        print(name, last["one." + name], last["every." + name])
+        assert last["one." + name] == last["every." + name] != 0.
+
+
 def free_field_warnings():
     """What the ground beside a free field leaves out is said."""
     scene = PRM / "verification/free_field.prm"

@@ -8,6 +8,7 @@ wave     compression and shear waves pass a joint with |T| = 1 / sqrt(1 + x^2),
          x = omega rho c / (2 k) (Schoenberg 1980); x from 0 to 3, 1 % asked for
 box      shear stress is ks times slip up to c + sigma tan(phi), and back
 block    a block sinks by W / (kn A), and swings with 2 pi sqrt(m / (kn A))
+dilates  a block that slides off its partners opens by tan(psi) times slip, once
 rigid    as the stiffness grows a block slides, and is loaded, as on a rigid joint
 """
 import csv
@@ -122,6 +123,19 @@ def block(keyblock, scenes, output, ranks):
     check("closure", summary["energy"]["contact_closure"], 0., 1e-6)
 
 
+def dilates(keyblock, scenes, output, ranks):
+    dip, tangent = math.radians(40.), math.tan(math.radians(8.))
+    for stiffness in (1e10, 1e12):
+        rows, _ = run(keyblock, f"{scenes}/incline_30.prm", output, ranks, [
+            "Check/Closed form=none", "Materials/rock/Young modulus=2e9",
+            "Joints/base/Dilation angle=8", f"Joints/base/Normal stiffness={stiffness}",
+            f"Joints/base/Shear stiffness={stiffness}"])
+        x, y = rows[-1]["block.u_x"], rows[-1]["block.u_y"]
+        along = x * math.cos(dip) - y * math.sin(dip)
+        across = x * math.sin(dip) + y * math.cos(dip)
+        check("opening over slip", across / along / tangent, 1., 2e-3)
+
+
 def rigid(keyblock, scenes, output, ranks):
     # what opens takes along what is stored: the softer the more
     results = []
@@ -138,7 +152,7 @@ def rigid(keyblock, scenes, output, ranks):
 
 
 def main():
-    case = {"wave": wave, "box": box, "block": block, "rigid": rigid}[sys.argv[1]]
+    case = {"wave": wave, "box": box, "block": block, "dilates": dilates, "rigid": rigid}[sys.argv[1]]
     case(*sys.argv[2:])
     if FAULTS:
         print("Wrong:", ", ".join(FAULTS))

@@ -170,24 +170,26 @@ BOOST_AUTO_TEST_CASE(bolt_grout_ends_at_joints)
     {
       const double segment =
         std::uniform_real_distribution<double>(0.06, 3.)(random);
-      with_bolts<2>("  set Heads = 5, 7\n  set Ends = 5.5, 9.5\n"
-                    "  set Segment length = " +
-                      std::to_string(segment) + "\n",
-                    beds,
-                    [&](const std::vector<Bolt<2>> &bolts,
-                        const SplitMesh<2> &split,
-                        const Scene<2> &scene) {
-                      const Bolt<2> &bolt = bolts[0];
-                      BOOST_REQUIRE(bolt.crossings.size() == 2u);
-                      const auto length = grout_by_layer(
-                        bolt, find_remains(bolt, Ground<2>{scene, split, 1}));
-                      const double slope = bolt.length() / 2.5;
-                      for (unsigned int l = 0; l < 3; ++l)
-                        BOOST_TEST(std::abs(length[l] / slope -
-                                            (l == 1 ? 0.5 : 1.)) < 1e-6,
-                                   "segments of " << segment << " m, layer "
-                                                  << l << ": " << length[l]);
-                    });
+      with_bolts<2>(
+        "  set Heads = 5, 7\n  set Ends = 5.5, 9.5\n"
+        "  set Segment length = " +
+          std::to_string(segment) + "\n",
+        beds,
+        [&](const std::vector<Bolt<2>> &bolts,
+            const SplitMesh<2> &split,
+            const Scene<2> &scene) {
+          const Bolt<2> &bolt = bolts[0];
+          BOOST_REQUIRE(bolt.crossings.size() == 2u);
+          const auto length = grout_by_layer(
+            bolt,
+            find_remains(bolt,
+                         Ground<2>{scene, split, scene.stage_number("dig")}));
+          const double slope = bolt.length() / 2.5;
+          for (unsigned int l = 0; l < 3; ++l)
+            BOOST_TEST(std::abs(length[l] / slope - (l == 1 ? 0.5 : 1.)) < 1e-6,
+                       "segments of " << segment << " m, layer " << l << ": "
+                                      << length[l]);
+        });
     }
 }
 
@@ -201,20 +203,23 @@ BOOST_AUTO_TEST_CASE(bolt_grout_ends_where_rock_is_dug)
     "subsection Stages\n set Names = dig, again\n subsection again\n"
     "  set Duration = 1\n end\nend\n";
   for (const double segment : {0.1, 0.37, 0.9, 2.})
-    with_bolts<2>("  set Heads = 5, 7\n  set Ends = 5.5, 9.5\n"
-                  "  set Segment length = " +
-                    std::to_string(segment) + "\n",
-                  gallery,
-                  [&](const std::vector<Bolt<2>> &bolts,
-                      const SplitMesh<2> &split,
-                      const Scene<2> &scene) {
-                    const Bolt<2> &bolt = bolts[0];
-                    const auto length   = grout_by_layer(
-                      bolt, find_remains(bolt, Ground<2>{scene, split, 2}));
-                    const double slope = bolt.length() / 2.5,
-                                 near  = segment / 16. * (1. + 1e-9);
-                    BOOST_TEST(std::abs(length[0] - slope) < near);
-                    BOOST_TEST(length[1] == 0.);
-                    BOOST_TEST(std::abs(length[2] - slope) < near);
-                  });
+    with_bolts<2>(
+      "  set Heads = 5, 7\n  set Ends = 5.5, 9.5\n"
+      "  set Segment length = " +
+        std::to_string(segment) + "\n",
+      gallery,
+      [&](const std::vector<Bolt<2>> &bolts,
+          const SplitMesh<2> &split,
+          const Scene<2> &scene) {
+        const Bolt<2> &bolt = bolts[0];
+        const auto length   = grout_by_layer(
+          bolt,
+          find_remains(bolt,
+                       Ground<2>{scene, split, scene.stage_number("again")}));
+        const double slope = bolt.length() / 2.5,
+                     near  = segment / 16. * (1. + 1e-9);
+        BOOST_TEST(std::abs(length[0] - slope) < near);
+        BOOST_TEST(length[1] == 0.);
+        BOOST_TEST(std::abs(length[2] - slope) < near);
+      });
 }

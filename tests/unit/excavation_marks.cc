@@ -14,7 +14,8 @@ using namespace Keyblock;
 
 namespace
 {
-  /** Area or volume that each stage digs [m2, m3]. */
+  /** Area or volume that each stage digs, by its number, 2 for the first [m2,
+   * m3]. */
   template <int dim>
   std::map<unsigned int, double>
   dug_by_stage(const std::string &sections)
@@ -73,14 +74,14 @@ BOOST_AUTO_TEST_CASE(joints_on_benches_let_them_be_dug)
     {
       const auto dug = dug_by_stage<2>(
         benches + " end\nend\n" + joint("  set Point = 0, " + level + "\n"));
-      BOOST_TEST(std::abs(dug.at(1) - 24.) < 1e-6, "joint at " << level);
-      BOOST_TEST(std::abs(dug.at(2) - 18.) < 1e-6, "joint at " << level);
+      BOOST_TEST(std::abs(dug.at(2) - 24.) < 1e-6, "joint at " << level);
+      BOOST_TEST(std::abs(dug.at(3) - 18.) < 1e-6, "joint at " << level);
       const auto dug_3d =
         dug_by_stage<3>(benches + "  set From = -4\n  set To = 4\n end\nend\n" +
                         joint("  set Point = 0, 0, " + level + "\n"));
-      BOOST_TEST(std::abs(dug_3d.at(1) - 8. * 24.) < 1e-6,
+      BOOST_TEST(std::abs(dug_3d.at(2) - 8. * 24.) < 1e-6,
                  "joint at " << level);
-      BOOST_TEST(std::abs(dug_3d.at(2) - 8. * 18.) < 1e-6,
+      BOOST_TEST(std::abs(dug_3d.at(3) - 8. * 18.) < 1e-6,
                  "joint at " << level);
     }
 }
@@ -94,7 +95,7 @@ BOOST_AUTO_TEST_CASE(a_joint_on_a_roof_keeps_nothing_from_being_dug)
       const auto dug = dug_by_stage<2>(
         hall_and_drift +
         joint("  set Extent = polygon\n  set Vertices = " + vertices + "\n"));
-      BOOST_TEST(std::abs(dug.at(1) - 48.) < 1e-6, vertices);
-      BOOST_TEST(std::abs(dug.at(2) - 30.) < 1e-6, vertices);
+      BOOST_TEST(std::abs(dug.at(2) - 48.) < 1e-6, vertices);
+      BOOST_TEST(std::abs(dug.at(3) - 30.) < 1e-6, vertices);
     }
 }

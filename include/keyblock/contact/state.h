@@ -168,6 +168,7 @@ namespace Keyblock
     bool keeps_ledger    = true;
     double weld_share    = 0.; ///< of the stage's former welds that is left [-]
     bool is_settling = false;  ///< bodies are at rest and stay where they are
+    bool seeks_rest  = false;  ///< so that springs need not keep energy
   };
 } // namespace Keyblock
 

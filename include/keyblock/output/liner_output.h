@@ -35,8 +35,11 @@ namespace Keyblock
                  const std::vector<LinerFigures> &structural,
                  const Scene<dim> &scene);
 
-  /** Lines for people, with a warning if a section is beyond its strength. */
+  /** A line for people. */
   std::string describe(const LinerFigures &figures, const Liner &liner);
+
+  /** A sentence if a section is beyond its strength, or empty. */
+  std::string warning_of(const LinerFigures &figures, const Liner &liner);
 
   /**
    * Write the faces of structural liners with thrusts and moments, for the last

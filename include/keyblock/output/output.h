@@ -29,7 +29,8 @@ namespace Keyblock
     double max_displacement    = 0.;
     double largest_nodal_ratio = 0.; ///< largest force over the mean one [-]
     bool is_converged          = true;
-    std::string remark; ///< for people: what moves if it did not converge
+    std::string remark;  ///< for people: what moves if it did not converge
+    std::string warning; ///< sentences, or empty
     unsigned int cells           = 0; ///< deformable ones
     unsigned int plastic_cells   = 0; ///< of these in the plastic loop
     unsigned int yielding_points = 0; ///< Gauss points, last step

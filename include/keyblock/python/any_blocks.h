@@ -46,7 +46,8 @@ namespace Keyblock::Python
   {
     unsigned int block = 0; ///< id
     std::string stage;
-    double factor = 0.; ///< infinite: it cannot move
+    double factor       = 0.; ///< infinite: it cannot move
+    double least_factor = 0.; ///< or when others that fail have gone
     std::string mode;
     double weight = 0., driving_force = 0.; ///< [N]
     std::vector<double> direction;          ///< of motion, or zero

@@ -6,7 +6,6 @@
 #include <keyblock/safety/block_support.h>
 #include <keyblock/safety/support_demand.h>
 
-#include <functional>
 #include <iosfwd>
 
 namespace Keyblock
@@ -79,19 +78,6 @@ namespace Keyblock
                                 const Blocks<dim> &blocks,
                                 const unsigned int block,
                                 const double time);
-
-  /** Something to be done for a block (by index) that has a free face. */
-  template <int dim>
-  using ExposedBlockAction = std::function<
-    void(const Ground<dim> &, const FreeFaces<dim> &, const unsigned int)>;
-
-  /** Call @p action for each block with a free face, at the start and after
-   * each stage that changes anything. */
-  template <int dim>
-  void for_each_exposed_block(const Scene<dim> &scene,
-                              const SplitMesh<dim> &split,
-                              const Blocks<dim> &blocks,
-                              const ExposedBlockAction<dim> &action);
 
   /** Whether the rock is under stress before anything is excavated, which limit
    * equilibrium leaves out. */

@@ -15,7 +15,8 @@ namespace Keyblock
     double force    = 0.; ///< against the free faces; infinite: none does [N]
     double pressure = 0.; ///< the same, uniform on the free faces [Pa]
 
-    /** The same by bolts of the scene's sets normal to the free faces. */
+    /** The same by bolts of the scene's sets normal to the free faces: in 2D
+     * their number in each of the rings that the set's Spacing parts. */
     std::vector<std::pair<std::string, unsigned int>> numbers;
   };
 } // namespace Keyblock

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_safety_block_cascade_h
+#define keyblock_safety_block_cascade_h
+
+#include <keyblock/safety/block_statics.h>
+
+namespace Keyblock
+{
+  /** What limit equilibrium says of an exposed block among the others. */
+  template <int dim>
+  struct JudgedBlock
+  {
+    unsigned int block; ///< index
+    BlockStatics<dim> statics;
+
+    /** The factor between neighbours that stay, or the least one when others
+     * that fail have gone [-]. */
+    double least_factor;
+  };
+
+  /**
+   * judge_block() for all blocks with a free face at the stage of @p ground.
+   * Those with a factor below 1 fall out, and what rested on them is judged
+   * again without them, until no more fall. The remarks say what that changes,
+   * and which blocks lean on one that can move.
+   */
+  template <int dim>
+  std::vector<JudgedBlock<dim>> judge_exposed_blocks(const Ground<dim> &ground,
+                                                     const FreeFaces<dim> &free,
+                                                     const Blocks<dim> &blocks,
+                                                     const double time);
+
+  /** Something to be done for the ground of a stage. */
+  template <int dim>
+  using GroundAction =
+    std::function<void(const Ground<dim> &, const FreeFaces<dim> &)>;
+
+  /** Call @p action for the ground at the start and after each stage that
+   * changes anything. */
+  template <int dim>
+  void for_each_changed_ground(const Scene<dim> &scene,
+                               const SplitMesh<dim> &split,
+                               const GroundAction<dim> &action);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/number_text.h>
+#include <keyblock/safety/block_cascade.h>
+
+#include <algorithm>
+#include <map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Decrease of a factor that counts as one [-]. */
+    constexpr double least_decrease = 1e-9;
+
+    /** Blocks that the others of a list lean on, and where in it these are. */
+    template <int dim>
+    std::map<unsigned int, std::vector<unsigned int>>
+    list_leaning(const std::vector<JudgedBlock<dim>> &judged,
+                 const Blocks<dim> &blocks)
+    {
+      std::map<unsigned int, std::vector<unsigned int>> leaning;
+      for (unsigned int k = 0; k < judged.size(); ++k)
+        {
+          const LimitEquilibrium<dim> &limit = judged[k].statics.limit;
+          std::set<unsigned int> below;
+          for (unsigned int i = 0; i < limit.n_pressed; ++i)
+            for (const unsigned int other :
+                 judged[k].statics.around.others[limit.faces[i]])
+              if (!blocks.blocks[other].is_infinite &&
+                  !blocks.blocks[other].is_rigid)
+                below.insert(other);
+          for (const unsigned int other : below)
+            leaning[other].push_back(k);
+        }
+      return leaning;
+    }
+
+    /** Ids of the blocks that are gone among the neighbours of one. */
+    template <int dim>
+    std::set<unsigned int>
+    gone_beside(const BlockStatics<dim> &statics,
+                const std::vector<bool> &is_gone,
+                const Blocks<dim> &blocks)
+    {
+      std::set<unsigned int> ids;
+      for (const std::set<unsigned int> &others : statics.around.others)
+        for (const unsigned int other : others)
+          if (is_gone[other])
+            ids.insert(blocks.blocks[other].id);
+      return ids;
+    }
+
+    std::string
+    text_of_ids(const std::set<unsigned int> &ids)
+    {
+      std::string text = ids.size() == 1 ? "block " : "blocks ";
+      for (const unsigned int id : ids)
+        text += (id == *ids.begin() ? "" : ", ") + std::to_string(id);
+      return text + (ids.size() == 1 ? " has gone" : " have gone");
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<JudgedBlock<dim>>
+  judge_exposed_blocks(const Ground<dim> &ground,
+                       const FreeFaces<dim> &free,
+                       const Blocks<dim> &blocks,
+                       const double time)
+  {
+    std::vector<JudgedBlock<dim>> judged;
+    std::vector<bool> is_gone(blocks.blocks.size(), false);
+    if (ground.is_removed && !ground.is_removed->empty())
+      is_gone = *ground.is_removed;
+    for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+      {
+        const auto &classes = blocks.blocks[b].class_of_stage;
+        if (!is_gone[b] && classes[std::min<std::size_t>(ground.stage_number,
+                                                         classes.size() - 1)] ==
+                             BlockClass::exposed)
+          {
+            judged.push_back(
+              {b, judge_block(ground, free, blocks, b, time), 0.});
+            judged.back().least_factor = judged.back().statics.limit.factor;
+          }
+      }
+    for (const auto &[below, list] : list_leaning(judged, blocks))
+      for (JudgedBlock<dim> &one : judged)
+        if (one.block == below && one.statics.limit.direction.norm() > 0.)
+          for (const unsigned int k : list)
+            one.statics.remarks.push_back(
+              "block " + std::to_string(blocks.blocks[judged[k].block].id) +
+              " leans on it, left out");
+
+    std::vector<std::string> once_gone(judged.size());
+    for (bool is_new = true; is_new;)
+      {
+        is_new = false;
+        for (const JudgedBlock<dim> &one : judged)
+          if (!is_gone[one.block] && one.least_factor < 1.)
+            is_new = is_gone[one.block] = true;
+        if (!is_new)
+          break;
+        const Ground<dim> later{ground.scene,
+                                ground.split,
+                                ground.stage_number,
+                                &is_gone};
+        std::unique_ptr<FreeFaces<dim>> free_later;
+        for (unsigned int k = 0; k < judged.size(); ++k)
+          {
+            JudgedBlock<dim> &one = judged[k];
+            const std::set<unsigned int> gone =
+              gone_beside(one.statics, is_gone, blocks);
+            if (is_gone[one.block] || gone.empty())
+              continue;
+            if (!free_later)
+              free_later = std::make_unique<FreeFaces<dim>>(later);
+            const BlockStatics<dim> then =
+              judge_block(later, *free_later, blocks, one.block, time);
+            if (!(then.limit.factor < (1. - least_decrease) * one.least_factor))
+              continue;
+            one.least_factor = then.limit.factor;
+            once_gone[k] = text_of(then.limit.factor, 4) + ", " + then.mode() +
+                           ", once " + text_of_ids(gone);
+          }
+      }
+    for (unsigned int k = 0; k < judged.size(); ++k)
+      if (!once_gone[k].empty())
+        judged[k].statics.remarks.push_back(once_gone[k]);
+    return judged;
+  }
+
+
+
+  template <int dim>
+  void
+  for_each_changed_ground(const Scene<dim> &scene,
+                          const SplitMesh<dim> &split,
+                          const GroundAction<dim> &action)
+  {
+    for (unsigned int number = 1; number < scene.stages.size() + 2; ++number)
+      {
+        if (number > 1 && !is_changing(scene, number))
+          continue;
+        const Ground<dim> ground{scene, split, number, nullptr};
+        action(ground, FreeFaces<dim>(ground));
+      }
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template std::vector<JudgedBlock<dim>> judge_exposed_blocks(                 \
+    const Ground<dim> &,                                                       \
+    const FreeFaces<dim> &,                                                    \
+    const Blocks<dim> &,                                                       \
+    const double);                                                             \
+  template void for_each_changed_ground(const Scene<dim> &,                    \
+                                        const SplitMesh<dim> &,                \
+                                        const GroundAction<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Keyblock
