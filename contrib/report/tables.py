@@ -21,6 +21,9 @@ def in_words(result):
     """What a search for a factor has found, in words."""
     outcome = result.get("outcome", "")
     lower, upper = result.get("lower"), result.get("upper")
+    if is_least(result):
+        return outcome if outcome != "value" else (
+            f"at least {number(lower)}: no trial above it has failed")
     if outcome == "value":
         return (f"{number(result.get('value'))} "
                 f"[{number(lower)}, {number(upper)}]")
@@ -46,9 +49,20 @@ def size_of(result):
     return min(size_alone(result), group.get("value", math.inf))
 
 
+def is_least(result):
+    """Whether a search says no more than that the factor is at least "lower".
+
+    It ended at the factor that is wanted, or no trial above it has failed."""
+    outcome = result.get("outcome", "value")
+    return "lower" in result and (outcome.endswith(", as wanted") or (
+        outcome == "value" and "upper" not in result))
+
+
 def size_alone(result):
     """The same of the block alone."""
     outcome = result.get("outcome", "value")
+    if is_least(result):
+        return result["lower"]
     if outcome == "falls freely":
         return 0.
     if outcome == "immovable":
