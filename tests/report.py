@@ -14,6 +14,7 @@ altered: summary.json of a run with what the scenes above do not come to (open
 brackets, blocks that move, parts that cannot be made, ...) says so in the report.
 """
 import csv
+import html
 import json
 import pathlib
 import re
@@ -287,6 +288,32 @@ def check_open():
     assert "This report has no" not in page and "Arrows: " in page
 
 
+def check_support():
+    """Warnings of the run, and shotcrete that bears more than it can."""
+    warning = "The mesh has moved faces of blocks <far> off."
+    liner = {"name": "crown", "stage": "dig", "area": 24.9,
+             "trace_length": 2., "shear_resistance": 3e5,
+             "largest_load_ratio": 0.99, "sheared_length": 0.}
+    bends = {**liner, "name": "shell", "largest_compression": 3.015e6,
+             "largest_tension": 0., "largest_moment": 5690.,
+             "largest_shear_force": 12600., "safety_factor": 0.959,
+             "governed_by": "compression", "place_of_least_factor": [-4., 2.],
+             "exceeded_area": 0.602}
+
+    def change(summary, _):
+        summary.update(warnings=[warning], shotcrete=[liner, bends])
+
+    page = altered(change)[1]
+    assert html.escape(warning) in page and "This report has no" not in page
+    section = re.search(r"<h2 id=shotcrete>.*?(?=<h2)", page, re.DOTALL)[0]
+    for text in ("<td>crown</td>", "<td class=n>300</td>",
+                 "<td class=n>3015</td>", "<td class=bad>0.959</td>",
+                 "<td class=bad>0.602</td>", "<td>-4, 2</td>"):
+        assert text in section, (text, section)
+    assert section.count("class=bad") == 2
+    assert "Thrust and moment of liner shell are beyond its strength" in page
+
+
 def check_lost():
     """A part that cannot be made is told; the rest and the tables are there."""
     def change(summary, _):
@@ -309,7 +336,7 @@ def check_pipe():
 def check_altered():
     """Reports of what is rare."""
     run_scene(FOLDER / "output")
-    for case in (check_open, check_lost, check_pipe):
+    for case in (check_open, check_support, check_lost, check_pipe):
         case()
         print(f"{case.__name__}: as it should be")
 

@@ -6,7 +6,7 @@ import time
 from .html import download, escape, facts, seconds, source
 from .page_blocks import blocks_section, factors_section
 from .page_stages import energy_section, joints_section, stages_section
-from .page_support import bolts_section
+from .page_support import bolts_section, shotcrete_section
 from .page_view import view_section
 from .tables import warnings_of
 from .words import number
@@ -135,6 +135,7 @@ def write_page(run, rows, parts, csvs, attempt):
         ("stages", "stages", stages_section, parts["pictures"],
          parts["legend"], parts["why"], links["stages.csv"]),
         ("bolts", "bolts", bolts_section, links.get("bolts.csv")),
+        ("shotcrete", "shotcrete", shotcrete_section),
         ("joints", "joints", joints_section, parts["net"]),
         ("energy", "energy", energy_section, parts["energy"]),
         ("settings", "settings", settings_section)]

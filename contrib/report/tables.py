@@ -241,9 +241,29 @@ def few(names, most=6):
         f" and {len(names) - most} more" if len(names) > most else "")
 
 
+def per_metre(run):
+    """What follows amounts of plane scenes."""
+    return " per m" if run.is_plane else ""
+
+
 def warnings_of(run):
-    """What the files of the run say that its user should know."""
-    summary, found = run.summary, []
+    """What the files of the run say that its user should know.
+
+    First the warnings of the run as the screen had them."""
+    summary = run.summary
+    found = [str(warning) for warning in summary.get("warnings") or []]
+    for liner in summary.get("shotcrete") or []:
+        if liner.get("exceeded_area") and not any(
+                f"liner {liner['name']} are beyond" in text for text in found):
+            found.append(
+                f"Thrust and moment of liner {liner['name']} are beyond its "
+                f"strength on {number(liner['exceeded_area'])} of "
+                f"{number(liner.get('area'))} m²{per_metre(run)}, its factor "
+                f"is {number(liner.get('safety_factor'))}.")
+        if liner.get("sheared_length"):
+            found.append(f"Shotcrete {liner['name']} is sheared through on "
+                         f"{number(liner['sheared_length'])} m"
+                         f"{per_metre(run)} of joints.")
     for stage in summary["stages"]:
         if stage.get("converged") is False:
             found.append(f"Stage {stage['name']} did not converge: its "
