@@ -7,6 +7,7 @@ import math
 
 from figures_style import (DASHES, block_colour, block_label, fitting_unit,
                            key_of_runs, new_figure, put_legend, use_logarithm)
+from report.tables import is_least
 
 MOST = 12  # blocks in a figure
 METHODS = {"safety_factor": ("strength reduction", "-", "o"),
@@ -32,7 +33,9 @@ def result_of(block, stage):
 def title_of(run, number, result):
     """Block, factor and how it fails, in two lines."""
     outcome = result["outcome"]
-    if outcome == "value":
+    if is_least(result):
+        outcome = f"at least {result['lower']:.3g}"
+    elif outcome == "value":
         outcome = f"{result['value']:.3g}, {result['failure_mode']}"
     elif outcome == "immovable":
         outcome = f"immovable: holds at {result['lower']:.3g}"
@@ -90,8 +93,10 @@ def plot_trials(axes, result, colour, unit):
         if shown:
             axes.plot(*zip(*shown), marker, color=colour, markersize=7,
                       markeredgecolor="white")
-    if result["outcome"] == "value":
-        axes.axvspan(result["lower"], result["upper"], color="0.85", zorder=0)
+    if is_least(result):
+        axes.axvline(result["lower"], color="0.4", linewidth=0.8, zorder=0)
+    elif result["outcome"] == "value":
+        axes.axvspan(result.get("lower", 0.), result["upper"], color="0.85", zorder=0)
         axes.axvline(result["value"], color="0.4", linewidth=0.8, zorder=0)
     use_logarithm(axes, x, "x")
     use_logarithm(axes, y, "y")
@@ -108,7 +113,9 @@ def factor_points(run, number, method):
         outcome = result.get("outcome", "value")
         if value is None:
             value = 0. if outcome == "falls freely" else math.inf
-        if outcome.startswith("above "):
+        if is_least(result):  # by its lower bound
+            value, outcome = result["lower"], "least"
+        elif outcome.startswith("above "):
             outcome = "immovable"  # as far as trials go: the same symbol
         if outcome == "value" and not 0. < value < math.inf:
             outcome = "falls freely" if value <= 0. else "immovable"
@@ -125,7 +132,8 @@ def draw_factors(runs):
     methods = METHODS if len(runs) == 1 else ["safety_factor"]
     curves = [(run, n, m, factor_points(run, n, m)) for run in runs
               for n in factors_of(first) for m in methods]
-    values = [v for *_, points in curves for _, v, o in points if o == "value"]
+    values = [v for *_, points in curves for _, v, o in points
+              if o in ("value", "least")]
     low, high = (min(values), max(values)) if values else (0.5, 2.)
     is_wide = high > 8. * low
     ends = ((low / 1.6, high * 1.6) if is_wide else
@@ -159,10 +167,15 @@ def plot_factors(axes, run, number, method, points, ends, dashes):
     is_found = method == "safety_factor"
     fill = {"markerfacecolor": colour if is_found else "white",
             "color": colour, "clip_on": False, "zorder": 4 if is_found else 3}
-    known = [(x, y) for x, y, outcome in points if outcome == "value"]
+    known = [(x, y) for x, y, outcome in points
+             if outcome in ("value", "least")]
     if known:
         axes.plot(*zip(*known), marker=marker, linestyle=dashes or own_dashes,
                   markersize=5, **fill)
+    for x, y, outcome in points:
+        if outcome == "least":
+            axes.annotate("", (x, y), (0, 16), textcoords="offset points",
+                          arrowprops={"arrowstyle": "<-", "color": colour})
     for outcome, symbol, place in (("immovable", "^", ends[1]),
                                    ("falls freely", "v", ends[0])):
         x = [x + shift for x, _, found in points if found == outcome]
@@ -184,6 +197,8 @@ def key_of_factors(axes, run, runs, curves):
             fill = "0.3" if marker == "o" else "white"
             axes.plot([], [], color="0.3", linestyle=dashes, marker=marker,
                       markersize=5, markerfacecolor=fill, label=name)
-    for marker, label in (("^", "immovable or above the highest"), ("v", "falls freely")):
-        axes.plot([], [], marker, color="0.3", markersize=8, label=label)
+    for marker, label in (("^", "immovable or above the highest"),
+                          ("v", "falls freely"), (r"$\uparrow$", "or more")):
+        axes.plot([], [], marker=marker, linestyle="none", color="0.3",
+                  markersize=8, label=label)
     put_legend(axes)

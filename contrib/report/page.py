@@ -17,6 +17,31 @@ def title_of(run):
     return run.scene("title") or pathlib.Path(run.scene("name", "run")).stem
 
 
+def named(numbers):
+    """Blocks by their numbers."""
+    return ", ".join(f"block {n}" for n in numbers[:30]) + (
+        " …" if len(numbers) > 30 else "")
+
+
+def further_verdict(rows):
+    """Blocks that still move, and those that something but joints holds."""
+    text = ""
+    moving = [row["block"] for row in rows if row["state"] == "moves"]
+    if moving:
+        text += (" Still moving at the end of the last stage: "
+                 f"{named(moving)}.")
+    held = {}
+    for row in rows:
+        if row["held_by"]:
+            held.setdefault(row["held_by"], []).append(row["block"])
+    for what, numbers in held.items():
+        text += (f" {named(numbers).capitalize()} "
+                 f"{'are' if len(numbers) > 1 else 'is'} held by {what} alone: "
+                 "without in-situ stress, as rigid blocks, factors are below "
+                 "1.")
+    return text
+
+
 def head(run, rows):
     """Title, what was run by what, and how it went."""
     summary = run.summary
@@ -28,12 +53,12 @@ def head(run, rows):
     if failed:
         verdict += ("Failed in a stage, fall freely, or have a factor below "
                     "1: "
-                    + ", ".join(f"block {n}" for n in failed[:30])
-                    + (" …" if len(failed) > 30 else "") + ".")
+                    + named(failed) + ".")
     elif any(row["factor"] for row in rows):
         verdict += "None has failed or has a factor below 1."
     elif rows:
         verdict += "No safety factors were looked for."
+    verdict += further_verdict(rows)
     versions = f"keyblock {program.get('version', '')}".strip()
     if program.get("commit"):
         versions += f", commit {program['commit']}"

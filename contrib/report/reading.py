@@ -193,10 +193,18 @@ class Run:
         """Blocks that moved off, by the remarks of stages, and the stage."""
         found = {}
         for stage in self.summary["stages"]:
-            for n in re.findall(r"block (\d+) (?:moved|is moving) off",
+            for n in re.findall(r"block (\d+) moved off",
                                 stage.get("remark", "")):
                 found.setdefault(int(n), stage["name"])
         return found
+
+    def moving(self):
+        """Blocks that still moved at the end of a stage, and the last such.
+
+        Not far: those that have gone are the ones that moved off."""
+        return {int(n): stage["name"] for stage in self.summary["stages"]
+                for n in re.findall(r"block (\d+) is moving off",
+                                    stage.get("remark", ""))}
 
     def joint_groups(self):
         """Names of sets, or of what joints share, and the group of each joint."""
