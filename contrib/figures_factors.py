@@ -5,8 +5,9 @@ Each function that draws takes the runs and returns a figure, or a sentence
 that says what it has not got."""
 import math
 
-from figures_style import (DASHES, block_colour, block_label, fitting_unit,
-                           key_of_runs, new_figure, put_legend, use_logarithm)
+from figures_style import (DASHES, block_colour, block_label, block_line,
+                           fitting_unit, key_of_runs, new_figure, put_legend,
+                           use_logarithm)
 from report.tables import is_least
 
 MOST = 12  # blocks in a figure
@@ -170,8 +171,10 @@ def plot_factors(axes, run, number, method, points, ends, dashes):
     known = [(x, y) for x, y, outcome in points
              if outcome in ("value", "least")]
     if known:
-        axes.plot(*zip(*known), marker=marker, linestyle=dashes or own_dashes,
-                  markersize=5, **fill)
+        axes.plot(*zip(*known), linestyle=dashes or own_dashes, color=colour,
+                  zorder=fill["zorder"], **block_line(run, number))
+        axes.plot(*zip(*known), marker=marker, linestyle="none", markersize=5,
+                  **fill)
     for x, y, outcome in points:
         if outcome == "least":
             axes.annotate("", (x, y), (0, 16), textcoords="offset points",
@@ -189,7 +192,8 @@ def key_of_factors(axes, run, runs, curves):
     for number in factors_of(run):
         if any(n == number and points for _, n, _, points in curves):
             axes.plot([], [], color=block_colour(run, number), linewidth=3,
-                      label=block_label(run, number))
+                      label=block_label(run, number),
+                      **block_line(run, number))
     if len(runs) > 1:
         key_of_runs(axes, runs)
     else:

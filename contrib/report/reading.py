@@ -9,7 +9,7 @@ import time
 
 import numpy
 
-from .run_files import entries_of, groups_of, states_of
+from .run_files import entries_of, groups_of, last_states, states_of
 
 MOST_STATES = 30  # a face says in one number in which of them it is seen
 
@@ -161,7 +161,12 @@ class Run:
         found = [("start", -1, *states[0][1:])]
         times = numpy.array([state[0] for state in states])
         ends, last = self.stage_ends("time"), 0
-        for k, name in enumerate(self.stages if ends else []):
+        by_name = last_states(self.folder / "solution.pvd")
+        for k, name in enumerate(self.stages if by_name or ends else []):
+            if by_name:
+                if name in by_name:
+                    found.append((name, k, *states[by_name[name]][1:]))
+                continue
             # times are written with six digits; static stages take none
             near = abs(times - ends[k]) <= 1e-5 * max(ends[-1], 1e-300)
             near[:last + 1] = False
