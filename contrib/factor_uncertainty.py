@@ -25,8 +25,8 @@ uncertainty the sum of mesh error, half the width of the bracket, and the change
 with time step and damping, which are measured on the scene's own mesh.
 
 Exits with 1 if a run fails, no factor is found, some runs give a block a value and
-others do not, its cells are not 1.2 times smaller, the uncertainty of a block is larger than --largest of the value, or
---exact is not within it.
+others do not, its cells are not 1.2 times smaller, the uncertainty of a block is
+larger than --largest of the value, or --exact is not within it.
 """
 import json
 import math

@@ -306,7 +306,9 @@ def write_picture(actors, make_texts, places, view, path, inside=None):
     for text in make_texts((width, height)):
         sheet.AddActor2D(text)
     renderer.ResetCameraClippingRange()
-    if view.has_depth() or (view.field == "joint_state" and not is_flat):  # of transparent things the nearer over the farther
+    is_seen_through = view.field == "joint_state" and not is_flat
+    # of transparent things the nearer over the farther
+    if view.has_depth() or is_seen_through:
         renderer.SetUseDepthPeelingForVolumes(False)
         renderer.UseDepthPeelingOn()
         renderer.SetMaximumNumberOfPeels(12)

@@ -51,6 +51,12 @@ def block_columns(run):
          lambda r: escape(r["moving"] or "–"))]
 
 
+def kind_of(name, is_number):
+    """The class of a cell: numbers, or sentences that need some room."""
+    return (" class=n" if is_number else
+            " class=broad" if name == "support it needs" else "")
+
+
 def table(columns, rows, has_view, hide=()):
     """An HTML table; columns of which nothing is known are left out."""
     columns = [(name, is_number, text) for name, is_number, text in columns
@@ -60,8 +66,8 @@ def table(columns, rows, has_view, hide=()):
         for name, is_number, _ in columns)
         + "</tr></thead><tbody>"]
     for row in rows:
-        cells = "".join(f'<td{" class=n" if is_number else ""}>{text(row)}'
-                        "</td>" for _, is_number, text in columns)
+        cells = "".join(f'<td{kind_of(name, is_number)}>{text(row)}</td>'
+                        for name, is_number, text in columns)
         if has_view:
             cells = cells.replace("</td>", ' <button class="show">show'
                                   "</button></td>", 1)
