@@ -5,25 +5,28 @@ usage: contrib/factor_uncertainty.py SCENE.prm [--meshes 2] [--exact FACTOR]
          [--largest 0.05] [--keyblock build/keyblock] [--keep FOLDER]
          [-- arguments for keyblock]
 
-Runs the scene as it is, with cells of half the size, with half the time step
+Runs the scene as it is, with smaller cells, with half the time step
 (Time stepping/Safety) and with half the damping of trials (Safety factor/Mass
 damping and Damping ratio), and prints value, bracket and outcome of each block
-and stage. Blocks of two meshes are the same if their centroids are near. Cells
-of half the size: structured meshes get twice the cells, Gmsh sizes half as large
-(Cells across blocks twice as many), cells of a mesh file are halved where they
-are.
+and stage. Blocks of two meshes are the same if their centroids are near. Smaller
+cells: half the size is asked for. Structured meshes get twice the cells, Gmsh
+sizes half as large (Cells across blocks twice as many); cells of a mesh file, and
+those of Gmsh where the scene gives no Size, are halved where they are. What was
+reached is measured, by the mean size of the cells of each block, and told.
 
 Mesh error: what the finest mesh is still off by. Two meshes cannot tell the order
-of convergence; with order 1 it is their difference. With --meshes 3 (a quarter
-of the size besides) the order is estimated and kept between 0.5 and 2 if the
-differences have one sign; if not, the larger difference counts. The value is that
+p of convergence; with order 1 it is their difference over r - 1, where cells are r
+times smaller. With --meshes 3 (a quarter of the size besides) the order is estimated
+and kept between 0.5 and 2 if the differences have one sign; if not, the larger
+difference counts. Of cells that are less than 1.7 times smaller the error is warned
+of, of less than 1.2 times none is told. The value is that
 of the finest mesh, not an extrapolated one (that is printed beside it), and its
 uncertainty the sum of mesh error, half the width of the bracket, and the changes
 with time step and damping, which are measured on the scene's own mesh.
 
 Exits with 1 if a run fails, no factor is found, some runs give a block a value and
-others do not, the uncertainty of a block is larger than --largest of the value, or
---exact is not within it.
+others do not, its cells are not 1.2 times smaller, the uncertainty of a block is
+larger than --largest of the value, or --exact is not within it.
 """
 import json
 import math
@@ -35,6 +38,8 @@ from pathlib import Path
 from report.run_files import entries_of
 from script_tools import make_parser, split_arguments
 
+LEAST_RATIO, GOOD_RATIO = 1.2, 1.7  # of cell sizes: to tell an error, without a warning
+FINER = ("smaller cells", "smallest cells")
 HALF_DAMPING = ("Safety factor/Mass damping", "Safety factor/Damping ratio")
 
 
@@ -45,13 +50,15 @@ def read_entries(path):
 
 
 def finer_mesh(entries, halvings):
-    """Entries that make all cells 2^halvings times smaller."""
+    """Entries that are to make all cells 2^halvings times smaller."""
     times = 2 ** halvings
     generator = entries["Mesh/Generator"]
     if generator == "structured":
         cells = [int(n) for n in entries["Mesh/Cells"].split(",")]
         return {"Mesh/Cells": ", ".join(str(times * n) for n in cells)}
-    if generator == "file":
+    # without a size Gmsh has one of its own; more cells across blocks is no more
+    # than a wish, which coarse blocks alone would follow
+    if generator == "file" or float(entries["Mesh/Size"]) == 0.:
         levels = entries.get("Mesh/Refinement levels", "").strip()
         return {"Mesh/Refinement levels": f"({levels or 0}) + {halvings}"}
     found = {}
@@ -62,9 +69,6 @@ def finer_mesh(entries, halvings):
     across = int(entries["Mesh/Cells across blocks"])
     if across > 0:
         found["Mesh/Cells across blocks"] = str(times * across)
-    if not found:
-        sys.exit("The entry 'Mesh/Size' is 0, so there is nothing to halve; give the size "
-                 "of cells.")
     return found
 
 
@@ -75,7 +79,8 @@ class Runner:
         self.options, self.folder, self.rest = options, folder, rest
 
     def run(self, name, changes):
-        """Factors (block, its centroid and size, stage entry) of a variant."""
+        """Factors (block, its centroid, size and size of cells, stage entry) of
+        a variant."""
         output = self.folder / name.replace(" ", "_")
         command = [str(Path(self.options.keyblock).resolve()), self.options.scene,
                    "--output", str(output), "--set", "Output/Write VTU=false"] + self.rest
@@ -91,20 +96,23 @@ class Runner:
         for block in summary["blocks"]:
             place = [float(x) for x in block["centroid"]]
             size = float(block["volume"]) ** (1. / dim)
+            cell = size / int(block["cells"]) ** (1. / dim)
             for factor in block.get("safety_factor", []):
-                found.append((int(block["id"]), place, size, factor))
+                found.append((int(block["id"]), place, size, cell, factor))
         print(f"{name}: {summary['scene']['cells']} cells, "
               f"{summary['run']['steps']} steps, {len(found)} factors", flush=True)
         return output, found
 
 
 def partner(one, others):
-    """The same block and stage in another run, or None."""
-    _, place, size, factor = one
-    near = [other for other in others if other[3]["stage"] == factor["stage"]
+    """The size of cells and the entry of the same block and stage in another run,
+    or None, None."""
+    _, place, size, _, factor = one
+    near = [other for other in others if other[4]["stage"] == factor["stage"]
             and math.dist(place, other[1]) < 0.25 * size
             and 0.5 < other[2] / size < 2.]
-    return min(near, key=lambda other: math.dist(place, other[1]))[3] if near else None
+    return (min(near, key=lambda other: math.dist(place, other[1]))[3:] if near
+            else (None, None))
 
 
 def describe(factor):
@@ -112,6 +120,8 @@ def describe(factor):
         return "no such block"
     if factor["outcome"] != "value":
         return factor["outcome"]
+    if not {"lower", "upper"} <= set(factor):
+        return f"open bracket, from {float(factor.get('lower', 0.)):.5f}"
     undecided = ""
     if "undecided_upper" in factor:
         undecided = (f", undecided from {float(factor['undecided_lower']):.5f} to "
@@ -121,40 +131,69 @@ def describe(factor):
 
 
 def value_of(factor):
-    """The factor; None where the block is immovable, falls freely or is clamped."""
-    return float(factor["value"]) if factor and factor["outcome"] == "value" else None
+    """The factor; None where the block is immovable, falls freely or is clamped, or
+    its bracket is open."""
+    is_found = (factor and factor["outcome"] == "value"
+                and {"lower", "upper"} <= set(factor))
+    return float(factor["value"]) if is_found else None
 
 
-def mesh_error(values):
+def mesh_error(values, ratios):
     """Error of the last value, with what it was estimated by; values are those of
-    meshes each twice as fine as the one before."""
+    meshes with cells that are each `ratios` times smaller than the one before."""
     last = values[-1] - values[-2]
     if len(values) == 2:
-        return last, "order 1 assumed"
+        return last / (ratios[0] - 1.), "order 1 assumed"
     first = values[-2] - values[-3]
     if first * last <= 0.:
-        larger = max(first, last, key=abs)
+        larger = max((first / (ratios[0] - 1.), last / (ratios[1] - 1.)), key=abs)
         return larger, "no order: the larger difference"
-    order = min(2., max(0.5, math.log2(first / last)))
-    return last / (2. ** order - 1.), f"order {order:.2f}"
+
+    def quotient(order):
+        """First over last difference of an error that goes with size^order."""
+        return (ratios[0] ** order - 1.) / (1. - ratios[1] ** -order)
+
+    low, high = 0.5, 2.  # the quotient grows with the order
+    for _ in range(60):
+        order = 0.5 * (low + high)
+        low, high = (order, high) if quotient(order) < first / last else (low, order)
+    return last / (ratios[1] ** order - 1.), f"order {order:.2f}"
+
+
+def are_smaller(ratios):
+    """Print how much smaller the cells of a block got; whether that is enough."""
+    print(f"  cells at the block   {', then '.join(f'{r:.2f}' for r in ratios)} times "
+          "smaller")
+    if min(ratios) < LEAST_RATIO:
+        print("  too little to tell how large the mesh error is; set 'Mesh/Size' and "
+              "'Mesh/Size at excavation' for cells that can be halved")
+        return False
+    if min(ratios) < GOOD_RATIO:
+        print(f"  Warning: less than {GOOD_RATIO} times, the mesh error is uncertain")
+    return True
 
 
 def assess(one, runs):
     """Print one block and stage. Returns value and uncertainty, or None and whether
     all runs say the same."""
-    number, _, _, factor = one
+    number, *_, factor = one
     print(f"\nBlock {number} after stage {factor['stage']}")
-    found = {name: partner(one, factors) for name, factors in runs.items()}
+    partners = {name: partner(one, factors) for name, factors in runs.items()}
+    found = {name: other for name, (_, other) in partners.items()}
     for name, other in found.items():
         print(f"  {name:20} {describe(other)}")
-    meshes = [name for name in runs if name == "as it is" or name.startswith("cells")]
+    meshes = [name for name in runs if name == "as it is" or name in FINER]
     values = [value_of(found[name]) for name in meshes]
     if None in [value_of(other) for other in found.values()]:
         outcomes = {describe(other) for other in found.values()}
         is_same = len(outcomes) == 1
         print(f"  {'the same in all runs' if is_same else 'not the same in all runs'}")
         return None, is_same
-    error, way = mesh_error(values)
+    sizes = [partners[name][0] for name in meshes]
+    ratios = [a / b for a, b in zip(sizes, sizes[1:])]
+    if not are_smaller(ratios):
+        return None, False
+    error, way = mesh_error(values, ratios)
     finest = found[meshes[-1]]
     bracket = 0.5 * (float(finest["upper"]) - float(finest["lower"]))
     changes = [abs(value_of(found[name]) - values[0]) for name in ("half time step",
@@ -184,9 +223,8 @@ def main():
     if not base:
         sys.exit("No safety factor was found; see the entry 'Safety factor/Blocks'.")
     entries = read_entries(output / "used.prm")
-    variants = {"cells half as large": finer_mesh(entries, 1)}
-    if options.meshes == 3:
-        variants["cells a quarter"] = finer_mesh(entries, 2)
+    variants = {name: finer_mesh(entries, k) for k, name in
+                enumerate(FINER[:options.meshes - 1], 1)}
     variants["half time step"] = {
         "Time stepping/Safety": f"{0.5 * float(entries['Time stepping/Safety']):.9g}"}
     variants["half damping"] = {name: f"{0.5 * float(entries[name]):.9g}"

@@ -7,8 +7,9 @@ import numpy
 
 from figures_joints import block_face_stresses
 from figures_style import (DASHES, NOTHING, block_colour, block_label,
-                           fitting_unit, joint_style, key_of_joints,
-                           key_of_runs, new_figure, put_legend, put_stages)
+                           block_line, fitting_unit, joint_style,
+                           key_of_joints, key_of_runs, new_figure,
+                           put_legend, put_stages)
 
 TERMS = {"external": "#1f77b4", "elastic": "#2f9e44", "friction": "#c0392b",
          "local_damping": "#e8820e", "kinetic": "#7e57c2",
@@ -16,6 +17,9 @@ TERMS = {"external": "#1f77b4", "elastic": "#2f9e44", "friction": "#c0392b",
          "contact_closure": "#d6336c", "penetration": "#6d4c41",
          "dilation": "#0b7285",
          "stiffness_damping": "#a9841b", "mass_damping": "#7f8c8d"}
+# of monitors of points, and of blocks that are part of the rock
+POINT_COLOURS = ["0.2", "#1565c0", "#2e7d32", "#00909e", "#827717", "#5c6bc0",
+                 "0.55", "#26a69a"]
 # of the ledger: what flows in; the rest is stored or dissipated
 INFLOWS = {"external", "supports"}
 
@@ -31,6 +35,16 @@ def end_of_block(run, number, values):
     if number is None or run.removal_stage(number) is None:
         return len(values)
     return int(numpy.flatnonzero(values)[-1]) + 1 if values.any() else 0
+
+
+def colour_of(run, name, watched):
+    """Colour and line of a monitor: of the block it watches, of points one each."""
+    named, number = run.named_blocks(), watched.get(name)
+    if number in named:
+        return block_colour(run, number), block_line(run, number)
+    others = [n for n in run.monitors("block") + run.monitors("point")
+              if watched.get(n) not in named]
+    return POINT_COLOURS[others.index(name) % len(POINT_COLOURS)], {}
 
 
 def draw_displacements(runs):
@@ -59,12 +73,12 @@ def draw_displacements(runs):
     figure, ((axes,),) = new_figure()
     for run, name, dashes, values in curves:
         number = watched.get(name)
-        colour = (block_colour(first, number)
-                  if number in first.finite_blocks() else "0.5")
+        colour, style = colour_of(first, name, watched)
         label = block_label(first, number) if number else f"point {name}"
         x = run.positions(kind)
         axes.plot(x[:len(values)], values / size, color=colour,
-                  linestyle=dashes, label=label if run is first else None)
+                  linestyle=dashes, label=label if run is first else None,
+                  **style)
         if 0 < len(values) < len(x):
             above = int((values / size < top).sum())
             axes.plot(x[min(above, len(values) - 1)], min(values[-1] / size,

@@ -5,8 +5,10 @@ Each function that draws takes the runs and returns a figure, or a sentence
 that says what it has not got."""
 import math
 
-from figures_style import (DASHES, block_colour, block_label, fitting_unit,
-                           key_of_runs, new_figure, put_legend, use_logarithm)
+from figures_style import (DASHES, block_colour, block_label, block_line,
+                           fitting_unit, key_of_runs, new_figure, put_legend,
+                           use_logarithm)
+from report.tables import is_least
 
 MOST = 12  # blocks in a figure
 METHODS = {"safety_factor": ("strength reduction", "-", "o"),
@@ -32,7 +34,9 @@ def result_of(block, stage):
 def title_of(run, number, result):
     """Block, factor and how it fails, in two lines."""
     outcome = result["outcome"]
-    if outcome == "value":
+    if is_least(result):
+        outcome = f"at least {result['lower']:.3g}"
+    elif outcome == "value":
         outcome = f"{result['value']:.3g}, {result['failure_mode']}"
     elif outcome == "immovable":
         outcome = f"immovable: holds at {result['lower']:.3g}"
@@ -90,8 +94,10 @@ def plot_trials(axes, result, colour, unit):
         if shown:
             axes.plot(*zip(*shown), marker, color=colour, markersize=7,
                       markeredgecolor="white")
-    if result["outcome"] == "value":
-        axes.axvspan(result["lower"], result["upper"], color="0.85", zorder=0)
+    if is_least(result):
+        axes.axvline(result["lower"], color="0.4", linewidth=0.8, zorder=0)
+    elif result["outcome"] == "value":
+        axes.axvspan(result.get("lower", 0.), result["upper"], color="0.85", zorder=0)
         axes.axvline(result["value"], color="0.4", linewidth=0.8, zorder=0)
     use_logarithm(axes, x, "x")
     use_logarithm(axes, y, "y")
@@ -108,7 +114,9 @@ def factor_points(run, number, method):
         outcome = result.get("outcome", "value")
         if value is None:
             value = 0. if outcome == "falls freely" else math.inf
-        if outcome.startswith("above "):
+        if is_least(result):  # by its lower bound
+            value, outcome = result["lower"], "least"
+        elif outcome.startswith("above "):
             outcome = "immovable"  # as far as trials go: the same symbol
         if outcome == "value" and not 0. < value < math.inf:
             outcome = "falls freely" if value <= 0. else "immovable"
@@ -125,7 +133,8 @@ def draw_factors(runs):
     methods = METHODS if len(runs) == 1 else ["safety_factor"]
     curves = [(run, n, m, factor_points(run, n, m)) for run in runs
               for n in factors_of(first) for m in methods]
-    values = [v for *_, points in curves for _, v, o in points if o == "value"]
+    values = [v for *_, points in curves for _, v, o in points
+              if o in ("value", "least")]
     low, high = (min(values), max(values)) if values else (0.5, 2.)
     is_wide = high > 8. * low
     ends = ((low / 1.6, high * 1.6) if is_wide else
@@ -159,10 +168,17 @@ def plot_factors(axes, run, number, method, points, ends, dashes):
     is_found = method == "safety_factor"
     fill = {"markerfacecolor": colour if is_found else "white",
             "color": colour, "clip_on": False, "zorder": 4 if is_found else 3}
-    known = [(x, y) for x, y, outcome in points if outcome == "value"]
+    known = [(x, y) for x, y, outcome in points
+             if outcome in ("value", "least")]
     if known:
-        axes.plot(*zip(*known), marker=marker, linestyle=dashes or own_dashes,
-                  markersize=5, **fill)
+        axes.plot(*zip(*known), linestyle=dashes or own_dashes, color=colour,
+                  zorder=fill["zorder"], **block_line(run, number))
+        axes.plot(*zip(*known), marker=marker, linestyle="none", markersize=5,
+                  **fill)
+    for x, y, outcome in points:
+        if outcome == "least":
+            axes.annotate("", (x, y), (0, 16), textcoords="offset points",
+                          arrowprops={"arrowstyle": "<-", "color": colour})
     for outcome, symbol, place in (("immovable", "^", ends[1]),
                                    ("falls freely", "v", ends[0])):
         x = [x + shift for x, _, found in points if found == outcome]
@@ -176,7 +192,8 @@ def key_of_factors(axes, run, runs, curves):
     for number in factors_of(run):
         if any(n == number and points for _, n, _, points in curves):
             axes.plot([], [], color=block_colour(run, number), linewidth=3,
-                      label=block_label(run, number))
+                      label=block_label(run, number),
+                      **block_line(run, number))
     if len(runs) > 1:
         key_of_runs(axes, runs)
     else:
@@ -184,6 +201,8 @@ def key_of_factors(axes, run, runs, curves):
             fill = "0.3" if marker == "o" else "white"
             axes.plot([], [], color="0.3", linestyle=dashes, marker=marker,
                       markersize=5, markerfacecolor=fill, label=name)
-    for marker, label in (("^", "immovable or above the highest"), ("v", "falls freely")):
-        axes.plot([], [], marker, color="0.3", markersize=8, label=label)
+    for marker, label in (("^", "immovable or above the highest"),
+                          ("v", "falls freely"), (r"$\uparrow$", "or more")):
+        axes.plot([], [], marker=marker, linestyle="none", color="0.3",
+                  markersize=8, label=label)
     put_legend(axes)

@@ -10,7 +10,7 @@ import numpy
 from render_data import (magnitudes_of, read_grid, values_of,
                          vtk_to_numpy)
 from report.reading import read_joints
-from report.run_files import groups_of, states_of
+from report.run_files import groups_of, last_states, states_of
 from report.tables import least, size_of
 
 
@@ -103,6 +103,7 @@ class Run:
         self.entries = read_entries(self.folder)
         self.history = read_history(self.folder)
         self.states = read_states(self.folder)
+        self.last_states = last_states(self.folder / "solution.pvd")
         self.label = label or self.folder.resolve().name
         self.stages = [stage["name"] for stage in self.summary["stages"]]
         self.blocks = {b["id"]: b for b in self.summary["blocks"]}
@@ -196,7 +197,11 @@ class Run:
         return stage + (self.history["step"] - ends[stage]) / steps[stage]
 
     def state_of_stage(self, index):
-        """Index of the state that was written at the end of a stage."""
+        """Index of the state that was written at the end of a stage.
+
+        By the stage's name; by time in files of old that do not have it."""
+        if self.stages[index] in self.last_states:
+            return self.last_states[self.stages[index]]
         if not self.history:
             return len(self.states) - 1
         end = self.stage_ends("time")[index]
@@ -221,7 +226,11 @@ class Run:
     def block_at(self, monitor):
         """The number of the block that a block monitor watches.
 
-        As in the program, the one of the cell whose centre is nearest."""
+        The one of the entry Block, or, as in the program, that of the cell whose
+        centre is nearest to the Location."""
+        number = self.numbers(f"Monitors/{monitor}/Block")
+        if number and number[0] > 0.:
+            return int(number[0])
         location = self.numbers(f"Monitors/{monitor}/Location")
         if not self.states or len(location) < 2:
             return None

@@ -52,6 +52,17 @@ def pale(colour):
     return tuple(0.35 * part + 0.65 for part in to_rgb(colour))
 
 
+def block_line(run, number):
+    """Options of the lines of a block: hollow where its colour is of two."""
+    named = sorted(run.named_blocks())
+    if number not in named or named.index(number) < len(BLOCK_COLOURS):
+        return {}
+    return {"path_effects": [
+        patheffects.Stroke(linewidth=3.6,
+                           foreground=block_colour(run, number)),
+        patheffects.Stroke(linewidth=1.4, foreground="white")]}
+
+
 def block_label(run, number):
     """Block and the names of its monitors."""
     names = [name for name in run.monitors("block")
@@ -182,7 +193,8 @@ def save(figure, path, dpi=100):
     """Write a figure as its ending says, PNG with few colours; say it."""
     try:
         with pyplot.rc_context({"svg.fonttype": "none", "pdf.fonttype": 42}):
-            figure.savefig(path, dpi=dpi)
+            # the layout leaves too little room beside maps in true proportions
+            figure.savefig(path, dpi=dpi, bbox_inches="tight", pad_inches=0.08)
         if path.suffix == ".png" and dpi <= 100:
             reduce_colours(path)
         else:

@@ -33,14 +33,24 @@ from render_scene import (COLOURS, corners_of, make_bar, make_caption,
 __all__ = ["COLOURS", "RED", "View", "draw"]
 
 
-def describe(time, grid, view):
+def when(collection, time, view):
+    """The stage of a state, with the time where that is one of motion.
+
+    In quasi-static stages time is scaled with the masses and means nothing."""
+    stage = render_data.stage_of(collection, view.time_index)
+    if stage is None:
+        return f"t = {time:.4g} s"
+    kind = render_data.kind_of_stage(collection, stage.partition(" ")[2])
+    return stage + (f", t = {time:.4g} s" if kind == "dynamic" else "")
+
+
+def describe(collection, time, grid, view, factor):
     """The caption."""
-    factor = choose_exaggeration(grid, view)
     if view.field == "block" and time == 0.:
         n_blocks = len(numpy.unique(values_of(grid, "block")))
         lines = [f"{n_blocks} block{'s' if n_blocks > 1 else ''}"]
     else:
-        lines = [f"t = {time:.4g} s"]
+        lines = [when(collection, time, view)]
     if factor != 1.:
         lines.append(f"displacement times {factor:g}")
     if view.stretch != 1.:
@@ -51,33 +61,45 @@ def describe(time, grid, view):
         lines.append("drawn apart")
     if view.field in ("stress_major", "stress_minor"):
         lines.append("pressed: +")
+    if view.field not in ("block", "joint_state") and not numpy.isfinite(
+            magnitudes_of(grid, view.field)).all():
+        lines.append("grey: no value")
     text = "; ".join(lines)
     if view.field in ("block", "joint_state") or view.has_depth():
         return text
     return text + "\nred: first position of the blocks"
 
 
-def solid_parts(collection, grid, moved, view):
-    """The parts of a scene in 3D as grids, and how opaque each is."""
+def solid_parts(collection, grid, view):
+    """The parts of a scene in 3D as grids not yet moved, and how opaque each is.
+
+    Through rock whose joints have the colours of their states these are seen."""
+    is_state = view.field == "joint_state"
     if "rock" in view.parts:
-        for part in (parts_of.cut_open(moved, view.cut, view.eye) if view.cut
-                     else [moved]):
-            yield part, 1.
+        yield grid, 0.25 if is_state and not view.cut else 1.
     if "tunnel" in view.parts:
         first = read_grid(find_rock(collection, 0)[1])
         surface = parts_of.tunnel_surface(grid, first)
         if surface is not None:
             is_alone = view.parts == ("tunnel",) or view.inside
-            factor = choose_exaggeration(grid, view)
-            yield move_points(surface, factor, view), 1. if is_alone else 0.3
+            yield surface, 1. if is_alone and not is_state else 0.3
     if "blocks" in view.parts:
         finite, _ = render_data.read_classes(collection)
         if finite is None:
             render_data.fail("there is no summary.json beside the collection, "
                              "which says which blocks are finite.")
-        blocks = parts_of.keep_blocks(moved, finite)
+        blocks = parts_of.keep_blocks(grid, finite)
         if blocks.GetNumberOfCells():  # faces of joints would lie on them
-            yield blocks, 0. if view.field == "joint_state" else 1.
+            yield blocks, 0. if is_state else 1.
+
+
+def move_parts(grid, parts, factor, view):
+    """Parts of a grid displaced, the rock cut open, and how opaque each is."""
+    for part, opacity in parts:
+        moved = move_points(part, factor, view)
+        for piece in (parts_of.cut_open(moved, view.cut, view.eye)
+                      if view.cut and part is grid else [moved]):
+            yield piece, opacity
 
 
 def paint(grids, view, scale):
@@ -128,13 +150,15 @@ def draw(collection, picture, view):
             "rock", "joints"}):
         render_data.fail("parts other than rock and joints, cuts and the view "
                          "from inside are of scenes in 3D.")
-    caption = describe(time, grid, view)
+    parts = [(grid, 1.)] if is_flat else list(solid_parts(collection, grid,
+                                                          view))
+    factor = choose_exaggeration(grid, view, [part for part, _ in parts])
+    caption = describe(collection, time, grid, view, factor)
     is_block, is_state = view.field == "block", view.field == "joint_state"
-    factor = choose_exaggeration(grid, view)
     moved = move_points(grid, factor, view)
     first = moved if is_block else move_points(grid, 0., view)
-    grids = [(moved, 1.)] if is_flat else list(solid_parts(
-        collection, grid, moved, view))
+    grids = [(moved, 1.)] if is_flat else list(move_parts(grid, parts, factor,
+                                                          view))
     unit, scale = ("", 1.) if is_state else unit_of(grid, view.field)
     actors, colours = paint(grids, view, scale) if grids else ([], None)
     width = 1.5 * view.dpi / 100.
@@ -162,13 +186,17 @@ def draw(collection, picture, view):
     faces, legend = draw_joints(collection, time, view, places)
     actors += faces
 
+    has_bar = not (is_block or is_state or colours is None) and any(
+        numpy.isfinite(magnitudes_of(part, view.field)).any()
+        for part, _ in grids)
+
     def make_texts(size):
         """Caption, and colour bar or legend for a size of the picture."""
         texts = [make_caption(caption, size)]
-        if legend:
-            texts += make_legend(legend, size)
-        elif not is_block and not is_state and colours is not None:
-            texts += make_bar(colours, f"{view.field} [{unit}]", size)
+        texts += make_legend(legend, size)
+        if has_bar:
+            texts += make_bar(colours, f"{view.field} [{unit}]", size,
+                              len(legend))
         return texts
 
     if not actors:

@@ -25,11 +25,13 @@ except ImportError as error:
              "/usr/bin/python3.")
 
 from report.reading import ReportError
+from report.run_files import entries_of
 from report.vtu import read_cells, split_stress, stress_of
 
 KINDS = {2: 3, 4: 9, 8: 12}  # VTK's numbers of lines, quadrilaterals, hexahedra
 # fields that are made of others: largest and least pressure of any direction
 PRINCIPAL = {"stress_major": 0, "stress_minor": 2}
+MOST_TIMES = 1000.  # of displacements without a factor asked for
 UNITS = {"stress": (("MPa", 1e6), ("kPa", 1e3), ("Pa", 1.)),
          "displacement": (("m", 0.1), ("mm", 1e-3), ("\N{MICRO SIGN}m", 1e-6))}
 
@@ -51,6 +53,30 @@ def find_rock(collection, index):
              f"index {index}.")
     folder = pathlib.Path(collection).parent
     return float(sets[index].get("timestep")), folder / sets[index].get("file")
+
+
+def stage_of(collection, index):
+    """The stage after which or in which a state was written, in words.
+
+    None in collections that do not name stages."""
+    root = xml.etree.ElementTree.parse(collection).getroot()
+    sets = [s for s in root.iter("DataSet") if s.get("name", "rock") == "rock"]
+    name = sets[index].get("group")
+    if not name or name == "start":
+        return "before the first stage" if name else None
+    last = max(i for i, s in enumerate(sets) if s.get("group") == name)
+    return ("after " if index % len(sets) == last else "in ") + name
+
+
+def kind_of_stage(collection, name):
+    """Kind of a stage by the used.prm beside a collection, or None."""
+    path = pathlib.Path(collection).parent / "used.prm"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return None
+    return {entry: value for entry, value, _ in entries_of(text)}.get(
+        f"Stages/{name}/Kind")
 
 
 def find_joints(collection, time):
@@ -153,10 +179,15 @@ def magnitudes_of(grid, field):
     return numpy.linalg.norm(values, axis=1) if values.ndim > 1 else values
 
 
+def finite(values):
+    """The values that are numbers; a block without a factor has none."""
+    return values[numpy.isfinite(values)]
+
+
 def unit_of(grid, field):
     """Name and size of the unit in which a field's values read well."""
     kind = field.split("_")[0]
-    largest = abs(magnitudes_of(grid, field)).max()
+    largest = abs(finite(magnitudes_of(grid, field))).max(initial=0.)
     for name, size in UNITS.get(kind, ()):
         if largest >= size:
             return name, 1. if name == "m" else size
@@ -170,17 +201,24 @@ def round_factor(value):
     return min(choices, key=lambda c: abs(math.log(c / max(value, 1.))))
 
 
-def choose_exaggeration(grid, view):
-    """The factor asked for, or one that makes the displacement visible."""
+def choose_exaggeration(grid, view, shown=None):
+    """The factor asked for, or one that makes the displacement visible.
+
+    The largest displacement of what is shown (grids, all without) becomes 6 % of
+    the size of that: what is small in a large model is not turned inside out."""
     if view.exaggeration > 0.:
         return view.exaggeration
-    points = vtk_to_numpy(grid.GetPoints().GetData())
-    lengths = numpy.ptp(points, axis=0)
+    shown = shown or [grid]
+    places = numpy.vstack([vtk_to_numpy(g.GetPoints().GetData())
+                           for g in shown])
+    lengths = numpy.ptp(places, axis=0)
     if view.box:
         n = len(view.box) // 2
         lengths = numpy.subtract(view.box[n:], view.box[:n])
-    largest = abs(values_of(grid, "displacement")).max()
-    return round_factor(0.06 * max(lengths) / largest) if largest > 0. else 1.
+    largest = max(numpy.linalg.norm(values_of(g, "displacement"), axis=1).max()
+                  for g in shown)
+    return (round_factor(min(0.06 * max(lengths) / largest, MOST_TIMES))
+            if largest > 0. else 1.)
 
 
 def move_points(grid, factor, view):

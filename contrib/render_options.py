@@ -84,7 +84,8 @@ def read_arguments(description):
                         "stress_major, stress_minor; joint_state")
     parser.add_argument("--exaggeration", type=float, default=1.,
                         help="factor of the displacement (default 1; 0: such "
-                        "that the largest is 6 %% of the picture's size)")
+                        "that the largest is 6 %% of the size of what is shown, "
+                        "at most 1000)")
     parser.add_argument("--size", type=numbers, default=(1000, 800),
                         help="greatest width and height in pixels, at 100 dpi")
     parser.add_argument("--dpi", type=float, default=100.,

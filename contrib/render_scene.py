@@ -3,7 +3,7 @@
 import math
 
 import numpy
-from render_data import (corners_of_cells, merge_points, numpy_to_vtk,
+from render_data import (corners_of_cells, finite, merge_points, numpy_to_vtk,
                          outline_of, values_of, vtk_to_numpy)
 from render_files import need_display, save
 from vtkmodules import vtkRenderingFreeType  # noqa: F401, draws the text
@@ -19,6 +19,7 @@ from vtkmodules.vtkRenderingCore import (
 COLOURS = [(0.96, 0.96, 0.90), (0.74, 0.87, 0.75), (0.35, 0.71, 0.77),
            (0.20, 0.50, 0.74), (0.16, 0.36, 0.66)]
 BAR = 0.2  # share of the width for the colour bar or the legend
+NO_VALUE = (0.72, 0.72, 0.72)
 MOST_LABELS = 30  # of more blocks only those that are exposed have numbers
 
 
@@ -34,7 +35,11 @@ def make_colours(values, is_magnitude, view):
     if view.field == "joint_state":
         colours.AddRGBPoint(0., 0.90, 0.89, 0.84)
         return colours
-    low, high = 0. if is_magnitude else values.min(), values.max()
+    values = finite(values)  # blocks without a factor are grey
+    colours.SetNanColor(*NO_VALUE)
+    low = 0. if is_magnitude else values.min(initial=numpy.inf)
+    high = values.max(initial=-numpy.inf)
+    low = low if numpy.isfinite(low) else 0.
     high = high if high > low else low + 1.
     for i, colour in enumerate(COLOURS):
         share = i / (len(COLOURS) - 1)
@@ -107,9 +112,10 @@ def make_legend(entries, size):
     return texts
 
 
-def make_bar(colours, title, size):
-    """Colour bar on the right and its title."""
+def make_bar(colours, title, size, n_above=0):
+    """Colour bar on the right and its title, below entries of a legend."""
     line = type_size(size)
+    above = (1.9 * n_above + 1.) * line if n_above else 0.
     bar = vtkScalarBarActor()
     bar.SetLookupTable(colours)
     bar.SetNumberOfLabels(5)
@@ -117,11 +123,11 @@ def make_bar(colours, title, size):
     bar.UnconstrainedFontSizeOn()
     bar.SetPosition(1. - 0.9 * BAR, 2. * line / size[1])
     bar.SetWidth(0.08)
-    bar.SetHeight(1. - 6.5 * line / size[1])
+    bar.SetHeight(1. - (6.5 * line + above) / size[1])
     style(bar.GetLabelTextProperty(), line)
     name = vtkTextActor()
     name.SetInput(title.replace(" [", "\n["))
-    name.SetPosition((1. - 0.95 * BAR) * size[0], size[1] - 3.2 * line)
+    name.SetPosition((1. - 0.95 * BAR) * size[0], size[1] - 3.2 * line - above)
     style(name.GetTextProperty(), line)
     return [bar, name]
 
@@ -300,7 +306,9 @@ def write_picture(actors, make_texts, places, view, path, inside=None):
     for text in make_texts((width, height)):
         sheet.AddActor2D(text)
     renderer.ResetCameraClippingRange()
-    if view.has_depth():  # of transparent things the nearer over the farther
+    is_seen_through = view.field == "joint_state" and not is_flat
+    # of transparent things the nearer over the farther
+    if view.has_depth() or is_seen_through:
         renderer.SetUseDepthPeelingForVolumes(False)
         renderer.UseDepthPeelingOn()
         renderer.SetMaximumNumberOfPeels(12)

@@ -53,11 +53,11 @@ def read(name, states):
     return PVDReader(registrationName=name, FileName=path)
 
 
-def show(source, array, component=None, title=None, **settings):
-    """The source with its colours and their bar."""
+def show(source, where, array, component=None, title=None, **settings):
+    """The source with its colours, by an array at POINTS or CELLS, and their bar."""
     shown = Show(source, view)
-    ColorBy(shown, ("POINTS", array, component) if component
-            else ("POINTS", array))
+    ColorBy(shown, (where, array, component) if component
+            else (where, array))
     shown.RescaleTransferFunctionToDataRange(True)
     shown.SetScalarBarVisibility(view, title is not None)
     if title:
@@ -78,16 +78,17 @@ scene = GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
 scene.GoToLast()
 moved = WarpByVector(registrationName="displaced rock", Input=rock)
-moved.Vectors = ["POINTS", "displacement"]
+moved.Vectors = ["POINTS", "displacement (m)"]
 Hide(rock, view)
-show(moved, "displacement", "Magnitude", "displacement (m)",
+show(moved, "POINTS", "displacement (m)", "Magnitude", "displacement (m)",
      Representation="Surface With Edges" if IS_PLANE else "Surface",
      Opacity=1.0 if IS_PLANE or not joints else 0.5)
 if joints:
-    show(joints, "pressure", title="pressure on joints (Pa)",
+    show(joints, "POINTS", "pressure (Pa)", title="pressure on joints (Pa)",
          LineWidth=4.0)
 if bolts:
-    show(bolts, "axial_force", title="force of bolts (N)", LineWidth=4.0)
+    show(bolts, "CELLS", "axial force (N)", title="force of bolts (N)",
+         LineWidth=4.0)
 if IS_PLANE:
     view.InteractionMode = "2D"
     view.CameraParallelProjection = 1

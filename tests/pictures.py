@@ -7,6 +7,8 @@ usage: pictures.py KEYBLOCK CONTRIB PRM FOLDER CASE
 network: maps of a plane scene with hundreds of joints have a legend by set and
 numbers of exposed blocks only; SVG and PDF are what they say.
 solid: in 3D there is a picture of each part, cut, inside, and of joint states.
+curves: blocks of monitors, lines of many blocks, states by the names of stages,
+fields without values, exaggeration by what is shown.
 stl: surfaces of blocks are closed, outward, and hold the volume of summary.json.
 missing: without a display, VTK, Matplotlib or numpy there is one sentence and exit
 code 1.
@@ -31,6 +33,11 @@ SCENES = {
         "Joint sets/west/Radius law=constant", "Joint sets/east/Radius mean=4",
         "Joint sets/west/Radius mean=4", "Stages/heading/Maximum steps=100",
         "Stages/bench/Maximum steps=100", "Output/Write VTU=true"]),
+    "curves": ("verification/bolted_incline", [
+        "Output/Write VTU=true", "Monitors/Names=one,place,other",
+        "Monitors/one/Kind=block", "Monitors/one/Block=1",
+        "Monitors/one/Location=1e3,1e3", "Monitors/place/Kind=point",
+        "Monitors/other/Kind=point", "Monitors/other/Location=1,0"]),
     "": ("study/powerhouse_3d", [
         "Safety factor/Blocks=none", "Output/Write VTU=true",
         "Mesh/Size at excavation=14", "Mesh/Size=60", *STEPS])}
@@ -104,12 +111,15 @@ def check_network():
     assert all(abs(2 * a - b) <= 2 for a, b in zip(sizes[50], sizes[100])), sizes
 
 
-def colours_of(path):
-    """How many pixels a PNG file has of each colour, by Pillow."""
+def colours_of(path, begin=0.):
+    """How many pixels a PNG file has of each colour, by Pillow.
+
+    Of what is on the right of a share of its width."""
     text = subprocess.run(
         [PYTHON, "-c", "import sys, PIL.Image as i; p = i.open(sys.argv[1])."
-         "convert('RGB'); print(p.size[0], p.size[1]); "
-         "[print(n, *c) for n, c in p.getcolors(10**7)]", path],
+         "convert('RGB'); w, h = p.size; p = p.crop((int(w * float("
+         "sys.argv[2])), 0, w, h)); print(p.size[0], p.size[1]); "
+         "[print(n, *c) for n, c in p.getcolors(10**7)]", path, str(begin)],
         capture_output=True, text=True, check=True).stdout
     size, *rows = [tuple(map(int, line.split())) for line in text.splitlines()]
     return size, {row[1:]: row[0] for row in rows}
@@ -125,6 +135,8 @@ def check_solid():
                 "--inside", "--parts", "tunnel,blocks"),
             "joints": ("--parts", "blocks,joints", "--field", "block"),
             "major": ("--field", "stress_major", "--cut", "y"),
+            "both": ("--field", "stress_xy", "--parts", "rock,joints"),
+            "states_inside": ("--field", "joint_state", "--inside"),
             "states": ("--field", "joint_state", "--parts", "blocks")}.items():
         path = FOLDER / f"{name}.png"
         call(*DISPLAY, CONTRIB / "render.py", folder / "solution.pvd", path,
@@ -136,6 +148,15 @@ def check_solid():
     assert seen["cut"] != seen["rock"] and seen["inside"] != seen["tunnel"]
     assert any(abs(r - 33) < 9 and abs(g - 135) < 9 and abs(b - 230) < 9
                for r, g, b in seen["states"]), "no joint that sticks"
+    # the legend of joints, and the bar from pale to blue
+    side = colours_of(FOLDER / "both.png", 0.8)[1]
+    for colour in ((51, 33, 135), (204, 102, 120), (41, 92, 168)):
+        assert any(max(abs(a - b) for a, b in zip(colour, one)) < 12
+                   for one in side), (colour, side)
+    # through the walls of what is dug joints are seen
+    blue = [one for one in colours_of(FOLDER / "states_inside.png")[1]
+            if one[2] > one[0] + 40]
+    assert len(blue) > 20, blue
     for ending, begin in ((".pdf", b"%PDF-1"), (".svg", b"<svg ")):
         path = FOLDER / f"blocks{ending}"
         call(*DISPLAY, CONTRIB / "render.py", folder / "solution.pvd", path,
@@ -163,6 +184,79 @@ def volume_of(path):
     for (a, b), count in edges.items():
         assert count == 1 and edges.get((b, a)) == 1, (path, a, b)
     return volume
+
+
+# what needs neither a display nor a run
+PARTS = """
+import sys
+sys.path.insert(0, sys.argv[1])
+import types
+import numpy
+import figures_style
+import render_data
+import render_scene
+from render_options import View
+view = View(field="safety factor", exaggeration=0.)
+colours = render_scene.make_colours(numpy.array([numpy.nan, 2., 3., numpy.inf]),
+                                    False, view)
+assert colours.GetRange() == (2., 3.), colours.GetRange()
+assert len(set(colours.GetNanColor())) == 1, colours.GetNanColor()
+colours = render_scene.make_colours(numpy.array([numpy.nan]), False, view)
+assert numpy.isfinite(colours.GetRange()).all(), colours.GetRange()
+
+def grid(size, moved):
+    corners = size * numpy.array([[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.],
+                                   [0., 1., 0.]]])
+    return render_data.make_grid(corners, {
+        "displacement": numpy.full((1, 4, 3), moved)})
+
+large, small = grid(1000., 1e-3), grid(10., 5e-3)
+assert render_data.choose_exaggeration(large, view, [small]) == 50.
+assert render_data.choose_exaggeration(grid(10., 1e-9), view) == 1000.
+run = types.SimpleNamespace(named_blocks=lambda: list(range(1, 13)))
+looks = {(figures_style.block_colour(run, n), bool(figures_style.block_line(
+    run, n))) for n in run.named_blocks()}
+assert len(looks) == 12, looks
+"""
+
+# a run whose states have all the same time, as stages are static
+STATES = """
+import sys
+sys.path.insert(0, sys.argv[1])
+import figures_run
+import render
+run = figures_run.Run(sys.argv[2])
+assert len(run.stages) == 1 and run.state_of_stage(0) == len(run.states) - 1
+assert run.block_at("one") == 1
+collection = sys.argv[2] + "/solution.pvd"
+said = [render.when(collection, 242.4, render.View(time_index=k))
+        for k in (0, -1)]
+assert said == ["before the first stage", "after rest"], said
+"""
+
+
+def check_curves():
+    """Curves of monitors; what pictures take from fields and stages."""
+    folder, _ = run_scene()
+    call(PYTHON, "-c", PARTS, CONTRIB)
+    call(CONTRIB / "figures.py", folder, "--to", FOLDER, "--format", "svg")
+    text = (FOLDER / "displacements.svg").read_text()
+    for label in ("block 1 (one)", "point place", "point other"):
+        assert f">{label}</text>" in text, label
+    colours = re.findall(r"stroke: (#\w+); stroke-width: 1.5", text)
+    assert len(set(colours)) >= 3, colours
+    for path in FOLDER.glob("*.svg"):  # nothing is cut off
+        text = path.read_text()
+        *_, wide, high = map(float, re.search(r'viewBox="([^"]*)"',
+                                              text)[1].split())
+        places = re.findall(r'<text[^>]*translate\(([-\d.]+) ([-\d.]+)\)',
+                            text)
+        assert all(0. < float(x) < wide and 0. < float(y) < high
+                   for x, y in places), path
+    path = folder / "solution.pvd"
+    path.write_text(re.sub(r'timestep="[^"]*"', 'timestep="0"',
+                           path.read_text()))
+    call(PYTHON, "-c", STATES, CONTRIB, folder)
 
 
 def check_stl():
@@ -216,7 +310,8 @@ def check_missing():
 
 shutil.rmtree(FOLDER, ignore_errors=True)
 FOLDER.mkdir(parents=True)
-needed = {"network": ["vtkmodules", "matplotlib"], "stl": ["numpy"],
+needed = {"network": ["vtkmodules", "matplotlib"],
+          "curves": ["vtkmodules", "matplotlib", "PIL"], "stl": ["numpy"],
           "missing": ["vtkmodules", "matplotlib"]}.get(CASE, [
               "vtkmodules", "matplotlib", "PIL"])
 lacking = [module for module in needed if not has(module)]
@@ -226,4 +321,5 @@ if lacking:
     print(f"skipped: {PYTHON} lacks {', '.join(lacking)}")
     sys.exit(77)
 {"network": check_network, "solid": check_solid, "stl": check_stl,
+ "curves": check_curves,
  "missing": check_missing}[CASE]()

@@ -12,29 +12,59 @@ import sys
 
 KEYBLOCK, ROOT, FOLDER = (pathlib.Path(a).absolute() for a in sys.argv[1:4])
 RUN, BIN = FOLDER / "two words", FOLDER / "bin"
+MODULES = os.pathsep.join([str(FOLDER / "modules"), str(ROOT / "tests")])
 
-# a ParaView that looks whether files are there, and says what it is asked for
+# a ParaView that reads the files, says what it is asked for, and knows no array
+# that they have not got
 SIMPLE = '''
 import pathlib
 import xml.etree.ElementTree
 from unittest.mock import MagicMock
+from vtu_reader import Grid
+
+class Source:
+    def __init__(self, grids):
+        self.grids = grids
+
+    def need(self, where, name, component=None):
+        for grid in self.grids:
+            arrays = {"POINTS": grid.at_points, "CELLS": grid.at_cells}[where]
+            assert name in arrays, f"no {name} at {where}: {list(arrays)}"
+            is_vector = any(isinstance(v, tuple) for v in arrays[name][:1])
+            assert is_vector == bool(component) or not arrays[name], name
+
+class Warped(Source):
+    def __setattr__(self, name, value):
+        if name == "Vectors":
+            self.need(*value, "Magnitude")
+        super().__setattr__(name, value)
+
+class Shown(MagicMock):
+    pass
 
 def PVDReader(registrationName, FileName):
     root = xml.etree.ElementTree.parse(FileName).getroot()
-    for entry in root.iter("DataSet"):
-        assert pathlib.Path(entry.get("file")).exists(), entry.get("file")
-    print(registrationName, len(list(root.iter("DataSet"))))
-    return MagicMock()
+    files = [pathlib.Path(e.get("file")) for e in root.iter("DataSet")]
+    print(registrationName, len(files))
+    return Source([Grid(file) for file in files])
+
+def WarpByVector(registrationName, Input):
+    return Warped(Input.grids)
+
+def Show(source, view):
+    shown = Shown()
+    shown.source = source
+    return shown
 
 def SaveScreenshot(path, view):
     pathlib.Path(path).write_text("a picture")
 
 def ColorBy(shown, value):
+    shown.source.need(*value)
     print(*value)
 
 for name in ("GetActiveViewOrCreate", "GetAnimationScene", "GetScalarBar",
-             "GetColorTransferFunction", "Hide", "Render", "Show",
-             "WarpByVector"):
+             "GetColorTransferFunction", "Hide", "Render"):
     globals()[name] = MagicMock()
 '''
 PROGRAMS = {
@@ -53,7 +83,7 @@ def view(*arguments, programs=(), display=""):
         (BIN / name).chmod(0o755)
     for name in ("env", "sh", "python3"):  # and no ParaView of this machine
         (BIN / name).symlink_to(f"/usr/bin/{name}")
-    environment = {"PATH": str(BIN), "PYTHONPATH": str(FOLDER / "modules")}
+    environment = {"PATH": str(BIN), "PYTHONPATH": MODULES}
     if display:
         environment["DISPLAY"] = display
     done = subprocess.run(
@@ -84,7 +114,8 @@ def draws():
     assert code == 0 and picture.exists(), errors
     states = len(list(RUN.glob("rock_*.vtu")))
     for words in ("xvfb-run", f"rock {states}", f"joints {states}",
-                  "POINTS displacement Magnitude", "POINTS pressure"):
+                  "POINTS displacement (m) Magnitude",
+                  "POINTS pressure (Pa)"):
         assert words in output, f"{words} is not in {output}"
     assert "bolts" not in output
     code, output, errors = view(str(RUN), "--picture", str(picture))
@@ -97,7 +128,7 @@ def draws_bolts():
         str(FOLDER / "bolts"), "--picture", str(FOLDER / "bolts.png"),
         programs=["pvpython"], display=":7")
     assert code == 0, errors
-    assert "POINTS axial_force" in output and "xvfb-run" not in output, output
+    assert "CELLS axial force (N)" in output and "xvfb-run" not in output, output
 
 
 def moves_along():
@@ -108,7 +139,7 @@ def moves_along():
         subprocess.run(
             ["/usr/bin/python3", str(FOLDER / "moved" / "view.py")], check=True,
             stdout=subprocess.DEVNULL,
-            env={"PYTHONPATH": str(FOLDER / "modules"), "PATH": os.defpath})
+            env={"PYTHONPATH": MODULES, "PATH": os.defpath})
     finally:
         shutil.move(FOLDER / "away", RUN)
 

@@ -1,10 +1,31 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Makes the report of a run: reads first, writes last."""
+"""Makes the report of a run: reads first, writes last.
+
+A part that fails is left out, and the report says so: the rest is still worth
+reading."""
 import warnings
 
 from . import page, pictures, plots, style, tables, view
 from .geometry import Geometry
 from .reading import ReportError, Run
+
+
+class Attempts:
+    """Makes parts of a report, and keeps a sentence for each that fails."""
+
+    def __init__(self):
+        self.lost = []
+
+    def __call__(self, name, otherwise, make, *arguments):
+        """What a function makes of its arguments; `otherwise` if it fails."""
+        try:
+            return make(*arguments)
+        except Exception as error:  # whatever it is, the rest is made
+            self.lost.append(
+                f"This report has no {name}, as making that failed "
+                f"({type(error).__name__}: {error}); please report it with "
+                "summary.json.")
+            return otherwise
 
 
 def read_geometry(run):
@@ -17,41 +38,47 @@ def read_geometry(run):
                       f"There are no pictures: {text}")
 
 
-def make_parts(run, geometry, rows, why):
+def make_parts(run, geometry, rows, why, attempt):
     """Figures, pictures and view, as far as they can be made."""
     parts = {"view": None, "pictures": [], "why": why, "factors": (None, ""),
              "legend": [], "net": None, "energy": None}
     if geometry is not None:
-        parts["view"] = view.pack(geometry, rows)
+        parts["view"] = attempt("view", None, view.pack, geometry, rows)
     if not style.pyplot:
         parts["why"] = " ".join((why, style.WHY_NOT)).strip()
         return parts
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of Matplotlib's layout
         if geometry is not None:
-            parts["pictures"] = list(pictures.draw_stages(geometry, rows))
-            parts["legend"] = pictures.legend(geometry, rows)
-        parts["factors"] = plots.factors(run, rows)
-        parts["net"] = (plots.rose if run.is_plane else plots.stereonet)(
-            run) or ""
-        parts["energy"] = plots.energies(run)
+            parts["pictures"] = attempt(
+                "pictures of stages", [],
+                lambda: list(pictures.draw_stages(geometry, rows)))
+            parts["legend"] = attempt("legend of pictures", [],
+                                      pictures.legend, geometry, rows)
+        parts["factors"] = attempt("figure of factors", (None, ""),
+                                   plots.factors, run, rows)
+        parts["net"] = attempt(
+            "figure of the joints' orientations", None,
+            plots.rose if run.is_plane else plots.stereonet, run) or ""
+        parts["energy"] = attempt("figure of energies", None, plots.energies,
+                                  run)
     return parts
 
 
 def report(folder, path):
     """Write the report of a folder; lines that say what was written."""
-    run = Run(folder)
-    geometry, why = read_geometry(run)
-    rows = tables.block_rows(run, geometry)
+    run, attempt = Run(folder), Attempts()
+    geometry, why = attempt("pictures", (None, ""), read_geometry, run)
+    rows = attempt("blocks", [], tables.block_rows, run, geometry)
     # these the program has written; of older runs there are none
     csvs = {name: (run.folder / name).read_bytes().decode("utf-8")
             for name in ("blocks.csv", "factors.csv")
             if (run.folder / name).exists()}
-    csvs["stages.csv"] = tables.stages_csv(run)
+    csvs["stages.csv"] = attempt("stages.csv", "", tables.stages_csv, run)
     if run.summary.get("bolts"):
-        csvs["bolts.csv"] = tables.bolts_csv(run)
-    parts = make_parts(run, geometry, rows, why)
-    text = page.write_page(run, rows, parts, csvs)
+        csvs["bolts.csv"] = attempt("bolts.csv", "", tables.bolts_csv, run)
+    parts = make_parts(run, geometry, rows, why, attempt)
+    text = page.write_page(run, rows, parts, csvs, attempt)
     lines = [parts["why"]] if parts["why"] else []
     files = {path: text, **{path.parent / name: table
                             for name, table in csvs.items()}}
@@ -62,4 +89,4 @@ def report(folder, path):
             raise ReportError(f"'{file}' cannot be written: "
                               f"{error.strerror}.") from None
         lines.append(f"{file}  {file.stat().st_size / 1000:.0f} kB")
-    return lines
+    return lines + attempt.lost

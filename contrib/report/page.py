@@ -6,17 +6,46 @@ import time
 from .html import download, escape, facts, seconds, source
 from .page_blocks import blocks_section, factors_section
 from .page_stages import energy_section, joints_section, stages_section
-from .page_support import bolts_section
+from .page_support import bolts_section, shotcrete_section
 from .page_view import view_section
 from .tables import warnings_of
 from .words import number
+
+
+def title_of(run):
+    """The title of the scene, or its name."""
+    return run.scene("title") or pathlib.Path(run.scene("name", "run")).stem
+
+
+def named(numbers):
+    """Blocks by their numbers."""
+    return ", ".join(f"block {n}" for n in numbers[:30]) + (
+        " …" if len(numbers) > 30 else "")
+
+
+def further_verdict(rows):
+    """Blocks that still move, and those that something but joints holds."""
+    text = ""
+    moving = [row["block"] for row in rows if row["state"] == "moves"]
+    if moving:
+        text += (" Still moving at the end of the last stage: "
+                 f"{named(moving)}.")
+    held = {}
+    for row in rows:
+        if row["held_by"]:
+            held.setdefault(row["held_by"], []).append(row["block"])
+    for what, numbers in held.items():
+        text += (f" {named(numbers).capitalize()} "
+                 f"{'are' if len(numbers) > 1 else 'is'} held by {what} alone: "
+                 "without in-situ stress, as rigid blocks, factors are below "
+                 "1.")
+    return text
 
 
 def head(run, rows):
     """Title, what was run by what, and how it went."""
     summary = run.summary
     program, facts_of_run = summary.get("program", {}), summary.get("run", {})
-    title = run.scene("title") or pathlib.Path(run.scene("name", "run")).stem
     exposed = sum(row["exposed"] for row in rows)
     failed = [row["block"] for row in rows if row["state"] == "fails"]
     verdict = (f"{len(rows)} finite block{'s' if len(rows) != 1 else ''}, "
@@ -24,12 +53,12 @@ def head(run, rows):
     if failed:
         verdict += ("Failed in a stage, fall freely, or have a factor below "
                     "1: "
-                    + ", ".join(f"block {n}" for n in failed[:30])
-                    + (" …" if len(failed) > 30 else "") + ".")
+                    + named(failed) + ".")
     elif any(row["factor"] for row in rows):
         verdict += "None has failed or has a factor below 1."
     elif rows:
         verdict += "No safety factors were looked for."
+    verdict += further_verdict(rows)
     versions = f"keyblock {program.get('version', '')}".strip()
     if program.get("commit"):
         versions += f", commit {program['commit']}"
@@ -55,8 +84,7 @@ def head(run, rows):
                      f"{number(way.get('percentile_99'), 3)} m")
     seeds = ", ".join(f"{name} {seed}" for name, seed in
                       (run.scene("seeds", {}) or {}).items())
-    warnings = warnings_of(run)
-    text = (f"<h1>{escape(title)}</h1><p>{escape(verdict)}</p>"
+    return (f"<h1>{escape(title_of(run))}</h1><p>{escape(verdict)}</p>"
             + facts([
                 ("scene", escape(run.scene("name"))),
                 ("folder", escape(run.folder.resolve().name)),
@@ -73,11 +101,15 @@ def head(run, rows):
                     + ("s" if program.get("ranks", 1) != 1 else ""),
                     f"wall time {seconds(facts_of_run.get('wall_time'))}"
                     if "wall_time" in facts_of_run else "") if t))]))
-    if warnings:
-        text += ('<div class="warnings"><b>What the run warns of</b><ul>'
-                 + "".join(f"<li>{escape(w)}</li>" for w in warnings)
-                 + "</ul></div>")
-    return title, text
+
+
+def warnings_box(title, warnings):
+    """Sentences in a box; nothing without any."""
+    if not warnings:
+        return ""
+    return (f'<div class="warnings"><b>{escape(title)}</b><ul>'
+            + "".join(f"<li>{escape(w)}</li>" for w in warnings)
+            + "</ul></div>")
 
 
 def settings_section(run):
@@ -116,30 +148,36 @@ def settings_section(run):
     return "\n".join(text)
 
 
-def write_page(run, rows, parts, csvs):
-    """The whole page as text."""
-    title, top = head(run, rows)
+def write_page(run, rows, parts, csvs, attempt):
+    """The whole page as text; sections that fail are left out."""
     links = {name: download(name, text) for name, text in csvs.items()}
+    files = ", ".join(links[name] for name in ("blocks.csv", "factors.csv")
+                      if name in links)
     sections = [
-        ("blocks", "blocks", blocks_section(
-            run, rows, bool(parts["view"]),
-            ", ".join(links[name] for name in ("blocks.csv", "factors.csv")
-                      if name in links))),
-        ("in-space", "view", view_section(run, parts["view"])),
-        ("factors", "factors", factors_section(run, rows, *parts["factors"])),
-        ("stages", "stages", stages_section(run, parts["pictures"],
-                                            parts["legend"], parts["why"],
-                                            links["stages.csv"])),
-        ("bolts", "bolts", bolts_section(run, links.get("bolts.csv"))),
-        ("joints", "joints", joints_section(run, parts["net"])),
-        ("energy", "energy", energy_section(run, parts["energy"])),
-        ("settings", "settings", settings_section(run))]
+        ("blocks", "blocks", blocks_section, rows, bool(parts["view"]), files),
+        ("in-space", "view", view_section, parts["view"]),
+        ("factors", "factors", factors_section, rows, *parts["factors"]),
+        ("stages", "stages", stages_section, parts["pictures"],
+         parts["legend"], parts["why"], links["stages.csv"]),
+        ("bolts", "bolts", bolts_section, links.get("bolts.csv")),
+        ("shotcrete", "shotcrete", shotcrete_section),
+        ("joints", "joints", joints_section, parts["net"]),
+        ("energy", "energy", energy_section, parts["energy"]),
+        ("settings", "settings", settings_section)]
+    made = [(key, name, attempt(f"section on {name}", "", make, run,
+                                *arguments))
+            for key, name, make, *arguments in sections]
+    top = attempt("head", f"<h1>{escape(title_of(run))}</h1>", head, run, rows)
+    warned = attempt("list of warnings", [], warnings_of, run)
     links = "".join(f'<a href="#{key}">{name}</a>' for key, name, text in
-                    sections if text)
-    body = "\n".join([top, f"<nav>{links}</nav>",
-                      *(text for *_, text in sections if text)])
+                    made if text)
+    body = "\n".join([top, warnings_box("What this report lacks",
+                                        attempt.lost),
+                      warnings_box("What the run warns of", warned),
+                      f"<nav>{links}</nav>",
+                      *(text for *_, text in made if text)])
     page = source("page.html")
-    for name, text in (("title", escape(title)), ("style", source("page.css")),
-                       ("body", body)):
+    for name, text in (("title", escape(title_of(run))),
+                       ("style", source("page.css")), ("body", body)):
         page = page.replace(f"@{name}@", text, 1)
     return page

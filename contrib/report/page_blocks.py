@@ -46,7 +46,15 @@ def block_columns(run):
         ("moved [mm]", True, lambda r: mm(r["displacement"])),
         ("failed in", False, lambda r: escape(
             f"{r['removed']}, taken away" if r["removed"] else
-            f"{r['moved_off']}, moved off" if r["moved_off"] else "–"))]
+            f"{r['moved_off']}, moved off" if r["moved_off"] else "–")),
+        ("moving at the end of", False,
+         lambda r: escape(r["moving"] or "–"))]
+
+
+def kind_of(name, is_number):
+    """The class of a cell: numbers, or sentences that need some room."""
+    return (" class=n" if is_number else
+            " class=broad" if name == "support it needs" else "")
 
 
 def table(columns, rows, has_view, hide=()):
@@ -58,8 +66,8 @@ def table(columns, rows, has_view, hide=()):
         for name, is_number, _ in columns)
         + "</tr></thead><tbody>"]
     for row in rows:
-        cells = "".join(f'<td{" class=n" if is_number else ""}>{text(row)}'
-                        "</td>" for _, is_number, text in columns)
+        cells = "".join(f'<td{kind_of(name, is_number)}>{text(row)}</td>'
+                        for name, is_number, text in columns)
         if has_view:
             cells = cells.replace("</td>", ' <button class="show">show'
                                   "</button></td>", 1)
@@ -84,15 +92,16 @@ def blocks_section(run, rows, has_view, files):
     columns = block_columns(run)
     empty = [name for name, _, text in columns
              if all(text(row) in ("–", "") for row in rows)]
-    shown = [r for r in rows if r["exposed"] or r["removed"] or r["moved_off"] or (
-        r["factor"] and r["factor"].get("outcome") == "value")]
+    shown = [r for r in rows if r["exposed"] or r["removed"] or r["moved_off"] or r[
+        "moving"] or (r["factor"] and r["factor"].get("outcome") == "value")]
     if not shown:
         shown = rows[:MOST_ROWS]
     ids = {r["block"] for r in shown}
     rest = [r for r in rows if r["block"] not in ids]
     text = ["<h2 id=blocks>Blocks, the most dangerous first</h2>",
             "<p>Exposed ones first, then those that failed, then by the least "
-            "factor, alone or of a group, of all stages. "
+            "factor, alone or of a group, of all stages; those that still move "
+            "at the end as if it were 1 at most. "
             + ("Click on a row to mark the block in the view below. "
                if has_view else "")
             + f"As tables: {files}.</p>",
@@ -122,7 +131,12 @@ def blocks_section(run, rows, has_view, files):
     if "support it needs" not in empty:
         notes.append("Support it needs: the least force against its free faces "
                      "with which limit equilibrium, without in-situ stress, "
-                     "has the wanted factor; also as bolts of each set.")
+                     "has the wanted factor; also as bolts of each set. Of "
+                     "all stages the largest is shown.")
+    if "moving at the end of" not in empty:
+        notes.append("Moving at the end of: the last stage that ended while "
+                     "the block still moved, by its remark; it may come to "
+                     "rest, where one that moved off has gone.")
     if any(not r["is_exact"] for r in rows):
         notes.append("* of the mesh, not exact.")
     if gravity_note(run):

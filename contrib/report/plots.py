@@ -6,7 +6,7 @@ import numpy
 
 from .style import (DASHES, GROUP_COLOURS, MARKERS, as_svg, beside,
                     new_figure, plain, pyplot)
-from .tables import STATES, size_alone
+from .tables import STATES, is_least, size_alone
 
 
 def project(trend, plunge):
@@ -150,13 +150,18 @@ def factor_curves(run, rows, most=10):
     return curves[:most], len(curves) - min(len(curves), most)
 
 
+def has_size(result):
+    """Whether a result has a place of its own on the axis of factors."""
+    return result.get("outcome") == "value" or is_least(result)
+
+
 def factors(run, rows):
     """Factors by stage with brackets; a figure and what it leaves out."""
     curves, left = factor_curves(run, rows)
     if not curves:
         return None, "No search has found a factor between two bounds."
-    values = [r["value"] for _, points in curves for _, r in points
-              if r.get("outcome") == "value"]
+    values = [size_alone(r) for _, points in curves for _, r in points
+              if has_size(r)]
     figure, axes = new_figure((9., 4.2))
     plain(axes)
     is_wide = max(values) > 6. * max(min(values), 1e-3)
@@ -167,16 +172,18 @@ def factors(run, rows):
         shift = 0.05 * (k - 0.5 * (len(curves) - 1))
         style = {"color": STATES[row["state"]][0] if len(curves) == 1 else
                  GROUP_COLOURS[k % 8], "marker": MARKERS[k % 8]}
-        known = [(s, r) for s, r in points if r.get("outcome") == "value"]
-        y = numpy.array([r["value"] for _, r in known])
-        bounds = numpy.array([[r["value"] - r["lower"],
-                               r["upper"] - r["value"]] for _, r in known])
-        axes.errorbar([s + shift for s, _ in known], y,
+        known = [(s, r) for s, r in points if has_size(r)]
+        y = numpy.array([size_alone(r) for _, r in known])
+        is_open = numpy.array([is_least(r) for _, r in known])
+        bounds = numpy.array([[v - r.get("lower", v), r.get("upper", v) - v]
+                              for v, (_, r) in zip(y, known)])
+        bounds[is_open, 1] = 0.06 * y[is_open]  # an arrow upwards
+        axes.errorbar([s + shift for s, _ in known], y, lolims=is_open,
                       yerr=numpy.maximum(bounds.T, 0.), capsize=3,
                       linestyle=DASHES[k % 8], label=f"block {row['block']}",
                       markersize=5, linewidth=1.4, **style)
         for s, r in points:
-            if r.get("outcome") != "value":
+            if not has_size(r):
                 up = size_alone(r) > 1.
                 axes.plot(s + shift, high if up else low,
                           "^" if up else "v", color=style["color"],
@@ -193,7 +200,7 @@ def factors(run, rows):
     if len("  ".join(run.stages)) > 75:
         axes.tick_params(axis="x", rotation=30)
     others = [size_alone(r) > 1. for _, p in curves for _, r in p
-              if r.get("outcome") != "value"]
+              if not has_size(r)]
     handles = list(axes.get_legend_handles_labels()[0])
     for is_high, marker, text in ((True, "^", "immovable or above\nthe highest "
                                    "tried"), (False, "v", "falls freely")):
@@ -202,6 +209,9 @@ def factors(run, rows):
     beside(axes, handles=handles)
     sentence = ("Bars are brackets: the factor lies between the greatest at "
                 "which the block held and the least at which it failed.")
+    if any(is_least(r) for _, points in curves for _, r in points):
+        sentence += (" Arrows: the factor is at least that, as no trial above "
+                     "it was made or failed.")
     if left:
         sentence += f" {left} more blocks are in factors.csv."
     return as_svg(figure, "Safety factors by stage"), sentence

@@ -9,7 +9,7 @@ import time
 
 import numpy
 
-from .run_files import entries_of, groups_of, states_of
+from .run_files import entries_of, groups_of, last_states, states_of
 
 MOST_STATES = 30  # a face says in one number in which of them it is seen
 
@@ -161,7 +161,12 @@ class Run:
         found = [("start", -1, *states[0][1:])]
         times = numpy.array([state[0] for state in states])
         ends, last = self.stage_ends("time"), 0
-        for k, name in enumerate(self.stages if ends else []):
+        by_name = last_states(self.folder / "solution.pvd")
+        for k, name in enumerate(self.stages if by_name or ends else []):
+            if by_name:
+                if name in by_name:
+                    found.append((name, k, *states[by_name[name]][1:]))
+                continue
             # times are written with six digits; static stages take none
             near = abs(times - ends[k]) <= 1e-5 * max(ends[-1], 1e-300)
             near[:last + 1] = False
@@ -193,10 +198,18 @@ class Run:
         """Blocks that moved off, by the remarks of stages, and the stage."""
         found = {}
         for stage in self.summary["stages"]:
-            for n in re.findall(r"block (\d+) (?:moved|is moving) off",
+            for n in re.findall(r"block (\d+) moved off",
                                 stage.get("remark", "")):
                 found.setdefault(int(n), stage["name"])
         return found
+
+    def moving(self):
+        """Blocks that still moved at the end of a stage, and the last such.
+
+        Not far: those that have gone are the ones that moved off."""
+        return {int(n): stage["name"] for stage in self.summary["stages"]
+                for n in re.findall(r"block (\d+) is moving off",
+                                    stage.get("remark", ""))}
 
     def joint_groups(self):
         """Names of sets, or of what joints share, and the group of each joint."""

@@ -37,6 +37,19 @@ def states_of(path):
             for when, kind, name in sets if kind == "rock"]
 
 
+def last_states(path):
+    """Index of the last state of each stage in a solution.pvd, by its name.
+
+    {} where it does not name stages, or cannot be read."""
+    try:
+        root = xml.etree.ElementTree.parse(path).getroot()
+    except (OSError, xml.etree.ElementTree.ParseError):
+        return {}
+    names = [s.get("group") for s in root.iter("DataSet")
+             if s.get("name") == "rock"]
+    return {name: k for k, name in enumerate(names) if name}
+
+
 def groups_of(joints):
     """Names of sets, or of what joints share, and the group of each joint.
 

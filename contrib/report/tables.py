@@ -10,8 +10,9 @@ from .words import demand_of, number
 # colour-blind people tell apart), what the legend says
 STATES = {
     "fails": ("#d55e00", "failed in a stage, falls freely, or factor below 1"),
+    "moves": ("#f0e442", "still moving at the end of the last stage"),
     "low": ("#e69f00", "factor 1 to 1.5"),
-    "holds": ("#56b4e9", "factor above 1.5"),
+    "holds": ("#56b4e9", "factor above 1.5, or 1.5 and more as wanted"),
     "firm": ("#009e73", "immovable, or above the highest factor tried"),
     "undecided": ("#cc79a7", "undecided"),
     "unknown": ("#999999", "no factor looked for")}
@@ -21,6 +22,9 @@ def in_words(result):
     """What a search for a factor has found, in words."""
     outcome = result.get("outcome", "")
     lower, upper = result.get("lower"), result.get("upper")
+    if is_least(result):
+        return outcome if outcome != "value" else (
+            f"at least {number(lower)}: no trial above it has failed")
     if outcome == "value":
         return (f"{number(result.get('value'))} "
                 f"[{number(lower)}, {number(upper)}]")
@@ -46,9 +50,20 @@ def size_of(result):
     return min(size_alone(result), group.get("value", math.inf))
 
 
+def is_least(result):
+    """Whether a search says no more than that the factor is at least "lower".
+
+    It ended at the factor that is wanted, or no trial above it has failed."""
+    outcome = result.get("outcome", "value")
+    return "lower" in result and (outcome.endswith(", as wanted") or (
+        outcome == "value" and "upper" not in result))
+
+
 def size_alone(result):
     """The same of the block alone."""
     outcome = result.get("outcome", "value")
+    if is_least(result):
+        return result["lower"]
     if outcome == "falls freely":
         return 0.
     if outcome == "immovable":
@@ -89,8 +104,22 @@ def is_held_by_clamping(factor, limit):
     return size_of(limit) < 1. <= factor.get("lower", size_of(factor))
 
 
-def state_of(has_failed, factor):
-    """Which of STATES a block is in."""
+def held_by(factor, limit):
+    """What holds a block that would fail as a rigid block without stress."""
+    if not is_held_by_clamping(factor, limit):
+        return None
+    what = factor.get("outcome", "").partition("held by ")[2]
+    return "stress" if what in ("", "clamping") else what
+
+
+def state_of(has_failed, factor, is_moving=False):
+    """Which of STATES a block is in; where it moves, only failure is worse."""
+    state = state_by_factor(has_failed, factor)
+    return "moves" if is_moving and state != "fails" else state
+
+
+def state_by_factor(has_failed, factor):
+    """Which of STATES a block is in by its factor."""
     if has_failed:
         return "fails"
     if factor is None:
@@ -99,9 +128,14 @@ def state_of(has_failed, factor):
     if outcome == "undecided":
         return "undecided"
     size = size_of(factor)
-    if (outcome == "immovable" or outcome.startswith("above")) and not (
-            factor.get("group")):
+    if factor.get("group"):
+        pass
+    elif outcome == "immovable" or (outcome.startswith("above")
+                                    and not is_least(factor)):
         return "firm"
+    elif is_least(factor):  # a value that is not known: by its lower bound
+        return ("holds" if size >= 1.5 else "low" if size >= 1. else
+                "undecided")
     return "fails" if size < 1. else "low" if size <= 1.5 else "holds"
 
 
@@ -114,7 +148,14 @@ def where_is(normal, down):
             "floor" if along < -math.sqrt(0.5) else "wall")
 
 
-def row_of(run, geometry, n, moved_off):
+def largest_demand(limits):
+    """The largest support that a stage asks for, with its name; or None."""
+    demands = [{**demand_of(limit), "stage": limit.get("stage")}
+               for limit in limits if demand_of(limit)]
+    return max(demands, key=lambda d: d.get("force", math.inf), default=None)
+
+
+def row_of(run, geometry, n, moved_off, moving):
     """What is known of a finite block, by column."""
     block = run.blocks[n]
     factors, limits = (block.get(key, []) for key in
@@ -137,14 +178,18 @@ def row_of(run, geometry, n, moved_off):
                                      worst["stage"]) if worst else
                             None) or {},
            "group": (worst or {}).get("group"),
-           "demand": demand_of(limit),
+           "demand": largest_demand(limits),
            "clamped": is_held_by_clamping(worst, limit),
+           "held_by": next((what for what in (
+               held_by(f, of_stage(limits, f.get("stage"))) for f in factors)
+               if what), None),
            "removed": block.get("removed_in_stage"),
-           "moved_off": moved_off.get(n),
+           "moved_off": moved_off.get(n), "moving": moving.get(n),
            "removable": block.get("removable"),
            "centroid": block.get("centroid"),
            "where": None, "free_area": None, "displacement": None}
-    row["state"] = state_of(row["removed"] or row["moved_off"], worst)
+    row["state"] = state_of(row["removed"] or row["moved_off"], worst,
+                            row["moving"] in run.stages[-1:])
     if geometry is not None:
         free = geometry.free_normal(n)
         if exposed is not None and free:
@@ -157,17 +202,21 @@ def row_of(run, geometry, n, moved_off):
 
 
 def danger(row):
-    """Sorting key: exposed first, then those that failed, then by factor."""
+    """Sorting key: exposed first, then those that failed, then by factor.
+
+    One that still moves is less dangerous than one with a factor below 1."""
     size = (-1. if row["removed"] or row["moved_off"] else size_of(row["factor"])
             if row["factor"] else size_of(row["limit"]) if row["limit"]
             else math.inf)
+    if row["state"] == "moves":
+        size = min(size, 1.)
     return not row["exposed"], size, -(row["volume"] or 0.), row["block"]
 
 
 def block_rows(run, geometry):
     """Finite blocks, the most dangerous first."""
-    moved_off = run.moved_off()
-    return sorted((row_of(run, geometry, n, moved_off)
+    moved_off, moving = run.moved_off(), run.moving()
+    return sorted((row_of(run, geometry, n, moved_off, moving)
                    for n in run.finite_blocks()), key=danger)
 
 
@@ -227,9 +276,29 @@ def few(names, most=6):
         f" and {len(names) - most} more" if len(names) > most else "")
 
 
+def per_metre(run):
+    """What follows amounts of plane scenes."""
+    return " per m" if run.is_plane else ""
+
+
 def warnings_of(run):
-    """What the files of the run say that its user should know."""
-    summary, found = run.summary, []
+    """What the files of the run say that its user should know.
+
+    First the warnings of the run as the screen had them."""
+    summary = run.summary
+    found = [str(warning) for warning in summary.get("warnings") or []]
+    for liner in summary.get("shotcrete") or []:
+        if liner.get("exceeded_area") and not any(
+                f"liner {liner['name']} are beyond" in text for text in found):
+            found.append(
+                f"Thrust and moment of liner {liner['name']} are beyond its "
+                f"strength on {number(liner['exceeded_area'])} of "
+                f"{number(liner.get('area'))} m²{per_metre(run)}, its factor "
+                f"is {number(liner.get('safety_factor'))}.")
+        if liner.get("sheared_length"):
+            found.append(f"Shotcrete {liner['name']} is sheared through on "
+                         f"{number(liner['sheared_length'])} m"
+                         f"{per_metre(run)} of joints.")
     for stage in summary["stages"]:
         if stage.get("converged") is False:
             found.append(f"Stage {stage['name']} did not converge: its "

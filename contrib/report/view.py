@@ -194,6 +194,7 @@ def describe(run, row):
             if factor else "",
             f"failed and taken away in {row['removed']}" if row["removed"]
             else f"moved off in {row['moved_off']}" if row["moved_off"]
+            else f"still moving at the end of {row['moving']}" if row["moving"]
             else "") if text]}
 
 

@@ -39,15 +39,28 @@ def demand_of(limit):
                                                "out of reach") else None
 
 
+def bolts_in_words(demand, is_plane):
+    """How many bolts of each set; in 2D in each ring, where that is known."""
+    per_metre = demand.get("bolts_per_metre")
+    for name, n in demand.get("bolts", {}).items():
+        if per_metre is None:
+            yield f"{n} bolts{' per metre' if is_plane else ''} of {name}"
+            continue
+        amount = (per_metre.get(name) if isinstance(per_metre, dict) else
+                  per_metre if len(demand["bolts"]) == 1 else None)
+        yield (f"{n} bolt{'s' if n != 1 else ''} of set '{name}' in each ring"
+               + (f" ({number(amount, 3)} per metre)" if amount else ""))
+
+
 def demand_in_words(demand, is_plane):
     """Support that is asked for, as people say it."""
     if not demand:
         return None
+    after = f" after {demand['stage']}" if demand.get("stage") else ""
     if "force" not in demand:
-        return f"no pressure is enough for {number(demand['factor'])}"
+        return f"no pressure is enough for {number(demand['factor'])}{after}"
     return " or ".join([
         f"{number(1e-3 * demand['force'])} kN{'/m' if is_plane else ''}, "
         f"{number(1e-3 * demand['pressure'])} kPa",
-        *(f"{n} bolts{' per metre' if is_plane else ''} of {name}"
-          for name, n in demand.get("bolts", {}).items())]) + (
-              f" for {number(demand['factor'])}")
+        *bolts_in_words(demand, is_plane)]) + (
+            f" for {number(demand['factor'])}{after}")

@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reports of what test scenes do not come to, by contrib/keyblock-report.
+
+usage: report_altered.py KEYBLOCK REPORT PRM FOLDER
+
+The summary.json of a run is changed: open brackets, blocks that move, support
+beyond its strength, parts that cannot be made, ...; the report has to say so.
+"""
+import html
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+KEYBLOCK, REPORT, PRM, FOLDER = sys.argv[1:5]
+FOLDER = pathlib.Path(FOLDER)
+
+
+def altered(change):
+    """What is said and the page, of a run with a summary.json that is changed."""
+    folder = FOLDER / "altered"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(FOLDER / "output", folder)
+    summary = json.loads((folder / "summary.json").read_text())
+    change(summary, next(b for b in summary["blocks"]
+                         if not {"infinite", "rigid"} & set(b["class"])))
+    (folder / "summary.json").write_text(json.dumps(summary))
+    path = FOLDER / "altered.html"
+    done = subprocess.run([REPORT, folder, "-o", path], capture_output=True,
+                          text=True)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    return done.stdout, path.read_text(encoding="utf-8")
+
+
+def row_of(page, block):
+    """The row of a block in the table of blocks."""
+    return re.search(rf'<tr data-block="{block}">(.*?)</tr>', page)[1]
+
+
+def set_factor(block, **changes):
+    """Give the last strength reduction of a block other results."""
+    factor = block["safety_factor"][-1]
+    for key in ("value", "lower", "upper", "group"):
+        factor.pop(key, None)
+    factor.update({"outcome": "value", **changes})
+
+
+def check_open():
+    """A bracket without an upper end: the factor is at least the lower."""
+    _, page = altered(lambda _, block: set_factor(
+        block, lower=1.25, value=0.625))
+    assert "at least 1.25" in row_of(page, 1), row_of(page, 1)
+    assert "This report has no" not in page and "Arrows: " in page
+
+
+def check_support():
+    """Warnings of the run, and shotcrete that bears more than it can."""
+    warning = "The mesh has moved faces of blocks <far> off."
+    liner = {"name": "crown", "stage": "dig", "area": 24.9,
+             "trace_length": 2., "shear_resistance": 3e5,
+             "largest_load_ratio": 0.99, "sheared_length": 0.}
+    bends = {**liner, "name": "shell", "largest_compression": 3.015e6,
+             "largest_tension": 0., "largest_moment": 5690.,
+             "largest_shear_force": 12600., "safety_factor": 0.959,
+             "governed_by": "compression", "place_of_least_factor": [-4., 2.],
+             "exceeded_area": 0.602}
+
+    def change(summary, _):
+        summary.update(warnings=[warning], shotcrete=[liner, bends])
+
+    page = altered(change)[1]
+    assert html.escape(warning) in page and "This report has no" not in page
+    section = re.search(r"<h2 id=shotcrete>.*?(?=<h2)", page, re.DOTALL)[0]
+    for text in ("<td>crown</td>", "<td class=n>300</td>",
+                 "<td class=n>3015</td>", "<td class=bad>0.959</td>",
+                 "<td class=bad>0.602</td>", "<td>-4, 2</td>"):
+        assert text in section, (text, section)
+    assert section.count("class=bad") == 2
+    assert "Thrust and moment of liner shell are beyond its strength" in page
+
+
+def check_moving():
+    """A block that moves has not failed, and one that moved off has."""
+    def change(remark, **factor):
+        def apply(summary, block):
+            summary["stages"][-1]["remark"] = remark
+            set_factor(block, **factor)
+        return apply
+
+    moves, gone = "block 1 is moving off (0.0006 m)", "block 1 moved off (2 m)"
+    wanted = {"outcome": "above 1.5, as wanted", "lower": 1.5}
+    for remark, factor, state, words in (
+            (moves, wanted, "moves", "Still moving at the end"),
+            (moves, {"value": 0.8, "lower": 0.79, "upper": 0.81}, "fails", ""),
+            (gone, wanted, "fails", "moved off</td>"),
+            ("", wanted, "holds", "None has failed"),
+            ("", {**wanted, "lower": 1.2}, "low", ""),
+            ("", {"outcome": "above 100, held by clamping", "lower": 100.},
+             "firm", ""), ("", {"outcome": "immovable"}, "firm", "")):
+        page = altered(change(remark, **factor))[1]
+        assert blocks_of(page)["1"]["state"] == state, (remark, factor)
+        assert words in page and "This report has no" not in page
+        assert ("Failed in a stage, fall" in page) == (state == "fails")
+
+
+def blocks_of(page):
+    """What the view says of blocks."""
+    return json.loads(re.search(r'id="view-meta">(.*?)</script>',
+                                page)[1])["blocks"]
+
+
+def check_held():
+    """A block below 1 by limit equilibrium that strength reduction holds."""
+    for held, words in (("clamping", "stress"), ("bolts and clamping", "")):
+        def change(_, block):
+            limit = block["limit_equilibrium"][-1]
+            limit.update(outcome="factor", value=0., mode="falling")
+            set_factor(block, outcome=f"above 100, held by {held}", lower=100.)
+
+        page = altered(change)[1]
+        assert f"Block 1 is held by {words or held} alone" in page
+
+
+def check_demand():
+    """The largest support of all stages; bolts in rings or per metre."""
+    for extra, words in (
+            ({}, "3 bolts per metre of roof"),
+            ({"bolts_per_metre": {"roof": 1.5}},
+             "3 bolts of set 'roof' in each ring (1.5 per metre)"),
+            ({"bolts_per_metre": 1.5},
+             "3 bolts of set 'roof' in each ring (1.5 per metre)")):
+        def change(summary, block):
+            one = block["limit_equilibrium"][-1]
+            demand = {"factor": 1.5, "outcome": "support", "force": 9e3,
+                      "pressure": 4e3, "bolts": {"roof": 3}, **extra}
+            block["limit_equilibrium"] = [
+                {**one, "stage": "early", "support_demand": demand},
+                {**one, "support_demand": {**demand, "force": 8e3}}]
+
+        row = html.unescape(row_of(altered(change)[1], 1))
+        assert f"9 kN/m, 4 kPa or {words} for 1.5 after early" in row, row
+
+
+def check_lost():
+    """A part that cannot be made is told; the rest and the tables are there."""
+    def change(summary, _):
+        del summary["bolts"][0]["head"]
+
+    text, page = altered(change)
+    assert "no bolts.csv, as" in text and "no section on bolts" in text, text
+    assert "What this report lacks" in page and 'id="view"' in page
+    assert "<h2 id=blocks>" in page and "<h2 id=bolts>" not in page
+
+
+def check_pipe():
+    """A reader that has gone away is no error."""
+    done = subprocess.run(
+        f'"{REPORT}" "{FOLDER}/output" -o "{FOLDER}/r.html" | true',
+        shell=True, capture_output=True, text=True)
+    assert done.stderr == "" and (FOLDER / "r.html").exists(), done.stderr
+
+
+def main():
+    """Exit with 1 at the first case that is not as it should be."""
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    FOLDER.mkdir(parents=True)
+    subprocess.run([KEYBLOCK, f"{PRM}/verification/bolted_incline.prm",
+                    "--output", FOLDER / "output", "--set",
+                    "Output/Write VTU=true"],
+                   check=True, stdout=subprocess.DEVNULL)
+    for case in (check_open, check_support, check_moving, check_held,
+                 check_demand, check_lost, check_pipe):
+        case()
+        print(f"{case.__name__}: as it should be")
+
+
+if __name__ == "__main__":
+    main()
