@@ -40,16 +40,10 @@ def demand_of(limit):
 
 
 def bolts_in_words(demand, is_plane):
-    """How many bolts of each set; in 2D in each ring, where that is known."""
-    per_metre = demand.get("bolts_per_metre")
+    """How many bolts of each set; in 2D in each ring along the tunnel."""
     for name, n in demand.get("bolts", {}).items():
-        if per_metre is None:
-            yield f"{n} bolts{' per metre' if is_plane else ''} of {name}"
-            continue
-        amount = (per_metre.get(name) if isinstance(per_metre, dict) else
-                  per_metre if len(demand["bolts"]) == 1 else None)
-        yield (f"{n} bolt{'s' if n != 1 else ''} of set '{name}' in each ring"
-               + (f" ({number(amount, 3)} per metre)" if amount else ""))
+        yield (f"{n} bolt{'s' if n != 1 else ''} of set '{name}'"
+               + (" in each ring" if is_plane else ""))
 
 
 def demand_in_words(demand, is_plane):
