@@ -116,7 +116,6 @@ namespace Keyblock
       item.declare(prm);
       prm.leave_subsection();
     }
-
   } // namespace
 
 
@@ -254,7 +253,7 @@ namespace Keyblock
     declare(*prm);
     text.parse(*prm, false);
     make_profiles();
-    complete_ground();
+    complete_ground(text);
     check_domain(*this);
     read_shape_files(communicator, *this);
     joints = make_joints(*this, read_names(names, "Joints"), text);
