@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What follows from the depth below the surface, where a scene leaves it open:
 // gravity, initial stress, rollers and overburden.
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/base/expression.h>
@@ -122,6 +123,39 @@ namespace Keyblock
       });
     }
 
+    /** Whether the initial stress has horizontal shear on the sides of a box,
+     * which only a hold along them bears. */
+    template <int dim>
+    bool
+    has_shear_beside(const Scene<dim> &scene)
+    {
+      constexpr double round_off = 1e-9;
+      if (dim == 2)
+        return false;
+      const InitialState<dim> &state = scene.initial_state;
+      if (!state.measured_points.empty())
+        return std::find(state.stress_fields.begin(),
+                         state.stress_fields.end(),
+                         "shear xy") != state.stress_fields.end();
+      if (state.stress.empty())
+        {
+          const double turn =
+            2. * state.lateral_azimuth * dealii::numbers::PI / 180.;
+          const double along  = state.lateral_ratios.front();
+          const double across = state.lateral_ratios.back();
+          return std::abs((along - across) * std::sin(turn)) >
+                 round_off * std::max(std::abs(along), std::abs(across));
+        }
+      const Expression<dim> stress(state.stress, 6, "Initial state/Stress");
+      for (const char *side : {"left", "right", "front", "back"})
+        for (const Point<dim> &place : places_on(scene.domain, side))
+          if (std::abs(stress.value(place, 0., 5)) >
+              round_off * std::max(std::abs(stress.value(place, 0., 0)),
+                                   std::abs(stress.value(place, 0., 1))))
+            return true;
+      return false;
+    }
+
     /** Put in the entries of the initial stress that @p text does not give. */
     template <int dim>
     void
@@ -161,7 +195,9 @@ namespace Keyblock
         {
           auto support        = std::make_unique<Support<dim>>();
           support->name       = is_bottom ? "ground below" : "ground beside";
-          support->directions = SupportDirections::normal;
+          support->directions = !is_bottom && has_shear_beside(scene)
+                                  ? SupportDirections::xy
+                                  : SupportDirections::normal;
           for (const std::string &side : free)
             if ((side == "bottom") == is_bottom)
               support->boundaries.push_back(side);

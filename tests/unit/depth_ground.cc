@@ -171,3 +171,25 @@ BOOST_AUTO_TEST_CASE(ground_holds_sides_without_a_support)
   BOOST_TEST(names_of(scene->supports) ==
              "ground beside, ground below, ground beside 2");
 }
+
+BOOST_AUTO_TEST_CASE(ground_holds_shear_along_the_sides)
+{
+  const auto directions = [](const std::vector<std::string> &overrides) {
+    return read<3>("", overrides)->supports.at(1)->directions;
+  };
+  using D = SupportDirections;
+  BOOST_TEST((directions({"Ground/K0=2, 1", "Ground/Azimuth=45"}) == D::xy));
+  BOOST_TEST((directions({"Ground/K0=2, 1", "Ground/Azimuth=181"}) == D::xy));
+  for (const char *azimuth : {"0", "90", "180", "270", "360"})
+    BOOST_TEST(
+      (directions({"Ground/K0=2, 1",
+                   std::string("Ground/Azimuth=") + azimuth}) == D::normal));
+  BOOST_TEST((directions({"Ground/K0=2", "Ground/Azimuth=45"}) == D::normal));
+  BOOST_TEST((directions({"Ground/K0=2, 1",
+                          "Ground/Azimuth=45",
+                          "Initial state/Lateral azimuth=90"}) == D::normal));
+  BOOST_TEST((
+    directions({"Initial state/Stress=-1e6; -1e6; -1e6; 0; 0; 1e5"}) == D::xy));
+  BOOST_TEST((directions({"Initial state/Stress=-1e6; -1e6; -1e6; 0; 0; 0"}) ==
+              D::normal));
+}
