@@ -2,6 +2,7 @@
 // Entries that would have no effect beside others are refused.
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
+#include <keyblock/scene/entries.h>
 #include <keyblock/scene/idle_entries.h>
 
 #include <boost/algorithm/string.hpp>
@@ -187,6 +188,41 @@ namespace Keyblock
                                      "plane.");
   }
 
+
+
+  void
+  refuse_idle_overrides(const SceneText &text, const bool has_depth)
+  {
+    const std::string why    = " ('Joints/Resolved' is true, as in used.prm); ";
+    const std::string remedy = "run the original scene.";
+    for (const SceneText::Override &entry : text.overrides)
+      {
+        const std::string path =
+          entry.assignment.substr(0, entry.assignment.find('='));
+        const std::string what = "The override --set \"" + entry.assignment +
+                                 "\" would have no effect: ";
+        const auto slash = path.find('/'), last = path.rfind('/');
+        const std::string item =
+          slash < last ? path.substr(slash + 1, last - slash - 1) : "";
+        require(!boost::starts_with(path, "Joint sets/"),
+                what + "the joints of the sets are already made in this scene" +
+                  why +
+                  (!item.empty() && is_strength(last_of(path))
+                     ? "set 'Joints/" + item + "/" + last_of(path) +
+                         "' for those of the set, or " + remedy
+                     : remedy));
+        require(path != "Joints/File",
+                what + "all joints are already written out in this scene" +
+                  why + remedy);
+        require(!has_depth || !boost::starts_with(path, "Ground/"),
+                what +
+                  "what follows from it is already written out in this scene" +
+                  why +
+                  "set the entries of 'Initial state', 'Supports' and "
+                  "'Tractions' themselves, or " +
+                  remedy);
+      }
+  }
 
   template void settle_plane(Joint<2> &,
                              const std::vector<const JointPassage *> &,

@@ -8,6 +8,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
+#include <keyblock/scene/idle_entries.h>
 #include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/joints.h>
 #include <keyblock/scene/shape_files.h>
@@ -252,6 +253,8 @@ namespace Keyblock
     prm = std::make_shared<ParameterHandler>();
     declare(*prm);
     text.parse(*prm, false);
+    if (network.is_resolved)
+      refuse_idle_overrides(text, ground.depth > 0.);
     make_profiles();
     complete_ground(text);
     check_domain(*this);

@@ -638,6 +638,27 @@ def oblique_stress():
     valid(validate(flat, sheared), "a mean shear of 2e+05 Pa")
 
 
+def written_out():
+    """Overrides of what used.prm has written out are refused."""
+    scene = PRM / "tutorial" / "first_tunnel.prm"
+    few = ["--set", "Output/Write VTU=false", "--set", "Safety factor/Blocks=none"]
+    for stage in ("heading", "bench"):
+        few += ["--set", f"Stages/{stage}/Maximum steps=5"]
+    assert run([scene, "--output", "a", *few]).returncode == 0
+    used = "a/used.prm"
+    refused(validate(used, ["Joint sets/east/Friction angle=10"]),
+            "set 'Joints/east/Friction angle' for those of the set")
+    refused(validate(used, ["Joint sets/east/Spacing=3"]),
+            "the joints of the sets are already made in this scene")
+    refused(validate(used, ["Ground/K0=2"]),
+            "what follows from it is already written out in this scene")
+    refused(run([used, "--study", "--output", "b"]), "Sample 1 of the study")
+    weak = validate(used, ["Joints/east/Friction angle=10"])
+    assert weak.returncode == 0, weak.stderr
+    assert weak.stdout != validate(used).stdout
+    assert validate(used, ["Ground/Depth=0"]).returncode == 0
+
+
 def main():
     case = globals()[sys.argv[3]]
     with tempfile.TemporaryDirectory() as folder:

@@ -342,3 +342,24 @@ BOOST_AUTO_TEST_CASE(extents_that_follow)
   BOOST_TEST((extent({"Joints/J/Radius=2"}) == JointShape::disc));
   BOOST_TEST((extent({"Joints/J/Dip=2"}) == JointShape::infinite));
 }
+
+BOOST_AUTO_TEST_CASE(overrides_of_used_scenes)
+{
+  write("table.csv", table);
+  write_scene(scene_of_all());
+  const auto scene = read({"Joints/c/Normal=1, 2, 3"});
+  if (world.is_root())
+    scene->write_used(own("scene.prm"));
+  MPI_Barrier(world);
+  check_refused({"Joint sets/S/Friction angle=10"},
+                "set 'Joints/S/Friction angle' for those of the set");
+  check_refused({"Joint sets/S/P32=1"}, "run the original scene");
+  check_refused({"Joint sets/Names="}, "are already made in this scene");
+  check_refused({"Joints/File=" + own("table.csv")}, "already written out");
+  check_refused({"Joints/c/Dip=3"}, "'Normal' says how the joint lies");
+  check_refused({"Joints/plane/Radius=3"}, "is infinite");
+  BOOST_TEST(joint(*read({"Joints/a/Dip=3"}), "a").dip == 3.);
+  const auto weaker = read({"Joints/S/Friction angle=10"});
+  for (const auto &each : weaker->joints)
+    BOOST_TEST((each->friction_angle == 10.) == (each->set == "S"));
+}

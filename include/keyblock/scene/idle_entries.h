@@ -21,6 +21,11 @@ namespace Keyblock
   void settle_plane(Joint<dim> &joint,
                     const std::vector<const JointPassage *> &passages,
                     const bool is_resolved);
+
+  /** Throw InputError for overrides of what is not made again by a scene whose
+   * joints are all written out, as in used.prm. @p has_depth: whether Ground
+   * gives anything. */
+  void refuse_idle_overrides(const SceneText &text, const bool has_depth);
 } // namespace Keyblock
 
 #endif
