@@ -31,7 +31,9 @@ SCENES = {
         "Safety factor/Blocks=none", "Mesh/Size=4", "Joint sets/east/Spacing=1.2",
         "Joint sets/west/Spacing=1.2", "Joint sets/east/Radius law=constant",
         "Joint sets/west/Radius law=constant", "Joint sets/east/Radius mean=4",
-        "Joint sets/west/Radius mean=4", "Stages/heading/Maximum steps=100",
+        "Joint sets/west/Radius mean=4", *(
+            f"Joint sets/{name}/Region {entry}" for name in ("east", "west")
+            for entry in ("corner=-20, -10", "size=40, 35")), "Stages/heading/Maximum steps=100",
         "Stages/bench/Maximum steps=100", "Output/Write VTU=true"]),
     "curves": ("verification/bolted_incline", [
         "Output/Write VTU=true", "Monitors/Names=one,place,other",

@@ -7,6 +7,7 @@
 #include <keyblock/run/wave_resolution.h>
 #include <keyblock/safety/block_theory.h>
 #include <keyblock/step/initial_tension.h>
+#include <keyblock/step/roller_shear.h>
 #include <keyblock/step/step_spread.h>
 
 #include <algorithm>
@@ -256,7 +257,9 @@ namespace Keyblock
       if (!warning.empty())
         warnings.push_back(warning);
     for (const std::vector<std::string> &more :
-         {warnings_of_short_waves(model.scene, model.split.mesh),
+         {warnings_of_rollers(
+            model.communicator, model.scene, model.split, model.cells),
+          warnings_of_short_waves(model.scene, model.split.mesh),
           warnings_of_free_fields(model.scene, model.split.mesh),
           warnings_of_cut_bolts(model.scene, model.split),
           warnings_of_coarse_mesh(model.scene, model.split, model.blocks)})

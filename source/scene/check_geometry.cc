@@ -253,8 +253,8 @@ namespace Keyblock
         require(is_enough,
                 entry + "/Vertices' has " +
                   std::to_string(joint.vertices.size()) +
-                  " corners; give two ends in 2D, at least three corners "
-                  "in 3D.");
+                  " corners; give two ends in 2D (for more points set 'Shape' "
+                  "to polyline), at least three corners in 3D.");
         const double size = joint.vertices[0].distance(joint.vertices[1]);
         require(size > 0.,
                 "The first two corners of '" + section +

@@ -35,9 +35,11 @@ namespace Keyblock
       "Depth",
       depth,
       "Depth of elevation 0 below the surface of the ground [m]. What the "
-      "scene leaves open then follows: gravity, initial stress, rollers on the "
-      "sides and the bottom of the domain, and the overburden on its top. 0: "
-      "nothing does.",
+      "scene leaves open then follows: gravity, the entries of the initial "
+      "stress that are not given, rollers on the sides and the bottom of the "
+      "domain where there is no support (which hold both horizontal directions "
+      "where the stress has shear along the sides), and the overburden on its "
+      "top unless a traction is on it from the start. 0: nothing does.",
       not_negative);
     prm.add_parameter(
       "Density",

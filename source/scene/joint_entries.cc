@@ -111,7 +111,8 @@ namespace Keyblock
                       extent,
                       "infinite; disc: Radius about Point (in 2D a segment of "
                       "that half length); polygon: Vertices (in 2D the two "
-                      "ends).");
+                      "ends). If it is not given, it follows from Vertices or "
+                      "Radius.");
     prm.add_parameter("Radius",
                       radius,
                       "Radius of the disc [m].",

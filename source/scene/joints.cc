@@ -5,6 +5,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/law/joint_stiffness.h>
+#include <keyblock/scene/idle_entries.h>
 #include <keyblock/scene/joint_sets.h>
 #include <keyblock/scene/joint_table.h>
 #include <keyblock/scene/joints.h>
@@ -264,6 +265,9 @@ namespace Keyblock
     for (unsigned int j = 0; j < joints.size(); ++j)
       if (!passages[j].empty() && passages[j].back()->line == 0)
         apply(j);
+    for (unsigned int j = 0; j < joints.size(); ++j)
+      if (!passages[j].empty())
+        settle_plane(*joints[j], passages[j], scene.network.is_resolved);
     check_names<dim>(joints, strength_of_set);
     return joints;
   }

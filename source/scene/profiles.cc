@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What short entries stand for: the section of a tunnel or cavern, and ground
-// whose state follows from its depth.
+// What short entries stand for: the section of a tunnel or cavern.
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/base/number_text.h>
@@ -31,29 +30,6 @@ namespace Keyblock
         prm.set(entry, value);
       prm.leave_subsection();
     }
-
-    /** The same of named things: the list of names, and their subsections. */
-    template <typename Items>
-    void
-    note_items(ParameterHandler &prm,
-               const std::string &section,
-               const Items &items)
-    {
-      std::string names;
-      for (const auto &item : items)
-        names += (names.empty() ? "" : ", ") + item->name;
-      note(prm, section, {{"Names", names}});
-      prm.enter_subsection(section);
-      for (const auto &item : items)
-        {
-          prm.enter_subsection(item->name);
-          item->declare(prm);
-          prm.leave_subsection();
-        }
-      prm.leave_subsection();
-    }
-
-
 
     /** Chords of a crown if no number is given: as long as the edges that
      * are cut into cells there, since shorter ones make needles beside them.
@@ -268,74 +244,6 @@ namespace Keyblock
     excavations = std::move(expanded);
   }
 
-
-
-  template <int dim>
-  void
-  Scene<dim>::complete_ground()
-  {
-    if (ground.depth <= 0.)
-      return;
-    double density = ground.density;
-    for (const auto &material : materials)
-      if (density == 0. && !material->is_rigid())
-        density = material->density;
-    require(domain.shape == DomainShape::box && domain.size.size() == dim,
-            "The entry 'Ground/Depth' needs a domain that is a box, on which "
-            "rollers and overburden stand; set 'Domain/Shape' to box, or leave "
-            "'Ground' out.");
-    const double top = domain.corner[dim - 1] + domain.size[dim - 1];
-    require(top <= ground.depth,
-            "The domain reaches up to " + text_of(top) +
-              " m, above the surface, which the entry 'Ground/Depth' puts at " +
-              text_of(ground.depth) +
-              " m above elevation 0; lower the domain, or raise the depth.");
-    const std::string none_across = dim == 2 ? "0; " : "0; 0; ";
-    if (initial_state.gravity.empty())
-      note(*prm,
-           "Initial state",
-           {{"Gravity", none_across + "-" + exact_text(standard_gravity)}});
-    if (initial_state.stress.empty() && !initial_state.has_depth_stress() &&
-        initial_state.measured_points.empty())
-      note(*prm,
-           "Initial state",
-           {{"Surface elevation", exact_text(ground.depth)},
-            {"Vertical stress gradient",
-             exact_text(standard_gravity * density)},
-            {"Lateral ratios", exact_list(ground.k0, ground.k0.size())},
-            {"Lateral azimuth", exact_text(ground.azimuth)}});
-    if (supports.empty())
-      {
-        for (const bool is_bottom : {true, false})
-          {
-            auto support        = std::make_unique<Support<dim>>();
-            support->name       = is_bottom ? "ground below" : "ground beside";
-            support->directions = SupportDirections::normal;
-            support->boundaries = {"left", "right"};
-            if (dim == 3)
-              support->boundaries.insert(support->boundaries.end(),
-                                         {"front", "back"});
-            if (is_bottom)
-              support->boundaries = {"bottom"};
-            supports.push_back(std::move(support));
-          }
-        note_items(*prm, "Supports", supports);
-      }
-    if (tractions.empty() && top < ground.depth)
-      {
-        auto overburden        = std::make_unique<Traction<dim>>();
-        overburden->name       = "overburden";
-        overburden->boundaries = {"top"};
-        overburden->expression =
-          none_across +
-          exact_text(-standard_gravity * density * (ground.depth - top));
-        tractions.push_back(std::move(overburden));
-        note_items(*prm, "Tractions", tractions);
-      }
-  }
-
   template void Scene<2>::make_profiles();
   template void Scene<3>::make_profiles();
-  template void Scene<2>::complete_ground();
-  template void Scene<3>::complete_ground();
 } // namespace Keyblock

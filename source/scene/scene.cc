@@ -8,6 +8,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
+#include <keyblock/scene/idle_entries.h>
 #include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/joints.h>
 #include <keyblock/scene/shape_files.h>
@@ -116,7 +117,6 @@ namespace Keyblock
       item.declare(prm);
       prm.leave_subsection();
     }
-
   } // namespace
 
 
@@ -253,8 +253,10 @@ namespace Keyblock
     prm = std::make_shared<ParameterHandler>();
     declare(*prm);
     text.parse(*prm, false);
+    if (network.is_resolved)
+      refuse_idle_overrides(text, ground.depth > 0.);
     make_profiles();
-    complete_ground();
+    complete_ground(text);
     check_domain(*this);
     read_shape_files(communicator, *this);
     joints = make_joints(*this, read_names(names, "Joints"), text);

@@ -372,4 +372,17 @@ namespace Keyblock
                     "--set \"" + entry.assignment + "\"",
                     skip_unknown);
   }
+
+
+
+  bool
+  SceneText::gives(const std::string &section, const std::string &entry) const
+  {
+    dealii::ParameterHandler probe;
+    probe.enter_subsection(section);
+    probe.declare_entry(entry, "", dealii::Patterns::Anything(), "", true);
+    probe.leave_subsection();
+    parse(probe, true);
+    return probe.get_entries_wrongly_not_set().empty();
+  }
 } // namespace Keyblock

@@ -621,6 +621,87 @@ def free_field_warnings():
           "ground beside the model has no 'Damping ratio'")
 
 
+OBLIQUE = """set Dimension = 3
+subsection Domain
+  set Corner = -20, -20, -20
+  set Size = 40, 40, 40
+end
+subsection Mesh
+  set Cells = 4, 4, 4
+end
+subsection Ground
+  set Depth = 200
+  set K0 = 2, 1
+  set Azimuth = 45
+end
+subsection Materials
+  set Names = rock
+end
+subsection Stages
+  set Names = rest
+  subsection rest
+    set Kind = static
+  end
+end
+"""
+ROLLERS = ["Supports/Names=below, beside",
+           "Supports/below/Boundaries=bottom",
+           "Supports/below/Directions=normal",
+           "Supports/beside/Boundaries=left, right, front, back",
+           "Supports/beside/Directions=normal"]
+
+
+def oblique_stress():
+    """Shear along the sides is held, or it is said that it leaves."""
+    pathlib.Path("s.prm").write_text(OBLIQUE, encoding="utf-8")
+    valid(validate("s.prm"))
+
+    def motion(settings):
+        done = run(["s.prm", "--output", "out"]
+                   + [word for s in settings for word in ("--set", s)])
+        assert done.returncode == 0, done.stderr
+        with open("out/summary.json", encoding="utf-8") as file:
+            return json.load(file)["stages"][0]["max_displacement"]
+
+    # the shear is (2 - 1) / 2 * 9.81 * 2700 * 200 Pa; rollers let it go, which
+    # moves the sides
+    assert motion([]) < 1e-6
+    assert motion(ROLLERS) > 1e-3
+    leaves = "a mean shear of 2.65e+06 Pa along the boundaries of the support 'beside'"
+    valid(validate("s.prm", ROLLERS), leaves)
+    valid(validate("s.prm", ROLLERS + ["Ground/Azimuth=180"]))
+    valid(validate("s.prm", ROLLERS + ["Supports/beside/Directions=xy"]))
+    # held along the sides by another support, or by what is on them
+    valid(validate("s.prm", ROLLERS + [
+        "Supports/Names=below, beside, along",
+        "Supports/along/Boundaries=left, right, front, back",
+        "Supports/along/Directions=xy"]))
+    flat = PRM / "verification" / "gravity_column.prm"
+    sheared = ["Initial state/Stress=-1e6; -1e6; -1e6; 2e5"]
+    valid(validate(flat, sheared), "a mean shear of 2e+05 Pa")
+
+
+def written_out():
+    """Overrides of what used.prm has written out are refused."""
+    scene = PRM / "tutorial" / "first_tunnel.prm"
+    few = ["--set", "Output/Write VTU=false", "--set", "Safety factor/Blocks=none"]
+    for stage in ("heading", "bench"):
+        few += ["--set", f"Stages/{stage}/Maximum steps=5"]
+    assert run([scene, "--output", "a", *few]).returncode == 0
+    used = "a/used.prm"
+    refused(validate(used, ["Joint sets/east/Friction angle=10"]),
+            "set 'Joints/east/Friction angle' for those of the set")
+    refused(validate(used, ["Joint sets/east/Spacing=3"]),
+            "the joints of the sets are already made in this scene")
+    refused(validate(used, ["Ground/K0=2"]),
+            "what follows from it is already written out in this scene")
+    refused(run([used, "--study", "--output", "b"]), "Sample 1 of the study")
+    weak = validate(used, ["Joints/east/Friction angle=10"])
+    assert weak.returncode == 0, weak.stderr
+    assert weak.stdout != validate(used).stdout
+    assert validate(used, ["Ground/Depth=0"]).returncode == 0
+
+
 def main():
     case = globals()[sys.argv[3]]
     with tempfile.TemporaryDirectory() as folder:

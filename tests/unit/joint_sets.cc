@@ -252,9 +252,10 @@ BOOST_AUTO_TEST_CASE(frequency_along_the_mean_normal)
   };
   check_mean<3>(set, cube<3>(20.), 0.5, measure);
   // the same by the spacing, of planes
-  set.frequency  = 0.;
-  set.spacing    = 2.;
-  set.radius_law = RadiusDistribution::infinite;
+  set.frequency   = 0.;
+  set.spacing     = 2.;
+  set.radius_law  = RadiusDistribution::infinite;
+  set.radius_mean = 0.;
   check_mean<3>(set, cube<3>(20.), 0.5, measure);
   set.spacing_law = SpacingDistribution::constant;
   set.jitter      = 0.5;

@@ -294,3 +294,72 @@ BOOST_AUTO_TEST_CASE(ten_thousand_rows)
   BOOST_TEST(again->joints_called("J7").size() == 1u);
   BOOST_TEST(more.count() < 20.);
 }
+
+BOOST_AUTO_TEST_CASE(extents_that_follow)
+{
+  const auto written = [](const std::string &entries) {
+    write_scene("subsection Joints\n set Names = J\n subsection J\n" + entries +
+                " end\nend\n");
+  };
+  const std::string corners = "0, 0, 0; 5, 0, 1; 0, 5, 2";
+  const auto extent = [](const std::vector<std::string> &overrides = {}) {
+    const auto scene = read(overrides);
+    if (world.is_root())
+      scene->write_used(own("used.prm"));
+    MPI_Barrier(world);
+    const auto again = read({}, "used.prm");
+    BOOST_TEST(print_joints(again->joints) == print_joints(scene->joints));
+    return scene->joints.at(0)->extent;
+  };
+  written("  set Vertices = " + corners + "\n");
+  BOOST_TEST((extent() == JointShape::polygon));
+  BOOST_TEST((extent({"Joints/J/Normal=-1, -2, 5"}) == JointShape::polygon));
+  BOOST_TEST((extent({"Joints/J/Point=5, 5, 3"}) == JointShape::polygon));
+  BOOST_TEST((extent({"Joints/J/Extent=infinite"}) == JointShape::infinite));
+  BOOST_TEST(
+    (extent({"Joints/J/Vertices=", "Joints/J/Dip=5"}) == JointShape::infinite));
+  check_refused({"Joints/J/Radius=2"}, "both 'Vertices' and 'Radius'");
+  check_refused({"Joints/J/Dip=2"}, "entry 'Joints/J/Dip' is given");
+  check_refused({"Joints/J/Point=5, 5, 4"}, "off their plane");
+  written("  set Radius = 3\n  set Dip = 40\n  set Point = 1, 2, 3\n");
+  BOOST_TEST((extent() == JointShape::disc));
+  BOOST_TEST((extent({"Joints/J/Normal=1, 1, 1"}) == JointShape::disc));
+  BOOST_TEST((extent({"Joints/J/Radius=0"}) == JointShape::infinite));
+  BOOST_TEST((extent({"Joints/J/Extent=polygon",
+                      "Joints/J/Vertices=" + corners}) == JointShape::polygon));
+  check_refused({"Joints/J/Extent=infinite", "Joints/J/Radius=2"},
+                "the extent of the joint is infinite");
+  check_refused({"Joints/J/Normal=1, 1, 1", "Joints/J/Dip=2"},
+                "entry 'Joints/J/Dip' is given");
+  written("  set Normal = 1, 1, 1\n  set Dip = 40\n");
+  check_refused({}, "entry 'Joints/J/Dip' is given");
+  written("  set Extent = infinite\n  set Radius = 4\n");
+  check_refused({}, "entry 'Joints/J/Radius' is given");
+
+  // of tables, too
+  write("table.csv", "name,dip,dip direction,x,y,z\nJ,60,30,103,4,5\n");
+  write_scene("subsection Joints\n set File = " + own("table.csv") + "\nend\n");
+  BOOST_TEST((extent({"Joints/J/Radius=2"}) == JointShape::disc));
+  BOOST_TEST((extent({"Joints/J/Dip=2"}) == JointShape::infinite));
+}
+
+BOOST_AUTO_TEST_CASE(overrides_of_used_scenes)
+{
+  write("table.csv", table);
+  write_scene(scene_of_all());
+  const auto scene = read({"Joints/c/Normal=1, 2, 3"});
+  if (world.is_root())
+    scene->write_used(own("scene.prm"));
+  MPI_Barrier(world);
+  check_refused({"Joint sets/S/Friction angle=10"},
+                "set 'Joints/S/Friction angle' for those of the set");
+  check_refused({"Joint sets/S/P32=1"}, "run the original scene");
+  check_refused({"Joint sets/Names="}, "are already made in this scene");
+  check_refused({"Joints/File=" + own("table.csv")}, "already written out");
+  check_refused({"Joints/c/Dip=3"}, "'Normal' says how the joint lies");
+  check_refused({"Joints/plane/Radius=3"}, "is infinite");
+  BOOST_TEST(joint(*read({"Joints/a/Dip=3"}), "a").dip == 3.);
+  const auto weaker = read({"Joints/S/Friction angle=10"});
+  for (const auto &each : weaker->joints)
+    BOOST_TEST((each->friction_angle == 10.) == (each->set == "S"));
+}

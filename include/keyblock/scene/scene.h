@@ -32,6 +32,8 @@ namespace Keyblock
   using dealii::Point;
   using dealii::Tensor;
 
+  struct SceneText;
+
   /** What seismic coefficients are multiples of [m/s2]. */
   constexpr double standard_gravity = 9.81;
 
@@ -133,8 +135,9 @@ namespace Keyblock
      * bench. Throws InputError. */
     void make_profiles();
 
-    /** Put in what `Ground` gives. Throws InputError. */
-    void complete_ground();
+    /** Put in what `Ground` gives and @p text leaves open. Throws InputError.
+     */
+    void complete_ground(const SceneText &text);
 
     /** All entries as text, every joint written out. */
     std::string print_entries(const bool has_descriptions) const;

@@ -88,6 +88,10 @@ namespace Keyblock
 
     /** Parse all but the joints. */
     void parse(dealii::ParameterHandler &prm, const bool skip_unknown) const;
+
+    /** Whether the file or an override gives the entry, not one of a joint, of
+     * this section a value, be it the default. */
+    bool gives(const std::string &section, const std::string &entry) const;
   };
 } // namespace Keyblock
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_scene_idle_entries_h
+#define keyblock_scene_idle_entries_h
+
+#include <keyblock/scene/joint.h>
+#include <keyblock/scene/text.h>
+
+namespace Keyblock
+{
+  /**
+   * Take the extent of a joint whose entries do not give it from its Vertices
+   * or Radius, as that of a row of a table. Throws InputError for an entry that
+   * another one leaves without effect, as a dip besides a normal vector; a
+   * later override may replace what the file or an earlier one gives.
+   *
+   * @param passages  what the scene says of the joint, the file first
+   * @param is_resolved  whether the file has all entries of the joint, as
+   *   used.prm has, so that only overrides are looked at
+   */
+  template <int dim>
+  void settle_plane(Joint<dim> &joint,
+                    const std::vector<const JointPassage *> &passages,
+                    const bool is_resolved);
+
+  /** Throw InputError for overrides of what is not made again by a scene whose
+   * joints are all written out, as in used.prm. @p has_depth: whether Ground
+   * gives anything. */
+  void refuse_idle_overrides(const SceneText &text, const bool has_depth);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What follows from the depth below the surface, where a scene leaves it open:
+// gravity, initial stress, rollers and overburden.
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include <keyblock/base/expression.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/scene/check.h>
+#include <keyblock/scene/scene.h>
+#include <keyblock/scene/text.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    using Entries = std::vector<std::pair<std::string, std::string>>;
+
+    /** Put what was derived into the entries that used.prm shows. */
+    void
+    note(ParameterHandler &prm,
+         const std::string &section,
+         const Entries &entries)
+    {
+      prm.enter_subsection(section);
+      for (const auto &[entry, value] : entries)
+        prm.set(entry, value);
+      prm.leave_subsection();
+    }
+
+    /** Add a named thing to the others of its section, under a name that none
+     * of them has, and to the entries. */
+    template <typename Item>
+    void
+    add_item(ParameterHandler &prm,
+             const std::string &section,
+             std::unique_ptr<Item> item,
+             std::vector<std::unique_ptr<Item>> &items)
+    {
+      const std::string wanted = item->name;
+      for (unsigned int n = 2;
+           std::any_of(items.begin(),
+                       items.end(),
+                       [&](const auto &i) { return i->name == item->name; });
+           ++n)
+        item->name = wanted + " " + std::to_string(n);
+      items.push_back(std::move(item));
+      std::string names;
+      for (const auto &i : items)
+        names += (names.empty() ? "" : ", ") + i->name;
+      note(prm, section, {{"Names", names}});
+      prm.enter_subsection(section);
+      prm.enter_subsection(items.back()->name);
+      items.back()->declare(prm);
+      prm.leave_subsection();
+      prm.leave_subsection();
+    }
+
+    /** Names of the sides of a box, two per axis, the lower one first. */
+    template <int dim>
+    std::vector<std::string>
+    names_of_sides()
+    {
+      return dim == 2
+               ? std::vector<std::string>{"left", "right", "bottom", "top"}
+               : std::vector<std::string>{
+                   "left", "right", "front", "back", "bottom", "top"};
+    }
+
+    /** Places on a side of the box, none of them on its edges. */
+    template <int dim>
+    std::vector<Point<dim>>
+    places_on(const Domain<dim> &box, const std::string &side)
+    {
+      constexpr unsigned int n_along       = 16;
+      const std::vector<std::string> sides = names_of_sides<dim>();
+      const unsigned int s =
+        std::find(sides.begin(), sides.end(), side) - sides.begin();
+      const unsigned int n = dim == 2 ? n_along : n_along * n_along;
+      std::vector<Point<dim>> places;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          Point<dim> place;
+          unsigned int rest = i;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              double share = s % 2;
+              if (d != s / 2)
+                {
+                  share = (rest % n_along + 0.5) / n_along;
+                  rest /= n_along;
+                }
+              place[d] = box.corner[d] + share * box.size[d];
+            }
+          places.push_back(place);
+        }
+      return places;
+    }
+
+    /** Whether a support or a traction is on a side: it names it, or its
+     * region has a part of it. */
+    template <int dim, typename Item>
+    bool
+    is_on_side(const Item &item,
+               const std::string &section,
+               const Domain<dim> &box,
+               const std::string &side)
+    {
+      for (const std::string &name : item.boundaries)
+        if (name == side || name == "all")
+          return true;
+      if (item.region.empty())
+        return false;
+      const Expression<dim> inside(item.region,
+                                   1,
+                                   section + "/" + item.name + "/Region");
+      const std::vector<Point<dim>> places = places_on(box, side);
+      return std::any_of(places.begin(), places.end(), [&](const auto &place) {
+        return inside.value(place, 0., 0) > 0.;
+      });
+    }
+
+    /** Whether the initial stress has horizontal shear on the sides of a box,
+     * which only a hold along them bears. */
+    template <int dim>
+    bool
+    has_shear_beside(const Scene<dim> &scene)
+    {
+      constexpr double round_off = 1e-9;
+      if (dim == 2)
+        return false;
+      const InitialState<dim> &state = scene.initial_state;
+      if (!state.measured_points.empty())
+        return std::find(state.stress_fields.begin(),
+                         state.stress_fields.end(),
+                         "shear xy") != state.stress_fields.end();
+      if (state.stress.empty())
+        {
+          const double turn =
+            2. * state.lateral_azimuth * dealii::numbers::PI / 180.;
+          const double along  = state.lateral_ratios.front();
+          const double across = state.lateral_ratios.back();
+          return std::abs((along - across) * std::sin(turn)) >
+                 round_off * std::max(std::abs(along), std::abs(across));
+        }
+      const Expression<dim> stress(state.stress, 6, "Initial state/Stress");
+      for (const char *side : {"left", "right", "front", "back"})
+        for (const Point<dim> &place : places_on(scene.domain, side))
+          if (std::abs(stress.value(place, 0., 5)) >
+              round_off * std::max(std::abs(stress.value(place, 0., 0)),
+                                   std::abs(stress.value(place, 0., 1))))
+            return true;
+      return false;
+    }
+
+    /** Put in the entries of the initial stress that @p text does not give. */
+    template <int dim>
+    void
+    complete_stress(ParameterHandler &prm,
+                    const SceneText &text,
+                    const DepthGround<dim> &ground,
+                    const double unit_weight)
+    {
+      const std::string section = "Initial state";
+      const Entries derived     = {
+            {"Surface elevation", exact_text(ground.depth)},
+            {"Vertical stress gradient", exact_text(unit_weight)},
+            {"Lateral ratios", exact_list(ground.k0, ground.k0.size())},
+            {"Lateral azimuth", exact_text(ground.azimuth)}};
+      for (const auto &entry : derived)
+        if (!text.gives(section, entry.first))
+          note(prm, section, {entry});
+    }
+
+    /** Put rollers on the sides and the bottom where nothing else holds. */
+    template <int dim>
+    void
+    complete_supports(ParameterHandler &prm, Scene<dim> &scene)
+    {
+      std::vector<std::string> free;
+      for (const std::string &side : names_of_sides<dim>())
+        if (side != "top" && std::none_of(scene.supports.begin(),
+                                          scene.supports.end(),
+                                          [&](const auto &support) {
+                                            return is_on_side(*support,
+                                                              "Supports",
+                                                              scene.domain,
+                                                              side);
+                                          }))
+          free.push_back(side);
+      for (const bool is_bottom : {true, false})
+        {
+          auto support        = std::make_unique<Support<dim>>();
+          support->name       = is_bottom ? "ground below" : "ground beside";
+          support->directions = !is_bottom && has_shear_beside(scene)
+                                  ? SupportDirections::xy
+                                  : SupportDirections::normal;
+          for (const std::string &side : free)
+            if ((side == "bottom") == is_bottom)
+              support->boundaries.push_back(side);
+          if (!support->boundaries.empty())
+            add_item(prm, "Supports", std::move(support), scene.supports);
+        }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::complete_ground(const SceneText &text)
+  {
+    if (ground.depth <= 0.)
+      return;
+    double density = ground.density;
+    for (const auto &material : materials)
+      if (density == 0. && !material->is_rigid())
+        density = material->density;
+    require(domain.shape == DomainShape::box && domain.size.size() == dim,
+            "The entry 'Ground/Depth' needs a domain that is a box, on which "
+            "rollers and overburden stand; set 'Domain/Shape' to box, or leave "
+            "'Ground' out.");
+    const double top = domain.corner[dim - 1] + domain.size[dim - 1];
+    require(top <= ground.depth,
+            "The domain reaches up to " + text_of(top) +
+              " m, above the surface, which the entry 'Ground/Depth' puts at " +
+              text_of(ground.depth) +
+              " m above elevation 0; lower the domain, or raise the depth.");
+    const std::string none_across = dim == 2 ? "0; " : "0; 0; ";
+    if (initial_state.gravity.empty())
+      note(*prm,
+           "Initial state",
+           {{"Gravity", none_across + "-" + exact_text(standard_gravity)}});
+    double pressure = standard_gravity * density * (ground.depth - top);
+    if (initial_state.stress.empty() && initial_state.measured_points.empty())
+      {
+        complete_stress(*prm, text, ground, standard_gravity * density);
+        pressure = initial_state.surface_stress +
+                   initial_state.vertical_stress_gradient *
+                     (initial_state.surface_elevation - top);
+      }
+    complete_supports(*prm, *this);
+    const bool is_loaded =
+      std::any_of(tractions.begin(), tractions.end(), [&](const auto &load) {
+        return load->stage == "start" &&
+               is_on_side(*load, "Tractions", domain, "top");
+      });
+    if (!is_loaded && pressure > 0.)
+      {
+        auto overburden        = std::make_unique<Traction<dim>>();
+        overburden->name       = "overburden";
+        overburden->boundaries = {"top"};
+        overburden->expression = none_across + exact_text(-pressure);
+        add_item(*prm, "Tractions", std::move(overburden), tractions);
+      }
+  }
+
+  template void Scene<2>::complete_ground(const SceneText &);
+  template void Scene<3>::complete_ground(const SceneText &);
+} // namespace Keyblock
