@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Supports that move: displacements are reached once, each support moves its own
-directions, records begin with their stage, damping takes nothing of prescribed
+directions, records begin with their stage, those of stress drive as velocities
+do, damping takes nothing of prescribed
 motions, ramps go on; and a stage that changes nothing is in balance.
 
 usage: moving_supports.py KEYBLOCK FOLDER
@@ -228,6 +229,40 @@ def records(checks):
     checks.near("and a sentence on it", "no stage shakes it" in said, 1, 0)
 
 
+def stresses(checks):
+    """A record of stress is one of velocity times rho c, at a quiet bottom and
+    at the feet of free fields beside it, which know the same wave."""
+    density, young, poisson = 2500., 1e9, 0.25
+    shear = young / (2 + 2 * poisson)
+    along = shear * (2 - 2 * poisson) / (1 - 2 * poisson)
+    factors = [math.sqrt(density * modulus) for modulus in (shear, along)]
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    for name, (fx, fy) in (("waves", (1, 1)), ("stresses", factors)):
+        (FOLDER / f"{name}.csv").write_text("time,x,y\n" + "".join(
+            f"{i * 1e-4!r},{fx * 0.01 * pulse!r},{-0.02 * fy * pulse!r}\n"
+            for i, pulse in enumerate(
+                math.sin(math.pi * i / 50) ** 2 for i in range(51))))
+    for kind in ("quiet", "free field"):
+        histories = []
+        for name, quantity in (("waves", "velocity"), ("stresses", "stress")):
+            supports = {"base": {"Boundaries": "bottom", "Kind": "quiet",
+                                 "History file": f"{name}.csv",
+                                 "History quantity": quantity},
+                        "sides": {"Boundaries": "left, right", "Kind": kind}}
+            histories.append(run(name, PLATE + section("Supports", supports)
+                                 + section("Stages",
+                                           {"shake": {"Duration": 6e-3}}))[0])
+        for column, peak in (("corner.v_x", 0.02), ("corner.v_y", 0.04)):
+            wave, stress = (history[column] for history in histories)
+            if kind == "free field":
+                # twice that of the wave, at the free top
+                checks.near(f"stress, {column}: peak", max(map(abs, stress)),
+                            peak, 0.01 * peak)
+            checks.near(f"stress and velocity, sides {kind}: {column}",
+                        max(abs(a - b) for a, b in zip(wave, stress)), 0,
+                        1e-12 * peak)
+
+
 def ramps(checks):
     """What a stage has not ramped out goes on in the next; and a stage that
     changes nothing is in balance at once."""
@@ -263,7 +298,7 @@ def ramps(checks):
 def main():
     """Exit with the number of what is wrong."""
     checks = Checks()
-    for part in (displacements, directions, ledger, records, ramps):
+    for part in (displacements, directions, ledger, records, stresses, ramps):
         part(checks)
     sys.exit(checks.n_faults)
 

@@ -166,8 +166,10 @@ namespace Keyblock
           continue;
         if (support.is_quiet() && acts[s])
           {
-            foot.impedance = side.foot_impedance;
-            foot.incoming  = motion(s, side.foot, step.time);
+            const Tensor<1, dim> wave = motion(s, side.foot, step.time);
+            foot.impedance += side.foot_impedance;
+            foot.incoming +=
+              lets_in_stress(support) ? wave : side.foot_impedance * wave;
           }
         else
           {

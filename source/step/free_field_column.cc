@@ -161,7 +161,7 @@ namespace Keyblock
     for (unsigned int d = 0; d < dim; ++d)
       slowed[d][d] += 1.;
     const Vector middle = 0.5 * (velocity_before[0] + velocity_after[0]) +
-                          factor * (2. * foot.impedance * foot.incoming);
+                          2. * factor * foot.incoming;
     velocity_after[0] = 2. * (invert(slowed) * middle) - velocity_before[0];
     for (unsigned int d = 0; d < dim; ++d)
       if (foot.is_held[d])

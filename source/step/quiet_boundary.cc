@@ -99,7 +99,7 @@ namespace Keyblock
   QuietBoundary<dim>::find_dashpots()
   {
     const Mesh<dim> &mesh = split.mesh;
-    std::map<std::array<unsigned int, 2>, Tensor<2, dim>> found;
+    std::map<std::array<unsigned int, 2>, Dashpot> found; // by node, support
     for (unsigned int s = 0; s < acts.size(); ++s)
       if (acts[s])
         for (const std::string &name : scene.supports[s]->boundaries)
@@ -109,26 +109,35 @@ namespace Keyblock
                   !scene.materials[mesh.material[c]]->is_rigid())
                 {
                   const Tensor<1, dim> area = mesh.face_area_vector(c, f);
+                  const double share = area.norm() / Mesh<dim>::n_face_vertices;
                   const Tensor<2, dim> impedance =
-                    area.norm() / Mesh<dim>::n_face_vertices *
-                    quiet_impedance(*scene.materials[mesh.material[c]],
-                                    area / area.norm());
+                    share * quiet_impedance(*scene.materials[mesh.material[c]],
+                                            area / area.norm());
                   for (const unsigned int v : mesh.face_vertices(c, f))
                     split.for_each_carrier(
                       v, [&](const unsigned int carrier, const double weight) {
                         if (numbering.is_owned(carrier))
-                          found[{{numbering.local_node(carrier), s}}] +=
-                            weight * impedance;
+                          {
+                            const unsigned int node =
+                              numbering.local_node(carrier);
+                            Dashpot &dashpot =
+                              found
+                                .try_emplace({{node, s}},
+                                             Dashpot{node, s, {}, 0.})
+                                .first->second;
+                            dashpot.impedance += weight * impedance;
+                            dashpot.area += weight * share;
+                          }
                       });
                 }
     dashpots.clear();
     at_nodes.clear();
-    for (const auto &[place, impedance] : found)
+    for (const auto &[place, dashpot] : found)
       {
-        dashpots.push_back({place[0], place[1], impedance});
-        if (at_nodes.empty() || at_nodes.back().node != place[0])
-          at_nodes.push_back({place[0], {}, {}});
-        at_nodes.back().impedance += impedance;
+        dashpots.push_back(dashpot);
+        if (at_nodes.empty() || at_nodes.back().node != dashpot.node)
+          at_nodes.push_back({dashpot.node, {}, {}});
+        at_nodes.back().impedance += dashpot.impedance;
       }
     free_field.find_sides(acts, is_excavated, [this](const unsigned int node) {
       return std::lower_bound(at_nodes.begin(),
@@ -176,7 +185,7 @@ namespace Keyblock
                          [this](const unsigned int support,
                                 const Point<dim> &place,
                                 const double time) {
-                           return incoming_velocity(support, place, time);
+                           return incoming(support, place, time);
                          });
     drive.assign(at_nodes.size(), Tensor<1, dim>());
     free_field.add_drive(drive);
@@ -221,21 +230,21 @@ namespace Keyblock
 
   template <int dim>
   Tensor<1, dim>
-  QuietBoundary<dim>::incoming_velocity(const unsigned int support,
-                                        const Point<dim> &place,
-                                        const double time) const
+  QuietBoundary<dim>::incoming(const unsigned int support,
+                               const Point<dim> &place,
+                               const double time) const
   {
     if (waves[support])
       return waves[support]->vector(place, time);
-    Tensor<1, dim> velocity;
+    Tensor<1, dim> wave;
     if (const auto &history = scene.supports[support]->history)
       {
         const double since =
           clock.since(scene.history_stage(*scene.supports[support]), time);
         for (unsigned int d = 0; d < dim; ++d)
-          velocity[d] = history->value(since, d);
+          wave[d] = history->value(since, d);
       }
-    return velocity;
+    return wave;
   }
 
 
@@ -263,19 +272,21 @@ namespace Keyblock
     std::vector<Tensor<1, dim>> of_history(acts.size());
     for (unsigned int s = 0; s < acts.size(); ++s)
       if (acts[s] && !waves[s])
-        of_history[s] = incoming_velocity(s, Point<dim>(), time);
+        of_history[s] = incoming(s, Point<dim>(), time);
     for (const Dashpot &dashpot : dashpots)
       if (has_wave(dashpot.support))
         {
           const Point<dim> &place =
             split.mesh.vertices[numbering.vertex_of_node[dashpot.node]];
+          const Tensor<1, dim> wave = waves[dashpot.support]
+                                        ? incoming(dashpot.support, place, time)
+                                        : of_history[dashpot.support];
           const Tensor<1, dim> force =
-            2. * dashpot.impedance *
-            (waves[dashpot.support]
-               ? incoming_velocity(dashpot.support, place, time)
-               : of_history[dashpot.support]);
+            lets_in_stress(*scene.supports[dashpot.support])
+              ? dashpot.area * wave
+              : dashpot.impedance * wave;
           for (unsigned int d = 0; d < dim; ++d)
-            load[dim * dashpot.node + d] += force[d];
+            load[dim * dashpot.node + d] += 2. * force[d];
         }
   }
 

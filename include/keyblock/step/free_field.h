@@ -28,7 +28,7 @@ namespace Keyblock
               const Numbering<dim> &numbering);
 
     /** Velocity that a support prescribes, or the wave that it lets in, by its
-     * number, a place and a time [m/s]. */
+     * number, a place and a time [m/s; Pa if it lets_in_stress()]. */
     using Motion = std::function<
       Tensor<1, dim>(const unsigned int, const Point<dim> &, const double)>;
 

@@ -29,7 +29,7 @@ namespace Keyblock
   {
     /** Of the rock below, zero where the foot is not quiet [Pa s/m]. */
     Tensor<2, dim> impedance;
-    /** Particle velocity of the wave that comes in [m/s]. */
+    /** Traction of the wave that comes in [Pa]. */
     Tensor<1, dim> incoming;
     /** Axes along which the foot is held, and its velocity there [m/s]. */
     std::array<bool, dim> is_held{};
