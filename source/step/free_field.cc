@@ -22,6 +22,17 @@ namespace Keyblock
                          });
     }
 
+    template <int dim>
+    bool
+    holds_axis_of_bottom(const Support<dim> &support, const unsigned int d)
+    {
+      return support.directions == SupportDirections::all ||
+             support.is_far_field() || support.names_axis(d) ||
+             (support.directions == SupportDirections::normal && d == dim - 1);
+    }
+
+
+
     /** Call @p action(cell, face) for the faces of a boundary that are not of
      * rigid bodies, nor empty from the start. */
     template <int dim, typename Action>
@@ -174,14 +185,20 @@ namespace Keyblock
         else
           {
             // a quiet bottom is at rest until it lets its wave in
-            if (!support.is_quiet())
-              foot.velocity = motion(s, side.foot, step.time + 0.5 * step.step);
+            const bool is_moved =
+              !support.is_quiet() &&
+              (!support.velocity.empty() || support.history);
+            const Tensor<1, dim> velocity =
+              is_moved ? motion(s, side.foot, step.time + 0.5 * step.step)
+                       : Tensor<1, dim>();
+            // of several supports the last that moves an axis, as at nodes
             for (unsigned int d = 0; d < dim; ++d)
-              foot.is_held[d] =
-                support.directions == SupportDirections::all ||
-                (support.directions == SupportDirections::normal &&
-                 d == dim - 1) ||
-                support.names_axis(d);
+              if (holds_axis_of_bottom(support, d) &&
+                  (is_moved || !foot.is_held[d]))
+                {
+                  foot.is_held[d]  = true;
+                  foot.velocity[d] = velocity[d];
+                }
           }
       }
     return foot;

@@ -73,6 +73,11 @@ keyblock_scene(verification/free_field REFERENCES free_field_gmsh RANKS 1 2
   SET "Mesh/Generator=gmsh" "Mesh/Size=2.5")
 keyblock_scene(verification/free_field REFERENCES free_field_held RANKS 1
   SET "Supports/bottom/Kind=held")
+# the same, held along each axis by a support of its own
+keyblock_scene(verification/free_field REFERENCES free_field_held_twice RANKS 1
+  SET "Supports/bottom/Kind=held" "Supports/bottom/Directions=x"
+  "Supports/Names=bottom, floor, sides" "Supports/floor/Boundaries=bottom"
+  "Supports/floor/Directions=y")
 keyblock_scene(verification/free_field_3d RANKS 1 2)
 keyblock_scene(verification/rayleigh RANKS 1 2)
 keyblock_scene(verification/rayleigh REFERENCES rayleigh_mass RANKS 1
