@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Supports that move: displacements are reached once, each support moves its own
-directions, records begin with their stage, those of stress drive as velocities
-do, damping takes nothing of prescribed
-motions, ramps go on; and a stage that changes nothing is in balance.
+directions, records begin with their stage, those of stress drive as velocities do,
+free fields follow rock that changes, damping takes nothing of prescribed motions,
+ramps go on; and a stage that changes nothing is in balance.
 
 usage: moving_supports.py KEYBLOCK FOLDER
 """
@@ -263,6 +263,36 @@ def stresses(checks):
                         1e-12 * peak)
 
 
+def rock_that_changes(checks):
+    """Half of the rock is another one from a stage on that begins as waves are
+    under way: stresses stay, and the ground beside free fields goes on as the
+    model does."""
+    text = PLATE.replace("Location = 1, 0.5", "Location = 0.5, 1").replace(
+        "Names = rock\n", "Names = rock, other\n  subsection other\n"
+        "    set Region = 0.5 - y\n    set Young modulus = 3e9\n"
+        "    set Poisson ratio = 0.4\n    set Density = 2000\n"
+        "    set Stage = after\n  end\n")
+    text += section("Supports", {
+        "base": {"Boundaries": "bottom", "Kind": "quiet",
+                 "Velocity": "0.01*sin(900*t); 0.02*sin(700*t)"},
+        "sides": {"Boundaries": "left, right", "Kind": "free field"}})
+    stages = section("Stages", {"before": {"Duration": 3e-3},
+                                "after": {"Duration": 5e-3}})
+    history, _ = run("changed", text + stages)
+    for axis in "xy":
+        side, middle = history[f"corner.v_{axis}"], history[f"right.v_{axis}"]
+        checks.near(f"rock that changes: v_{axis} at the side",
+                    max(abs(a - b) for a, b in zip(side, middle)), 0,
+                    1e-12 * max(map(abs, middle)))
+    run("kept", text + stages, "--set", "Output/Checkpoint interval=1e-3")
+    again, _ = run("again", text + stages, "--restart",
+                   FOLDER / "kept" / "checkpoint.h5")
+    for axis in "xy":
+        checks.near(f"the same from a checkpoint: v_{axis}",
+                    again[f"corner.v_{axis}"][-1],
+                    history[f"corner.v_{axis}"][-1], 0)
+
+
 def ramps(checks):
     """What a stage has not ramped out goes on in the next; and a stage that
     changes nothing is in balance at once."""
@@ -298,7 +328,8 @@ def ramps(checks):
 def main():
     """Exit with the number of what is wrong."""
     checks = Checks()
-    for part in (displacements, directions, ledger, records, stresses, ramps):
+    for part in (displacements, directions, ledger, records, stresses,
+                 rock_that_changes, ramps):
         part(checks)
     sys.exit(checks.n_faults)
 

@@ -228,7 +228,7 @@ namespace Keyblock
       if (!warning.empty())
         warnings.push_back(warning);
     for (const std::vector<std::string> &more :
-         {warnings_of_short_waves(model.scene, model.split.mesh),
+         {warnings_of_short_waves(model.scene, model.split),
           warnings_of_free_fields(model.scene, model.split.mesh),
           warnings_of_cut_bolts(model.scene, model.split),
           warnings_of_coarse_mesh(model.scene, model.split, model.blocks)})

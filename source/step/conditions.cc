@@ -39,9 +39,11 @@ namespace Keyblock
   {
     if (FarFieldSprings<dim>::is_wanted(scene))
       {
-        auto springs =
-          std::make_unique<FarFieldSprings<dim>>(scene, split, numbering);
-        far_field = springs.get();
+        auto springs = std::make_unique<FarFieldSprings<dim>>(scene,
+                                                              split,
+                                                              numbering,
+                                                              fields);
+        far_field    = springs.get();
         elements.push_back(std::move(springs));
       }
     if (QuietBoundary<dim>::is_wanted(scene))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/quiet_boundary.h>
 
+#include <keyblock/blocks/nodal_areas.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -32,7 +34,7 @@ namespace Keyblock
     , split(split)
     , numbering(numbering)
     , clock(clock)
-    , is_excavated(split.mesh.n_cells(), false)
+    , material(split.mesh.material)
     , acts(scene.supports.size(), false)
     , free_field(scene, split, numbering)
     , dead_load(dim * numbering.n_owned(), 0.)
@@ -87,8 +89,9 @@ namespace Keyblock
   void
   QuietBoundary<dim>::take_ground(const Ground<dim> &ground)
   {
-    for (unsigned int c = 0; c < is_excavated.size(); ++c)
-      is_excavated[c] = ground.is_excavated(c);
+    for (unsigned int c = 0; c < material.size(); ++c)
+      material[c] = ground.is_excavated(c) ? none : ground.material_of(c);
+    free_field.take_ground(ground);
     find_dashpots();
   }
 
@@ -105,29 +108,28 @@ namespace Keyblock
         for (const std::string &name : scene.supports[s]->boundaries)
           for (unsigned int c = 0; c < mesh.n_cells(); ++c)
             for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-              if (mesh.is_on(c, f, name) && !is_excavated[c] &&
-                  !scene.materials[mesh.material[c]]->is_rigid())
+              if (mesh.is_on(c, f, name) && material[c] != none &&
+                  !scene.materials[material[c]]->is_rigid())
                 {
                   const Tensor<1, dim> area = mesh.face_area_vector(c, f);
-                  const double share = area.norm() / Mesh<dim>::n_face_vertices;
                   const Tensor<2, dim> impedance =
-                    share * quiet_impedance(*scene.materials[mesh.material[c]],
-                                            area / area.norm());
-                  for (const unsigned int v : mesh.face_vertices(c, f))
+                    quiet_impedance(*scene.materials[material[c]],
+                                    area / area.norm());
+                  const auto areas    = nodal_areas(mesh, c, f);
+                  const auto vertices = mesh.face_vertices(c, f);
+                  for (unsigned int v = 0; v < vertices.size(); ++v)
                     split.for_each_carrier(
-                      v, [&](const unsigned int carrier, const double weight) {
-                        if (numbering.is_owned(carrier))
-                          {
-                            const unsigned int node =
-                              numbering.local_node(carrier);
-                            Dashpot &dashpot =
-                              found
-                                .try_emplace({{node, s}},
-                                             Dashpot{node, s, {}, 0.})
-                                .first->second;
-                            dashpot.impedance += weight * impedance;
-                            dashpot.area += weight * share;
-                          }
+                      vertices[v],
+                      [&](const unsigned int carrier, const double weight) {
+                        if (!numbering.is_owned(carrier))
+                          return;
+                        const unsigned int node = numbering.local_node(carrier);
+                        Dashpot &dashpot =
+                          found
+                            .try_emplace({{node, s}}, Dashpot{node, s, {}, 0.})
+                            .first->second;
+                        dashpot.impedance += weight * areas[v] * impedance;
+                        dashpot.area += weight * areas[v];
                       });
                 }
     dashpots.clear();
@@ -139,7 +141,7 @@ namespace Keyblock
           at_nodes.push_back({dashpot.node, {}, {}});
         at_nodes.back().impedance += dashpot.impedance;
       }
-    free_field.find_sides(acts, is_excavated, [this](const unsigned int node) {
+    free_field.find_sides(acts, material, [this](const unsigned int node) {
       return std::lower_bound(at_nodes.begin(),
                               at_nodes.end(),
                               node,

@@ -52,6 +52,11 @@ keyblock_scene(verification/quiet_column RANKS 1 2)
 keyblock_scene(verification/quiet_column REFERENCES quiet_column_shear RANKS 1
   SET "Supports/sides/Directions=y"
   "Initial state/Velocity=if(abs(y - 200) < 20, (1 + cos(pi*(y - 200)/20))/2, 0)@ 0")
+# rock that a stage changes: the dashpots are those of the new rock
+keyblock_scene(verification/quiet_column REFERENCES quiet_column_changed
+  RANKS 1 2 SET "Materials/Names=rock, hard" "Materials/hard/Stage=run"
+  "Materials/hard/Young modulus=1e11" "Materials/hard/Poisson ratio=0.25"
+  "Materials/hard/Density=2500" "Stages/run/Duration=0.13")
 # waves from both ends, which are let in and out again; what is left of them
 # when they are over drives nothing
 keyblock_scene(verification/quiet_column REFERENCES quiet_column_wave RANKS 1

@@ -141,7 +141,8 @@ namespace Keyblock
     const SplitMesh<dim> &split;
     const Numbering<dim> &numbering;
     const StageClock &clock;
-    std::vector<bool> is_excavated; ///< by cell
+    /** Index into Scene::materials by cell, `none` where it is excavated. */
+    std::vector<unsigned int> material;
 
     std::vector<bool> acts;                              ///< by support
     std::vector<std::unique_ptr<Expression<dim>>> waves; ///< by support
