@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Supports that move: displacements are reached once, each support moves its own
-directions, records begin with their stage, damping takes nothing of prescribed
-motions, ramps go on; and a stage that changes nothing is in balance.
+directions, records begin with their stage, those of stress drive as velocities do,
+free fields follow rock that changes, damping takes nothing of prescribed motions,
+ramps go on; and a stage that changes nothing is in balance.
 
 usage: moving_supports.py KEYBLOCK FOLDER
 """
@@ -228,6 +229,70 @@ def records(checks):
     checks.near("and a sentence on it", "no stage shakes it" in said, 1, 0)
 
 
+def stresses(checks):
+    """A record of stress is one of velocity times rho c, at a quiet bottom and
+    at the feet of free fields beside it, which know the same wave."""
+    density, young, poisson = 2500., 1e9, 0.25
+    shear = young / (2 + 2 * poisson)
+    along = shear * (2 - 2 * poisson) / (1 - 2 * poisson)
+    factors = [math.sqrt(density * modulus) for modulus in (shear, along)]
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    for name, (fx, fy) in (("waves", (1, 1)), ("stresses", factors)):
+        (FOLDER / f"{name}.csv").write_text("time,x,y\n" + "".join(
+            f"{i * 1e-4!r},{fx * 0.01 * pulse!r},{-0.02 * fy * pulse!r}\n"
+            for i, pulse in enumerate(
+                math.sin(math.pi * i / 50) ** 2 for i in range(51))))
+    for kind in ("quiet", "free field"):
+        histories = []
+        for name, quantity in (("waves", "velocity"), ("stresses", "stress")):
+            supports = {"base": {"Boundaries": "bottom", "Kind": "quiet",
+                                 "History file": f"{name}.csv",
+                                 "History quantity": quantity},
+                        "sides": {"Boundaries": "left, right", "Kind": kind}}
+            histories.append(run(name, PLATE + section("Supports", supports)
+                                 + section("Stages",
+                                           {"shake": {"Duration": 6e-3}}))[0])
+        for column, peak in (("corner.v_x", 0.02), ("corner.v_y", 0.04)):
+            wave, stress = (history[column] for history in histories)
+            if kind == "free field":
+                # twice that of the wave, at the free top
+                checks.near(f"stress, {column}: peak", max(map(abs, stress)),
+                            peak, 0.01 * peak)
+            checks.near(f"stress and velocity, sides {kind}: {column}",
+                        max(abs(a - b) for a, b in zip(wave, stress)), 0,
+                        1e-12 * peak)
+
+
+def rock_that_changes(checks):
+    """Half of the rock is another one from a stage on that begins as waves are
+    under way: stresses stay, and the ground beside free fields goes on as the
+    model does."""
+    text = PLATE.replace("Location = 1, 0.5", "Location = 0.5, 1").replace(
+        "Names = rock\n", "Names = rock, other\n  subsection other\n"
+        "    set Region = 0.5 - y\n    set Young modulus = 3e9\n"
+        "    set Poisson ratio = 0.4\n    set Density = 2000\n"
+        "    set Stage = after\n  end\n")
+    text += section("Supports", {
+        "base": {"Boundaries": "bottom", "Kind": "quiet",
+                 "Velocity": "0.01*sin(900*t); 0.02*sin(700*t)"},
+        "sides": {"Boundaries": "left, right", "Kind": "free field"}})
+    stages = section("Stages", {"before": {"Duration": 3e-3},
+                                "after": {"Duration": 5e-3}})
+    history, _ = run("changed", text + stages)
+    for axis in "xy":
+        side, middle = history[f"corner.v_{axis}"], history[f"right.v_{axis}"]
+        checks.near(f"rock that changes: v_{axis} at the side",
+                    max(abs(a - b) for a, b in zip(side, middle)), 0,
+                    1e-12 * max(map(abs, middle)))
+    run("kept", text + stages, "--set", "Output/Checkpoint interval=1e-3")
+    again, _ = run("again", text + stages, "--restart",
+                   FOLDER / "kept" / "checkpoint.h5")
+    for axis in "xy":
+        checks.near(f"the same from a checkpoint: v_{axis}",
+                    again[f"corner.v_{axis}"][-1],
+                    history[f"corner.v_{axis}"][-1], 0)
+
+
 def ramps(checks):
     """What a stage has not ramped out goes on in the next; and a stage that
     changes nothing is in balance at once."""
@@ -263,7 +328,8 @@ def ramps(checks):
 def main():
     """Exit with the number of what is wrong."""
     checks = Checks()
-    for part in (displacements, directions, ledger, records, ramps):
+    for part in (displacements, directions, ledger, records, stresses,
+                 rock_that_changes, ramps):
         part(checks)
     sys.exit(checks.n_faults)
 

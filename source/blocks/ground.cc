@@ -36,26 +36,45 @@ namespace Keyblock
   unsigned int
   Ground<dim>::material_of(const unsigned int cell) const
   {
-    unsigned int material = split.mesh.material[cell], since = 0;
-    if (is_filled(cell))
-      {
-        const Excavation<dim> &excavation =
-          *scene.excavations[split.mesh.excavation[cell]];
-        material = scene.material_index(excavation.backfill_material);
-        since    = scene.stage_number(excavation.backfill_stage);
-      }
+    if (!is_filled(cell))
+      return natural_material_of(cell);
+    const Excavation<dim> &excavation =
+      *scene.excavations[split.mesh.excavation[cell]];
+    return last_material_of(cell,
+                            scene.material_index(excavation.backfill_material),
+                            scene.stage_number(excavation.backfill_stage));
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Ground<dim>::natural_material_of(const unsigned int cell) const
+  {
+    return last_material_of(cell, split.mesh.material[cell], 0);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Ground<dim>::last_material_of(const unsigned int cell,
+                                const unsigned int material,
+                                const unsigned int since) const
+  {
+    unsigned int last = material, last_since = since;
     if (!split.mesh.later_materials.empty())
       for (const unsigned int later : split.mesh.later_materials[cell])
         {
           const unsigned int from =
             scene.stage_number(scene.materials[later]->stage);
-          if (from <= stage_number && from >= since)
+          if (from <= stage_number && from >= last_since)
             {
-              material = later;
-              since    = from;
+              last       = later;
+              last_since = from;
             }
         }
-    return material;
+    return last;
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/blocks/cluster_numbering.h>
+#include <keyblock/blocks/nodal_areas.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,41 +11,6 @@ namespace Keyblock
 {
   namespace
   {
-    /** Integral of each vertex's shape function over a face [m^(dim-1)]. */
-    template <int dim>
-    std::array<double, Mesh<dim>::n_face_vertices>
-    nodal_areas(const Mesh<dim> &mesh,
-                const unsigned int cell,
-                const unsigned int face)
-    {
-      std::array<double, Mesh<dim>::n_face_vertices> areas;
-      const auto f = mesh.face_vertices(cell, face);
-      if constexpr (dim == 2)
-        areas.fill(0.5 * mesh.vertices[f[0]].distance(mesh.vertices[f[1]]));
-      else
-        {
-          areas.fill(0.);
-          const double g = 0.5 / std::sqrt(3.);
-          for (const double s : {0.5 - g, 0.5 + g})
-            for (const double t : {0.5 - g, 0.5 + g})
-              {
-                const Tensor<1, dim> a =
-                  (1. - t) * (mesh.vertices[f[1]] - mesh.vertices[f[0]]) +
-                  t * (mesh.vertices[f[3]] - mesh.vertices[f[2]]);
-                const Tensor<1, dim> b =
-                  (1. - s) * (mesh.vertices[f[2]] - mesh.vertices[f[0]]) +
-                  s * (mesh.vertices[f[3]] - mesh.vertices[f[1]]);
-                const double weight = 0.25 * cross_product_3d(a, b).norm();
-                for (unsigned int v = 0; v < 4; ++v)
-                  areas[v] +=
-                    weight * ((v & 1) ? s : 1. - s) * ((v & 2) ? t : 1. - t);
-              }
-        }
-      return areas;
-    }
-
-
-
     /** Drop cells that are not there from the start; returns the new index of
      * each cell, or `none`. */
     template <int dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/blocks/lined_faces.h>
 #include <keyblock/blocks/liner_layout.h>
+#include <keyblock/blocks/nodal_areas.h>
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
@@ -229,13 +230,13 @@ namespace Keyblock
         if (liner.is_structural())
           liners.back().faces = lay_out_faces(scene, split, i, faces);
         for (const CellFace &f : faces)
-          for (const unsigned int v : split.mesh.face_vertices(f.cell, f.face))
-            liners.back().areas.push_back(
-              {v,
-               split.block_of_cell[f.cell],
-               f.cell,
-               split.mesh.face_area_vector(f.cell, f.face).norm() /
-                 Mesh<dim>::n_face_vertices});
+          {
+            const auto areas    = nodal_areas(split.mesh, f.cell, f.face);
+            const auto vertices = split.mesh.face_vertices(f.cell, f.face);
+            for (unsigned int v = 0; v < vertices.size(); ++v)
+              liners.back().areas.push_back(
+                {vertices[v], split.block_of_cell[f.cell], f.cell, areas[v]});
+          }
       }
     return liners;
   }

@@ -161,13 +161,14 @@ namespace Keyblock
       }
 
       void
-      add(const SplitMesh<dim> &split,
+      add(const Ground<dim> &ground,
           const Blocks<dim> &blocks,
-          const unsigned int mesh_cell,
-          const unsigned int stage)
+          const unsigned int mesh_cell)
       {
-        const unsigned int b = split.block_of_cell[mesh_cell];
-        unsigned int c       = static_cast<unsigned int>(BlockClass::rigid) + 1;
+        const SplitMesh<dim> &split = ground.split;
+        const unsigned int stage    = ground.stage_number;
+        const unsigned int b        = split.block_of_cell[mesh_cell];
+        unsigned int c = static_cast<unsigned int>(BlockClass::rigid) + 1;
         if (b != none)
           {
             const auto &by_stage = blocks.blocks[b].class_of_stage;
@@ -176,7 +177,7 @@ namespace Keyblock
           }
         block.add_id(b == none ? 0 : blocks.blocks[b].id);
         kind.add_id(c);
-        material.add_id(split.mesh.material[mesh_cell]);
+        material.add_id(ground.material_of(mesh_cell));
         dug_in.add_id(split.mesh.excavation_stage[mesh_cell]);
       }
     };
@@ -251,7 +252,7 @@ namespace Keyblock
         for (const unsigned int node : numbering.nodes_of_cell(split.mesh, c))
           corners.push_back(point_of_node[node]);
         grid.add_lattice_cell(corners);
-        ids.add(split, blocks, c, stage);
+        ids.add({scene, split, stage}, blocks, c);
         stresses.template add<dim>(mean_stress(cells, local_cell[c]).data());
         plastic.add(cells, local_cell[c]);
         by_block.add(split.block_of_cell[c]);

@@ -147,12 +147,13 @@ namespace Keyblock
     double total = 0., solid_angle = 0.;
     for (const Face &face : faces)
       {
-        const double area      = face.area.norm();
-        const Tensor<1, dim> x = face.place - face.excavation;
+        const Tensor<1, dim> outward = face.area();
+        const double area            = outward.norm();
+        const Tensor<1, dim> x       = face.place - face.excavation;
         total += area;
         fields.lambda += area * face.lambda;
         fields.mu += area * face.mu;
-        solid_angle += face.area * x / std::pow(x.norm(), dim);
+        solid_angle += outward * x / std::pow(x.norm(), dim);
       }
     fields.lambda /= total;
     fields.mu /= total;
@@ -169,19 +170,21 @@ namespace Keyblock
         // widens by p R / (2 G) (cylinder) or p R / (4 G) (sphere)
         const double distance = face.place.distance(face.excavation);
         const double spring   = (dim == 2 ? 2. : 4.) * face.mu / distance;
-        for (const unsigned int v : face.vertices)
+        for (unsigned int v = 0; v < face.vertices.size(); ++v)
           split.for_each_carrier(
-            v, [&](const unsigned int carrier, const double weight) {
-              const double share = weight / Mesh<dim>::n_face_vertices;
-              const Point<dim> x(split.mesh.vertices[v] - face.excavation);
+            face.vertices[v],
+            [&](const unsigned int carrier, const double weight) {
+              const Tensor<1, dim> area = weight * face.areas[v];
+              const Point<dim> x(split.mesh.vertices[face.vertices[v]] -
+                                 face.excavation);
               Entry &entry = entries[carrier];
-              entry.spring += share * face.area.norm() * spring;
+              entry.spring += area.norm() * spring;
               const Point<dim> place(split.mesh.vertices[carrier] -
                                      face.excavation);
               for (unsigned int m = 0; m < n; ++m)
                 {
                   entry.displacement[m] = fields.displacement(m, place);
-                  entry.force[m] -= share * (fields.stress(m, x) * face.area);
+                  entry.force[m] -= fields.stress(m, x) * area;
                 }
             });
       }

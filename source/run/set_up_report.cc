@@ -259,7 +259,7 @@ namespace Keyblock
     for (const std::vector<std::string> &more :
          {warnings_of_rollers(
             model.communicator, model.scene, model.split, model.cells),
-          warnings_of_short_waves(model.scene, model.split.mesh),
+          warnings_of_short_waves(model.scene, model.split),
           warnings_of_free_fields(model.scene, model.split.mesh),
           warnings_of_cut_bolts(model.scene, model.split),
           warnings_of_coarse_mesh(model.scene, model.split, model.blocks)})

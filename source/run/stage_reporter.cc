@@ -21,9 +21,25 @@ namespace Keyblock
     /** Overlaps from this share of the largest displacement on are told [-]. */
     constexpr double notable_overlap = 0.02;
 
-    /** Frequency with structural liners over that without them from which on it
-     * is told [-]. */
+    /** Frequency with liners over that without them from which on it is told
+     * [-]. */
     constexpr double notable_frequency_ratio = 1.01;
+
+
+
+    /** By how much liners shorten the step, and what their springs along traces
+     * of joints do alone, from highest frequencies with and without. */
+    std::string
+    text_of_shortening(const double of_all, const double of_traces)
+    {
+      std::ostringstream text;
+      text << std::setprecision(3) << 100. - 100. / of_all << " per cent";
+      if (of_traces > notable_frequency_ratio)
+        text << " (springs along traces of joints, whose stiffness is their "
+                "'Shear modulus': "
+             << 100. - 100. / of_traces << " per cent)";
+      return text.str();
+    }
 
 
 
@@ -244,10 +260,11 @@ namespace Keyblock
          model.conditions->report_structural_liners())
       out << describe(list_figures(loads), *model.scene.liners[loads.liner]);
     if (model.conditions->frequency_ratio_of_liners > notable_frequency_ratio)
-      out << "        structural liners shorten the stable step by "
-          << std::setprecision(3)
-          << 100. - 100. / model.conditions->frequency_ratio_of_liners
-          << " per cent\n";
+      out
+        << "        shotcrete and structural liners shorten the stable step by "
+        << text_of_shortening(model.conditions->frequency_ratio_of_liners,
+                              model.conditions->frequency_ratio_of_traces)
+        << '\n';
     if (!report.warning.empty())
       out << "Warning: " << report.warning << '\n';
     out << std::flush;

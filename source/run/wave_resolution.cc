@@ -17,15 +17,15 @@ namespace Keyblock
      * where it is least. */
     template <int dim>
     double
-    slowest_crossing(const Scene<dim> &scene,
-                     const Mesh<dim> &mesh,
-                     Point<dim> &place)
+    slowest_crossing(const Ground<dim> &ground, Point<dim> &place)
     {
-      double least = std::numeric_limits<double>::max();
+      const Mesh<dim> &mesh = ground.split.mesh;
+      double least          = std::numeric_limits<double>::max();
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
         {
-          const Material<dim> &rock = *scene.materials[mesh.material[c]];
-          if (rock.is_rigid())
+          const Material<dim> &rock =
+            *ground.scene.materials[ground.material_of(c)];
+          if (rock.is_rigid() || ground.is_excavated(c))
             continue;
           double longest = 0.;
           for (unsigned int v = 0; v < (1 << dim); ++v)
@@ -51,17 +51,17 @@ namespace Keyblock
 
   template <int dim>
   std::vector<std::string>
-  warnings_of_short_waves(const Scene<dim> &scene, const Mesh<dim> &mesh)
+  warnings_of_short_waves(const Scene<dim> &scene, const SplitMesh<dim> &split)
   {
     std::vector<std::string> warnings;
-    double crossing = -1.;
-    Point<dim> place;
     for (const auto &support : scene.supports)
       {
         if (!support->history)
           continue;
-        if (crossing < 0.)
-          crossing = slowest_crossing(scene, mesh, place);
+        Point<dim> place;
+        const double crossing =
+          slowest_crossing<dim>({scene, split, scene.history_stage(*support)},
+                                place);
         const double frequency =
           support->history->frequency_below(resolved_share);
         const double n_cells = crossing / frequency;
@@ -81,8 +81,8 @@ namespace Keyblock
     return warnings;
   }
 
-  template std::vector<std::string> warnings_of_short_waves(const Scene<2> &,
-                                                            const Mesh<2> &);
-  template std::vector<std::string> warnings_of_short_waves(const Scene<3> &,
-                                                            const Mesh<3> &);
+  template std::vector<std::string>
+  warnings_of_short_waves(const Scene<2> &, const SplitMesh<2> &);
+  template std::vector<std::string>
+  warnings_of_short_waves(const Scene<3> &, const SplitMesh<3> &);
 } // namespace Keyblock

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a block touches, weighs and bears: input of limit equilibrium.
 #include <keyblock/base/expression.h>
+#include <keyblock/blocks/nodal_areas.h>
 #include <keyblock/law/joint_law.h>
 #include <keyblock/safety/block_faces.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace Keyblock
 {
@@ -220,12 +222,15 @@ namespace Keyblock
                 const Tensor<1, dim> &inward,
                 BlockFace<dim> &into)
       {
-        for (const unsigned int v : mesh.face_vertices(own.cell, own.face))
+        const auto areas    = nodal_areas(mesh, own.cell, own.face);
+        const auto vertices = mesh.face_vertices(own.cell, own.face);
+        const double sum    = std::accumulate(areas.begin(), areas.end(), 0.);
+        for (unsigned int i = 0; i < vertices.size(); ++i)
           {
+            const Point<dim> &place = mesh.vertices[vertices[i]];
             const Tensor<1, dim> force =
-              pressure.value(mesh.vertices[v], time, 0) /
-              Mesh<dim>::n_face_vertices * inward;
-            result.loads.water.push_back({mesh.vertices[v], force});
+              pressure.value(place, time, 0) * areas[i] / sum * inward;
+            result.loads.water.push_back({place, force});
             into.water_force += force * into.inward;
             result.loads.water_along +=
               force - (force * into.inward) * into.inward;

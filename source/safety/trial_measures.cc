@@ -134,11 +134,12 @@ namespace Keyblock
   double
   StrengthTrials<dim>::wave_speed(const unsigned int block) const
   {
-    double speed = 0.;
+    const Ground<dim> ground = run.conditions.active_cells.ground();
+    double speed             = 0.;
     for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
       if (split.block_of_cell[c] == block)
         {
-          const Material<dim> &m = *scene.materials[split.mesh.material[c]];
+          const Material<dim> &m = *scene.materials[ground.material_of(c)];
           speed =
             std::max(speed,
                      std::sqrt((m.lame_lambda() + 2. * m.shear_modulus()) /
@@ -154,12 +155,13 @@ namespace Keyblock
   StrengthTrials<dim>::compression(const unsigned int block,
                                    const double load) const
   {
-    const Block<dim> &b = blocks.blocks[block];
-    double modulus      = 0.;
+    const Ground<dim> ground = run.conditions.active_cells.ground();
+    const Block<dim> &b      = blocks.blocks[block];
+    double modulus           = 0.;
     for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
       if (split.block_of_cell[c] == block)
         {
-          const Material<dim> &m = *scene.materials[split.mesh.material[c]];
+          const Material<dim> &m = *scene.materials[ground.material_of(c)];
           modulus = std::max(modulus, m.lame_lambda() + 2. * m.shear_modulus());
         }
     return load * b.size * b.size / (modulus * b.volume);

@@ -39,9 +39,11 @@ namespace Keyblock
   {
     if (FarFieldSprings<dim>::is_wanted(scene))
       {
-        auto springs =
-          std::make_unique<FarFieldSprings<dim>>(scene, split, numbering);
-        far_field = springs.get();
+        auto springs = std::make_unique<FarFieldSprings<dim>>(scene,
+                                                              split,
+                                                              numbering,
+                                                              fields);
+        far_field    = springs.get();
         elements.push_back(std::move(springs));
       }
     if (QuietBoundary<dim>::is_wanted(scene))
@@ -170,13 +172,17 @@ namespace Keyblock
     active_cells.scale_density(is_scaled);
     add_masses(is_scaled);
     list_moving_nodes();
-    stable_step = active_cells.stable_step;
+    stable_step               = active_cells.stable_step;
+    frequency_ratio_of_liners = frequency_ratio_of_traces = 1.;
     for (const auto &element : elements)
       {
         const double before = stable_step.frequency;
         stable_step.add(element->step_bound(fields.inverse_mass));
-        if (element.get() == liners)
-          frequency_ratio_of_liners = stable_step.frequency / before;
+        const double ratio = stable_step.frequency / before;
+        if (element.get() == shotcrete || element.get() == liners)
+          frequency_ratio_of_liners *= ratio;
+        if (element.get() == shotcrete)
+          frequency_ratio_of_traces = ratio;
       }
   }
 

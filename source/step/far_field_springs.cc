@@ -3,18 +3,22 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <keyblock/blocks/nodal_areas.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace Keyblock
 {
   template <int dim>
   FarFieldSprings<dim>::FarFieldSprings(const Scene<dim> &scene,
                                         const SplitMesh<dim> &split,
-                                        const Numbering<dim> &numbering)
+                                        const Numbering<dim> &numbering,
+                                        const Fields<dim> &fields)
     : scene(scene)
     , split(split)
     , numbering(numbering)
+    , fields(fields)
     , far_field(numbering.communicator)
   {}
 
@@ -37,23 +41,74 @@ namespace Keyblock
   {
     const Mesh<dim> &mesh = split.mesh;
     std::vector<typename FarField<dim>::Face> faces;
+    for (const Side &side : list_sides(stage))
+      {
+        const auto &[c, f]        = side.face;
+        const Material<dim> &rock = *scene.materials[side.material];
+        faces.push_back({mesh.face_vertices(c, f),
+                         mesh.face_center(c, f),
+                         nodal_area_vectors(mesh, c, f),
+                         side.support->center,
+                         rock.lame_lambda(),
+                         rock.shear_modulus()});
+      }
+    far_field = FarField<dim>(faces, split, numbering);
+  }
+
+
+
+  template <int dim>
+  std::vector<typename FarFieldSprings<dim>::Side>
+  FarFieldSprings<dim>::list_sides(const unsigned int stage) const
+  {
+    const Mesh<dim> &mesh = split.mesh;
+    const Ground<dim> ground{scene, split, stage};
+    std::vector<Side> sides;
     for (const auto &support : scene.supports)
       if (support->is_far_field())
         for (const std::string &name : support->boundaries)
           for (unsigned int c = 0; c < mesh.n_cells(); ++c)
             for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
               if (mesh.is_on(c, f, name) && mesh.excavation_stage[c] != 1)
-                {
-                  const Material<dim> &rock =
-                    *scene.materials[mesh.material[c]];
-                  faces.push_back({mesh.face_vertices(c, f),
-                                   mesh.face_center(c, f),
-                                   mesh.face_area_vector(c, f),
-                                   support->center,
-                                   rock.lame_lambda(),
-                                   rock.shear_modulus()});
-                }
-    far_field = FarField<dim>(faces, split, numbering);
+                sides.push_back(
+                  {support.get(), {c, f}, ground.natural_material_of(c)});
+    return sides;
+  }
+
+
+
+  template <int dim>
+  void
+  FarFieldSprings<dim>::take_ground(const Ground<dim> &ground)
+  {
+    const unsigned int stage_before = std::exchange(stage, ground.stage_number);
+    if (!acts || split.mesh.later_materials.empty())
+      return;
+    const std::vector<Side> before = list_sides(stage_before),
+                            now    = list_sides(stage);
+    if (std::equal(before.begin(),
+                   before.end(),
+                   now.begin(),
+                   [](const Side &a, const Side &b) {
+                     return a.material == b.material;
+                   }))
+      return;
+    const auto force = [&]() {
+      std::vector<double> sum(fields.displacement.size(), 0.);
+      far_field.add_force(fields.displacement, sum);
+      return sum;
+    };
+    const auto energy = [&]() {
+      return numbering.communicator.sum(
+        far_field.stored_energy(fields.displacement));
+    };
+    const std::vector<double> force_before = force();
+    energy_before += energy();
+    set_up();
+    const std::vector<double> force_now = force();
+    energy_before -= energy();
+    for (unsigned int i = 0; i < dead_load.size(); ++i)
+      dead_load[i] += force_now[i] - force_before[i];
   }
 
 
@@ -121,7 +176,8 @@ namespace Keyblock
   FarFieldSprings<dim>::stored_energy(
     const std::vector<double> &displacement) const
   {
-    return far_field.stored_energy(displacement);
+    return far_field.stored_energy(displacement) +
+           (numbering.communicator.is_root() ? energy_before : 0.);
   }
 
 
@@ -166,7 +222,7 @@ namespace Keyblock
   ForceElementState
   FarFieldSprings<dim>::remember() const
   {
-    return {name(), {acts ? 1. : 0.}, dead_load};
+    return {name(), {acts ? 1. : 0., double(stage), energy_before}, dead_load};
   }
 
 
@@ -175,10 +231,13 @@ namespace Keyblock
   void
   FarFieldSprings<dim>::recall(const ForceElementState &state)
   {
-    const bool did_act = acts;
-    acts               = state.numbers.at(0) != 0.;
-    dead_load          = state.nodal;
-    if (acts && !did_act)
+    const bool did_act              = acts;
+    const unsigned int stage_before = stage;
+    acts                            = state.numbers.at(0) != 0.;
+    stage                           = state.numbers.at(1);
+    energy_before                   = state.numbers.at(2);
+    dead_load                       = state.nodal;
+    if (acts && (!did_act || stage != stage_before))
       set_up();
     else if (!acts)
       far_field = FarField<dim>(numbering.communicator);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/step/free_field.h>
-
 #include <keyblock/base/errors.h>
+#include <keyblock/blocks/nodal_areas.h>
+#include <keyblock/step/free_field.h>
 #include <keyblock/step/quiet_boundary.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace Keyblock
@@ -22,6 +23,17 @@ namespace Keyblock
                          });
     }
 
+    template <int dim>
+    bool
+    holds_axis_of_bottom(const Support<dim> &support, const unsigned int d)
+    {
+      return support.directions == SupportDirections::all ||
+             support.is_far_field() || support.names_axis(d) ||
+             (support.directions == SupportDirections::normal && d == dim - 1);
+    }
+
+
+
     /** Call @p action(cell, face) for the faces of a boundary that are not of
      * rigid bodies, nor empty from the start. */
     template <int dim, typename Action>
@@ -36,6 +48,36 @@ namespace Keyblock
           if (mesh.is_on(c, f, boundary) && mesh.excavation_stage[c] != 1 &&
               !scene.materials[mesh.material[c]]->is_rigid())
             action(c, f);
+    }
+
+
+
+    template <int dim>
+    double
+    pressure_wave_speed(const Material<dim> &material)
+    {
+      return std::sqrt(
+        (material.lame_lambda() + 2. * material.shear_modulus()) /
+        material.density);
+    }
+
+
+
+    /** Of the rock at the foot of a side, per area [Pa s/m]. */
+    template <int dim>
+    Tensor<2, dim>
+    impedance_of_foot(const std::vector<SideFace<dim>> &faces)
+    {
+      Tensor<1, dim> down;
+      down[dim - 1] = -1.;
+      return quiet_impedance(*std::min_element(faces.begin(),
+                                               faces.end(),
+                                               [](const auto &a,
+                                                  const auto &b) {
+                                                 return a.bottom < b.bottom;
+                                               })
+                                ->material,
+                             down);
     }
   } // namespace
 
@@ -63,22 +105,13 @@ namespace Keyblock
                             const std::string &boundary) const
   {
     const Mesh<dim> &mesh = split.mesh;
-    std::vector<SideFace<dim>> faces;
     Point<dim> foot;
     foot[dim - 1] = std::numeric_limits<double>::max();
     for_each_side_face(
       scene, mesh, boundary, [&](const unsigned int c, const unsigned int f) {
-        SideFace<dim> face{std::numeric_limits<double>::max(),
-                           std::numeric_limits<double>::lowest(),
-                           scene.materials[mesh.material[c]].get()};
         for (const unsigned int v : mesh.face_vertices(c, f))
-          {
-            const Point<dim> &p = mesh.vertices[v];
-            face.bottom         = std::min(face.bottom, p[dim - 1]);
-            face.top            = std::max(face.top, p[dim - 1]);
-            if (p[dim - 1] < foot[dim - 1])
-              foot = p;
-          }
+          if (mesh.vertices[v][dim - 1] < foot[dim - 1])
+            foot = mesh.vertices[v];
         const Tensor<1, dim> area = mesh.face_area_vector(c, f);
         AssertThrow(std::abs(area[dim - 1]) < 1e-6 * area.norm(),
                     InputError("The support '" + scene.supports[support]->name +
@@ -86,27 +119,67 @@ namespace Keyblock
                                boundary +
                                "', which is not plumb; name side boundaries, "
                                "or set 'Kind' to quiet."));
-        faces.push_back(face);
       });
+    const std::vector<SideFace<dim>> faces =
+      list_faces(boundary, {scene, split});
     AssertThrow(!faces.empty(),
                 InputError("The support '" + scene.supports[support]->name +
                            "' is a free field on the boundary '" + boundary +
                            "', where there is no rock that deforms; name "
                            "another one in 'Supports/" +
                            scene.supports[support]->name + "/Boundaries'."));
-    Tensor<1, dim> down;
-    down[dim - 1] = -1.;
-    const SideFace<dim> &base =
-      *std::min_element(faces.begin(),
-                        faces.end(),
-                        [](const auto &a, const auto &b) {
-                          return a.bottom < b.bottom;
-                        });
     return {support,
             boundary,
             FreeFieldColumn<dim>(faces, scene.time_stepping.least_step),
             foot,
-            quiet_impedance(*base.material, down)};
+            impedance_of_foot(faces)};
+  }
+
+
+
+  template <int dim>
+  std::vector<SideFace<dim>>
+  FreeField<dim>::list_faces(const std::string &boundary,
+                             const Ground<dim> &ground) const
+  {
+    const Mesh<dim> &mesh = split.mesh;
+    std::vector<SideFace<dim>> faces;
+    for_each_side_face(
+      scene, mesh, boundary, [&](const unsigned int c, const unsigned int f) {
+        SideFace<dim> face{std::numeric_limits<double>::max(),
+                           std::numeric_limits<double>::lowest(),
+                           scene.materials[ground.natural_material_of(c)].get(),
+                           pressure_wave_speed(
+                             *scene.materials[mesh.material[c]])};
+        for (const unsigned int v : mesh.face_vertices(c, f))
+          {
+            face.bottom = std::min(face.bottom, mesh.vertices[v][dim - 1]);
+            face.top    = std::max(face.top, mesh.vertices[v][dim - 1]);
+          }
+        if (!mesh.later_materials.empty())
+          for (const unsigned int later : mesh.later_materials[c])
+            face.largest_speed =
+              std::max(face.largest_speed,
+                       pressure_wave_speed(*scene.materials[later]));
+        faces.push_back(face);
+      });
+    return faces;
+  }
+
+
+
+  template <int dim>
+  void
+  FreeField<dim>::take_ground(const Ground<dim> &ground)
+  {
+    if (split.mesh.later_materials.empty())
+      return;
+    for (Side &side : sides)
+      {
+        const auto faces = list_faces(side.boundary, ground);
+        side.column.take_materials(faces);
+        side.foot_impedance = impedance_of_foot(faces);
+      }
   }
 
 
@@ -115,7 +188,7 @@ namespace Keyblock
   void
   FreeField<dim>::find_sides(
     const std::vector<bool> &acts,
-    const std::vector<bool> &is_excavated,
+    const std::vector<unsigned int> &material,
     const std::function<unsigned int(unsigned int node)> &entry_of_node)
   {
     const Mesh<dim> &mesh = split.mesh;
@@ -127,24 +200,27 @@ namespace Keyblock
           mesh,
           sides[i].boundary,
           [&](const unsigned int c, const unsigned int f) {
-            if (is_excavated[c])
+            if (material[c] == none)
               return;
-            const Tensor<1, dim> area =
-              mesh.face_area_vector(c, f) / Mesh<dim>::n_face_vertices;
+            const Tensor<1, dim> outward = mesh.face_area_vector(c, f);
             const Tensor<2, dim> impedance =
-              area.norm() * quiet_impedance(*scene.materials[mesh.material[c]],
-                                            area / area.norm());
-            for (const unsigned int v : mesh.face_vertices(c, f))
+              quiet_impedance(*scene.materials[material[c]],
+                              outward / outward.norm());
+            const auto areas    = nodal_areas(mesh, c, f);
+            const auto vectors  = nodal_area_vectors(mesh, c, f);
+            const auto vertices = mesh.face_vertices(c, f);
+            for (unsigned int v = 0; v < vertices.size(); ++v)
               split.for_each_carrier(
-                v, [&](const unsigned int carrier, const double weight) {
+                vertices[v],
+                [&](const unsigned int carrier, const double weight) {
                   if (numbering.is_owned(carrier))
                     shares.push_back(
                       {i,
                        entry_of_node(numbering.local_node(carrier)),
-                       mesh.vertices[v][dim - 1],
+                       mesh.vertices[vertices[v]][dim - 1],
                        mesh.face_center(c, f)[dim - 1],
-                       weight * impedance,
-                       weight * area});
+                       weight * areas[v] * impedance,
+                       weight * vectors[v]});
                 });
           });
   }
@@ -166,20 +242,28 @@ namespace Keyblock
           continue;
         if (support.is_quiet() && acts[s])
           {
-            foot.impedance = side.foot_impedance;
-            foot.incoming  = motion(s, side.foot, step.time);
+            const Tensor<1, dim> wave = motion(s, side.foot, step.time);
+            foot.impedance += side.foot_impedance;
+            foot.incoming +=
+              lets_in_stress(support) ? wave : side.foot_impedance * wave;
           }
         else
           {
             // a quiet bottom is at rest until it lets its wave in
-            if (!support.is_quiet())
-              foot.velocity = motion(s, side.foot, step.time + 0.5 * step.step);
+            const bool is_moved =
+              !support.is_quiet() &&
+              (!support.velocity.empty() || support.history);
+            const Tensor<1, dim> velocity =
+              is_moved ? motion(s, side.foot, step.time + 0.5 * step.step)
+                       : Tensor<1, dim>();
+            // of several supports the last that moves an axis, as at nodes
             for (unsigned int d = 0; d < dim; ++d)
-              foot.is_held[d] =
-                support.directions == SupportDirections::all ||
-                (support.directions == SupportDirections::normal &&
-                 d == dim - 1) ||
-                support.names_axis(d);
+              if (holds_axis_of_bottom(support, d) &&
+                  (is_moved || !foot.is_held[d]))
+                {
+                  foot.is_held[d]  = true;
+                  foot.velocity[d] = velocity[d];
+                }
           }
       }
     return foot;

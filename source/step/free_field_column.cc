@@ -58,11 +58,7 @@ namespace Keyblock
       {
         all.push_back(face.bottom);
         all.push_back(face.top);
-        const Material<dim> &material = *face.material;
-        fastest                       = std::max(fastest,
-                           std::sqrt((material.lame_lambda() +
-                                      2. * material.shear_modulus()) /
-                                     material.density));
+        fastest = std::max(fastest, face.largest_speed);
       }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -77,20 +73,29 @@ namespace Keyblock
     if (levels.size() > 1 && all.back() - levels.back() < gap(all.back()))
       levels.back() = all.back();
 
+    layers.resize(levels.size() - 1);
+    velocity_before.resize(levels.size());
+    velocity_after = velocity_before;
+    take_materials(side);
+  }
+
+
+
+  template <int dim>
+  void
+  FreeFieldColumn<dim>::take_materials(const std::vector<SideFace<dim>> &side)
+  {
     mass.assign(levels.size(), 0.);
-    for (unsigned int i = 0; i + 1 < levels.size(); ++i)
+    for (unsigned int i = 0; i < layers.size(); ++i)
       {
         const Material<dim> &material =
           material_beside(side, 0.5 * (levels[i] + levels[i + 1]));
-        layers.push_back({levels[i + 1] - levels[i],
-                          material.density,
-                          material.lame_lambda(),
-                          material.shear_modulus()});
+        layers[i].thickness     = levels[i + 1] - levels[i];
+        layers[i].lame_lambda   = material.lame_lambda();
+        layers[i].shear_modulus = material.shear_modulus();
         for (const unsigned int level : {i, i + 1})
-          mass[level] += 0.5 * material.density * layers.back().thickness;
+          mass[level] += 0.5 * material.density * layers[i].thickness;
       }
-    displacement.resize(levels.size());
-    velocity_before = velocity_after = displacement;
   }
 
 
@@ -108,23 +113,37 @@ namespace Keyblock
 
   template <int dim>
   Tensor<1, dim>
-  FreeFieldColumn<dim>::gradient(const std::vector<Vector> &values,
-                                 const unsigned int layer) const
+  FreeFieldColumn<dim>::rate(const unsigned int layer) const
   {
-    return (values[layer + 1] - values[layer]) / layers[layer].thickness;
+    return (velocity_before[layer + 1] - velocity_before[layer]) /
+           layers[layer].thickness;
   }
 
 
 
   template <int dim>
-  Tensor<1, dim>
-  FreeFieldColumn<dim>::traction(const Vector &gradient,
-                                 const Layer &layer) const
+  SymmetricTensor<2, dim>
+  FreeFieldColumn<dim>::elastic_stress(const Vector &gradient,
+                                       const Layer &layer) const
   {
-    Vector result = layer.shear_modulus * gradient;
-    result[dim - 1] +=
-      (layer.lame_lambda + layer.shear_modulus) * gradient[dim - 1];
-    return result;
+    SymmetricTensor<2, dim> stress;
+    for (unsigned int d = 0; d + 1 < dim; ++d)
+      {
+        stress[d][d]       = layer.lame_lambda * gradient[dim - 1];
+        stress[d][dim - 1] = layer.shear_modulus * gradient[d];
+      }
+    stress[dim - 1][dim - 1] =
+      (layer.lame_lambda + 2. * layer.shear_modulus) * gradient[dim - 1];
+    return stress;
+  }
+
+
+
+  template <int dim>
+  SymmetricTensor<2, dim>
+  FreeFieldColumn<dim>::stress_of(const Layer &layer, const Vector &rate) const
+  {
+    return layer.stress + elastic_stress(stiffness_damping * rate, layer);
   }
 
 
@@ -135,20 +154,20 @@ namespace Keyblock
   {
     if (step.step > 0.)
       {
-        for (unsigned int i = 0; i < levels.size(); ++i)
-          displacement[i] += step.step * velocity_after[i];
         velocity_before = velocity_after;
+        for (unsigned int i = 0; i < layers.size(); ++i)
+          layers[i].stress += elastic_stress(step.step * rate(i), layers[i]);
       }
     stiffness_damping = step.stiffness_damping;
     std::vector<Vector> force(levels.size());
     for (unsigned int i = 0; i < layers.size(); ++i)
       {
-        const Vector t =
-          traction(gradient(displacement, i) +
-                     stiffness_damping * gradient(velocity_before, i),
-                   layers[i]);
-        force[i] += t;
-        force[i + 1] -= t;
+        const SymmetricTensor<2, dim> stress = stress_of(layers[i], rate(i));
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            force[i][d] += stress[d][dim - 1];
+            force[i + 1][d] -= stress[d][dim - 1];
+          }
       }
     for (unsigned int i = 0; i < levels.size(); ++i)
       velocity_after[i] = velocity_before[i] +
@@ -161,7 +180,7 @@ namespace Keyblock
     for (unsigned int d = 0; d < dim; ++d)
       slowed[d][d] += 1.;
     const Vector middle = 0.5 * (velocity_before[0] + velocity_after[0]) +
-                          factor * (2. * foot.impedance * foot.incoming);
+                          2. * factor * foot.incoming;
     velocity_after[0] = 2. * (invert(slowed) * middle) - velocity_before[0];
     for (unsigned int d = 0; d < dim; ++d)
       if (foot.is_held[d])
@@ -200,17 +219,7 @@ namespace Keyblock
   FreeFieldColumn<dim>::stress(const double elevation) const
   {
     const unsigned int layer = layer_at(elevation);
-    const Vector rise        = gradient(displacement, layer) +
-                        stiffness_damping * gradient(velocity_before, layer);
-    const Vector plane = traction(rise, layers[layer]);
-    SymmetricTensor<2, dim> result;
-    for (unsigned int d = 0; d + 1 < dim; ++d)
-      {
-        result[d][d]       = layers[layer].lame_lambda * rise[dim - 1];
-        result[d][dim - 1] = plane[d];
-      }
-    result[dim - 1][dim - 1] = plane[dim - 1];
-    return result;
+    return stress_of(layers[layer], rate(layer));
   }
 
 
@@ -220,8 +229,10 @@ namespace Keyblock
   FreeFieldColumn<dim>::remember() const
   {
     std::vector<double> numbers;
-    for (const auto *values :
-         {&displacement, &velocity_before, &velocity_after})
+    for (const Layer &layer : layers)
+      for (unsigned int i = 0; i < n_stresses; ++i)
+        numbers.push_back(layer.stress.access_raw_entry(i));
+    for (const auto *values : {&velocity_before, &velocity_after})
       for (const Vector &value : *values)
         for (unsigned int d = 0; d < dim; ++d)
           numbers.push_back(value[d]);
@@ -234,7 +245,10 @@ namespace Keyblock
   void
   FreeFieldColumn<dim>::recall(const double *numbers)
   {
-    for (auto *values : {&displacement, &velocity_before, &velocity_after})
+    for (Layer &layer : layers)
+      for (unsigned int i = 0; i < n_stresses; ++i)
+        layer.stress.access_raw_entry(i) = *numbers++;
+    for (auto *values : {&velocity_before, &velocity_after})
       for (Vector &value : *values)
         for (unsigned int d = 0; d < dim; ++d)
           value[d] = *numbers++;

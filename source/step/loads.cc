@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Gravity, tractions, and ramps of what is out of balance.
 #include <keyblock/base/errors.h>
+#include <keyblock/blocks/nodal_areas.h>
 #include <keyblock/step/loads.h>
 
 namespace Keyblock
@@ -74,17 +75,16 @@ namespace Keyblock
         for (const CellFace &face : loaded)
           {
             const Point<dim> center = mesh.face_center(face.cell, face.face);
-            const double area =
-              mesh.face_area_vector(face.cell, face.face).norm() /
-              Mesh<dim>::n_face_vertices;
-            for (const unsigned int v :
-                 mesh.face_vertices(face.cell, face.face))
+            const auto areas        = nodal_areas(mesh, face.cell, face.face);
+            const auto vertices     = mesh.face_vertices(face.cell, face.face);
+            for (unsigned int v = 0; v < vertices.size(); ++v)
               split.for_each_carrier(
-                v, [&](const unsigned int carrier, const double weight) {
+                vertices[v],
+                [&](const unsigned int carrier, const double weight) {
                   if (numbering.is_owned(carrier))
                     nodal_tractions.push_back({numbering.local_node(carrier),
                                                t,
-                                               weight * area,
+                                               weight * areas[v],
                                                center});
                 });
           }
@@ -123,32 +123,39 @@ namespace Keyblock
             ground.is_excavated(face.minus_cell) ||
             ground.is_excavated(face.plus_cell))
           continue;
-        const Tensor<1, dim> area =
-          split.mesh.face_area_vector(face.minus_cell, face.minus_face);
-        for (const bool is_plus : {false, true})
-          for (const unsigned int v :
-               is_plus
-                 ? split.mesh.face_vertices(face.plus_cell, face.plus_face)
-                 : split.mesh.face_vertices(face.minus_cell, face.minus_face))
-            split.for_each_carrier(
-              v, [&](const unsigned int carrier, const double weight) {
-                if (!numbering.is_owned(carrier))
-                  return;
-                const Point<dim> &place    = split.mesh.vertices[v];
-                const Tensor<1, dim> share = (is_plus ? weight : -weight) /
-                                             Mesh<dim>::n_face_vertices * area;
-                const unsigned int node = numbering.local_node(carrier);
-                if (is_varying[face.joint])
-                  {
-                    water.push_back({node, face.joint, share, place});
-                    return;
-                  }
-                const double p =
-                  water_pressures[face.joint]->value(place, 0., 0);
-                for (unsigned int d = 0; d < dim; ++d)
-                  water_forces.emplace_back(dim * node + d, p * share[d]);
-              });
+        for (const CellFace &side : {CellFace{face.minus_cell, face.minus_face},
+                                     CellFace{face.plus_cell, face.plus_face}})
+          add_water(side, face.joint, is_varying[face.joint]);
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Loads<dim>::add_water(const CellFace &side,
+                        const unsigned int joint,
+                        const bool is_varying)
+  {
+    const auto areas    = nodal_area_vectors(split.mesh, side.cell, side.face);
+    const auto vertices = split.mesh.face_vertices(side.cell, side.face);
+    for (unsigned int v = 0; v < vertices.size(); ++v)
+      split.for_each_carrier(
+        vertices[v], [&](const unsigned int carrier, const double weight) {
+          if (!numbering.is_owned(carrier))
+            return;
+          const Point<dim> &place    = split.mesh.vertices[vertices[v]];
+          const Tensor<1, dim> share = -weight * areas[v];
+          const unsigned int node    = numbering.local_node(carrier);
+          if (is_varying)
+            {
+              water.push_back({node, joint, share, place});
+              return;
+            }
+          const double p = water_pressures[joint]->value(place, 0., 0);
+          for (unsigned int d = 0; d < dim; ++d)
+            water_forces.emplace_back(dim * node + d, p * share[d]);
+        });
   }
 
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/quiet_boundary.h>
 
+#include <keyblock/blocks/nodal_areas.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -32,7 +34,7 @@ namespace Keyblock
     , split(split)
     , numbering(numbering)
     , clock(clock)
-    , is_excavated(split.mesh.n_cells(), false)
+    , material(split.mesh.material)
     , acts(scene.supports.size(), false)
     , free_field(scene, split, numbering)
     , dead_load(dim * numbering.n_owned(), 0.)
@@ -87,8 +89,9 @@ namespace Keyblock
   void
   QuietBoundary<dim>::take_ground(const Ground<dim> &ground)
   {
-    for (unsigned int c = 0; c < is_excavated.size(); ++c)
-      is_excavated[c] = ground.is_excavated(c);
+    for (unsigned int c = 0; c < material.size(); ++c)
+      material[c] = ground.is_excavated(c) ? none : ground.material_of(c);
+    free_field.take_ground(ground);
     find_dashpots();
   }
 
@@ -99,38 +102,46 @@ namespace Keyblock
   QuietBoundary<dim>::find_dashpots()
   {
     const Mesh<dim> &mesh = split.mesh;
-    std::map<std::array<unsigned int, 2>, Tensor<2, dim>> found;
+    std::map<std::array<unsigned int, 2>, Dashpot> found; // by node, support
     for (unsigned int s = 0; s < acts.size(); ++s)
       if (acts[s])
         for (const std::string &name : scene.supports[s]->boundaries)
           for (unsigned int c = 0; c < mesh.n_cells(); ++c)
             for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-              if (mesh.is_on(c, f, name) && !is_excavated[c] &&
-                  !scene.materials[mesh.material[c]]->is_rigid())
+              if (mesh.is_on(c, f, name) && material[c] != none &&
+                  !scene.materials[material[c]]->is_rigid())
                 {
                   const Tensor<1, dim> area = mesh.face_area_vector(c, f);
                   const Tensor<2, dim> impedance =
-                    area.norm() / Mesh<dim>::n_face_vertices *
-                    quiet_impedance(*scene.materials[mesh.material[c]],
+                    quiet_impedance(*scene.materials[material[c]],
                                     area / area.norm());
-                  for (const unsigned int v : mesh.face_vertices(c, f))
+                  const auto areas    = nodal_areas(mesh, c, f);
+                  const auto vertices = mesh.face_vertices(c, f);
+                  for (unsigned int v = 0; v < vertices.size(); ++v)
                     split.for_each_carrier(
-                      v, [&](const unsigned int carrier, const double weight) {
-                        if (numbering.is_owned(carrier))
-                          found[{{numbering.local_node(carrier), s}}] +=
-                            weight * impedance;
+                      vertices[v],
+                      [&](const unsigned int carrier, const double weight) {
+                        if (!numbering.is_owned(carrier))
+                          return;
+                        const unsigned int node = numbering.local_node(carrier);
+                        Dashpot &dashpot =
+                          found
+                            .try_emplace({{node, s}}, Dashpot{node, s, {}, 0.})
+                            .first->second;
+                        dashpot.impedance += weight * areas[v] * impedance;
+                        dashpot.area += weight * areas[v];
                       });
                 }
     dashpots.clear();
     at_nodes.clear();
-    for (const auto &[place, impedance] : found)
+    for (const auto &[place, dashpot] : found)
       {
-        dashpots.push_back({place[0], place[1], impedance});
-        if (at_nodes.empty() || at_nodes.back().node != place[0])
-          at_nodes.push_back({place[0], {}, {}});
-        at_nodes.back().impedance += impedance;
+        dashpots.push_back(dashpot);
+        if (at_nodes.empty() || at_nodes.back().node != dashpot.node)
+          at_nodes.push_back({dashpot.node, {}, {}});
+        at_nodes.back().impedance += dashpot.impedance;
       }
-    free_field.find_sides(acts, is_excavated, [this](const unsigned int node) {
+    free_field.find_sides(acts, material, [this](const unsigned int node) {
       return std::lower_bound(at_nodes.begin(),
                               at_nodes.end(),
                               node,
@@ -176,7 +187,7 @@ namespace Keyblock
                          [this](const unsigned int support,
                                 const Point<dim> &place,
                                 const double time) {
-                           return incoming_velocity(support, place, time);
+                           return incoming(support, place, time);
                          });
     drive.assign(at_nodes.size(), Tensor<1, dim>());
     free_field.add_drive(drive);
@@ -221,21 +232,21 @@ namespace Keyblock
 
   template <int dim>
   Tensor<1, dim>
-  QuietBoundary<dim>::incoming_velocity(const unsigned int support,
-                                        const Point<dim> &place,
-                                        const double time) const
+  QuietBoundary<dim>::incoming(const unsigned int support,
+                               const Point<dim> &place,
+                               const double time) const
   {
     if (waves[support])
       return waves[support]->vector(place, time);
-    Tensor<1, dim> velocity;
+    Tensor<1, dim> wave;
     if (const auto &history = scene.supports[support]->history)
       {
         const double since =
           clock.since(scene.history_stage(*scene.supports[support]), time);
         for (unsigned int d = 0; d < dim; ++d)
-          velocity[d] = history->value(since, d);
+          wave[d] = history->value(since, d);
       }
-    return velocity;
+    return wave;
   }
 
 
@@ -263,19 +274,21 @@ namespace Keyblock
     std::vector<Tensor<1, dim>> of_history(acts.size());
     for (unsigned int s = 0; s < acts.size(); ++s)
       if (acts[s] && !waves[s])
-        of_history[s] = incoming_velocity(s, Point<dim>(), time);
+        of_history[s] = incoming(s, Point<dim>(), time);
     for (const Dashpot &dashpot : dashpots)
       if (has_wave(dashpot.support))
         {
           const Point<dim> &place =
             split.mesh.vertices[numbering.vertex_of_node[dashpot.node]];
+          const Tensor<1, dim> wave = waves[dashpot.support]
+                                        ? incoming(dashpot.support, place, time)
+                                        : of_history[dashpot.support];
           const Tensor<1, dim> force =
-            2. * dashpot.impedance *
-            (waves[dashpot.support]
-               ? incoming_velocity(dashpot.support, place, time)
-               : of_history[dashpot.support]);
+            lets_in_stress(*scene.supports[dashpot.support])
+              ? dashpot.area * wave
+              : dashpot.impedance * wave;
           for (unsigned int d = 0; d < dim; ++d)
-            load[dim * dashpot.node + d] += force[d];
+            load[dim * dashpot.node + d] += 2. * force[d];
         }
   }
 

@@ -52,6 +52,11 @@ keyblock_scene(verification/quiet_column RANKS 1 2)
 keyblock_scene(verification/quiet_column REFERENCES quiet_column_shear RANKS 1
   SET "Supports/sides/Directions=y"
   "Initial state/Velocity=if(abs(y - 200) < 20, (1 + cos(pi*(y - 200)/20))/2, 0)@ 0")
+# rock that a stage changes: the dashpots are those of the new rock
+keyblock_scene(verification/quiet_column REFERENCES quiet_column_changed
+  RANKS 1 2 SET "Materials/Names=rock, hard" "Materials/hard/Stage=run"
+  "Materials/hard/Young modulus=1e11" "Materials/hard/Poisson ratio=0.25"
+  "Materials/hard/Density=2500" "Stages/run/Duration=0.13")
 # waves from both ends, which are let in and out again; what is left of them
 # when they are over drives nothing
 keyblock_scene(verification/quiet_column REFERENCES quiet_column_wave RANKS 1
@@ -73,6 +78,11 @@ keyblock_scene(verification/free_field REFERENCES free_field_gmsh RANKS 1 2
   SET "Mesh/Generator=gmsh" "Mesh/Size=2.5")
 keyblock_scene(verification/free_field REFERENCES free_field_held RANKS 1
   SET "Supports/bottom/Kind=held")
+# the same, held along each axis by a support of its own
+keyblock_scene(verification/free_field REFERENCES free_field_held_twice RANKS 1
+  SET "Supports/bottom/Kind=held" "Supports/bottom/Directions=x"
+  "Supports/Names=bottom, floor, sides" "Supports/floor/Boundaries=bottom"
+  "Supports/floor/Directions=y")
 keyblock_scene(verification/free_field_3d RANKS 1 2)
 keyblock_scene(verification/rayleigh RANKS 1 2)
 keyblock_scene(verification/rayleigh REFERENCES rayleigh_mass RANKS 1

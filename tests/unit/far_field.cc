@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Kelvin's fields: gradients are derivatives of the displacements, stresses are
 // in equilibrium, and a single force is carried by any surface around it. The
-// boundary's stiffness carries them through.
-#include "world.h"
+// boundary's stiffness carries them through. What it carries stays when a stage
+// changes the rock.
+#include "plate.h"
 
 #include <boost/test/unit_test.hpp>
 
+#include <keyblock/blocks/nodal_areas.h>
 #include <keyblock/run/simulation.h>
 
 #include <fstream>
@@ -118,7 +120,7 @@ namespace
         if (mesh.neighbor[c][f] == none)
           faces.push_back({mesh.face_vertices(c, f),
                            mesh.face_center(c, f),
-                           mesh.face_area_vector(c, f),
+                           nodal_area_vectors(mesh, c, f),
                            Point<dim>(),
                            kelvin.lambda,
                            kelvin.mu});
@@ -135,7 +137,7 @@ namespace
               if (node == none)
                 continue;
               const auto u    = kelvin.displacement(m, mesh.vertices[v]);
-              const auto load = kelvin.stress(m, face.place) * face.area;
+              const auto load = kelvin.stress(m, face.place) * face.area();
               for (unsigned int d = 0; d < dim; ++d)
                 {
                   displacement[dim * node + d] = u[d];
@@ -161,4 +163,72 @@ BOOST_AUTO_TEST_CASE(far_field_stiffness)
 {
   check_stiffness<2>(32, 0.01);
   check_stiffness<3>(12, 0.06);
+}
+
+BOOST_AUTO_TEST_CASE(far_field_of_rock_that_changes)
+{
+  Plate plate(
+    "subsection Supports\n set Names = far\n subsection far\n  set Boundaries "
+    "= all\n  set Kind = far field\n  set Center = 0.9, 0.4\n end\nend\n"
+    "subsection Stages\n set Names = rest\n subsection rest\n  set Maximum "
+    "steps = 1\n end\nend\n",
+    "subsection Materials\n set Names = rock, hard\n subsection hard\n  set "
+    "Young modulus = 3e9\n  set Poisson ratio = 0.25\n  set Stage = rest\n "
+    "end\nend\n");
+  plate.conditions->release_supports();
+  ForceElement<2> &springs = *plate.conditions->elements.front();
+  const auto displacement  = [&](const double size) {
+    std::vector<double> u(2 * plate.numbering->n_local());
+    for (unsigned int node = 0; node < plate.numbering->n_local(); ++node)
+      {
+        const Point<2> x = plate.place_of(node);
+        u[2 * node]      = size * (1. + x[1]);
+        u[2 * node + 1]  = size * x[0] * x[0];
+      }
+    return u;
+  };
+  // what the springs do to the owned nodes
+  const auto force = [&](const double size) {
+    std::vector<double> load(2 * plate.numbering->n_owned(), 0.),
+      sum(2 * plate.numbering->n_local(), 0.);
+    springs.add_load(0., load);
+    springs.add_force(displacement(size), sum);
+    for (unsigned int i = 0; i < load.size(); ++i)
+      load[i] -= sum[i];
+    return load;
+  };
+  const auto energy = [&](const double size) {
+    return world.sum(springs.stored_energy(displacement(size)));
+  };
+  const auto expect_near = [](const std::vector<double> &a,
+                              const std::vector<double> &b,
+                              const double factor) {
+    double error = 0., largest = 0.;
+    for (unsigned int i = 0; i < a.size(); ++i)
+      {
+        error   = std::max(error, std::abs(a[i] - factor * b[i]));
+        largest = std::max(largest, std::abs(a[i]));
+      }
+    BOOST_TEST(world.max(largest) > 0.);
+    BOOST_TEST(world.max(error) < 1e-10 * world.max(largest));
+  };
+  plate.fields.displacement      = displacement(1e-3);
+  const ForceElementState before = springs.remember();
+  const std::vector<double> soft = force(1e-3);
+  const double stored            = energy(1e-3);
+  plate.conditions->excavate(2);
+  expect_near(force(1e-3), soft, 1.);
+  BOOST_TEST(std::abs(energy(1e-3) / stored - 1.) < 1e-10);
+  // from there on they are three times as stiff
+  std::vector<double> further = force(2e-3);
+  for (unsigned int i = 0; i < further.size(); ++i)
+    further[i] -= soft[i];
+  expect_near(further, soft, 3.);
+  // back to the state before, and to that of the stage
+  const ForceElementState after = springs.remember();
+  springs.recall(before);
+  expect_near(force(1e-3), soft, 1.);
+  expect_near(force(2e-3), soft, 2.);
+  springs.recall(after);
+  expect_near(force(1e-3), soft, 1.);
 }

@@ -19,8 +19,8 @@ namespace Keyblock
     static constexpr double density = 2000.; ///< [kg/m3]
     static constexpr double mass    = 2. * density;
 
-    /** @p text: what the scene says besides mesh and rock. */
-    explicit Plate(const std::string &text)
+    /** @p text: what the scene says besides mesh and rock, @p last after it. */
+    explicit Plate(const std::string &text, const std::string &last = "")
     {
       const std::string file =
         "plate_of_" + std::to_string(world.size()) + ".prm";
@@ -32,7 +32,7 @@ namespace Keyblock
              "Materials\n set Names = rock\n subsection rock\n  set Young "
              "modulus = 1e9\n  set Poisson ratio = 0.25\n  set Density = "
           << density << "\n end\nend\n"
-          << text;
+          << text << last;
       MPI_Barrier(world);
       scene.read(world, file, {});
       const Mesh<2> mesh = make_mesh(world, scene, silent);

@@ -119,6 +119,30 @@ BOOST_AUTO_TEST_CASE(structural_liner_and_the_step)
   BOOST_TEST(soft < 1.03);
 }
 
+BOOST_AUTO_TEST_CASE(springs_along_traces_and_the_step)
+{
+  // a joint that crosses the roof of the slot
+  const std::string joint = "subsection Joints\n set Names = seam\n subsection "
+                            "seam\n  set Point = 1, 0\n  set Dip = 90\n "
+                            "end\nend\n";
+  const auto ratios = [&](const std::string &shear, const std::string &young) {
+    Plate plate(joint +
+                slot("  set Shear strength = 1e6\n  set Shear modulus "
+                     "= " +
+                     shear + "\n  set Young modulus = " + young + "\n"));
+    plate.step->excavate(2);
+    return std::array<double, 2>{{plate.conditions->frequency_ratio_of_liners,
+                                  plate.conditions->frequency_ratio_of_traces}};
+  };
+  const auto stiff = ratios("1e12", "0"), soft = ratios("1e6", "0"),
+             shell = ratios("1e6", "1e11");
+  BOOST_TEST(stiff[0] > 2.);
+  BOOST_TEST(stiff[1] == stiff[0]);
+  BOOST_TEST(soft[0] < 1.01);
+  BOOST_TEST(shell[0] > 1.2);
+  BOOST_TEST(shell[1] < 1.01);
+}
+
 BOOST_AUTO_TEST_CASE(structural_liner_has_mass)
 {
   const auto mass_of = [](const Plate &plate) {

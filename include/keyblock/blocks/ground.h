@@ -25,6 +25,16 @@ namespace Keyblock
 
     /** Index into Scene::materials, that of the fill where it is filled. */
     unsigned int material_of(const unsigned int cell) const;
+
+    /** The same as if nothing were filled. */
+    unsigned int natural_material_of(const unsigned int cell) const;
+
+  private:
+    /** The last material that takes over the cell until now, from stage
+     * @p since on, or @p material. */
+    unsigned int last_material_of(const unsigned int cell,
+                                  const unsigned int material,
+                                  const unsigned int since) const;
   };
 
   /** Whether stage @p number excavates, fills, loads or changes anything. */

@@ -4,7 +4,9 @@
 
 #include <keyblock/rock/dofs.h>
 
+#include <array>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 namespace dealii
@@ -65,10 +67,17 @@ namespace Keyblock
     struct Face
     {
       typename Mesh<dim>::FaceVertices vertices;
-      Point<dim> place;      ///< its centre [m]
-      Tensor<1, dim> area;   ///< times the outward normal [m^(dim-1)]
+      Point<dim> place; ///< its centre [m]
+      /** Of the vertices, times the outward normal [m^(dim-1)]. */
+      std::array<Tensor<1, dim>, Mesh<dim>::n_face_vertices> areas;
       Point<dim> excavation; ///< centre of the excavation [m]
       double lambda, mu;     ///< of the rock beside it [Pa]
+
+      Tensor<1, dim>
+      area() const
+      {
+        return std::accumulate(areas.begin(), areas.end(), Tensor<1, dim>());
+      }
     };
 
     /** Without a boundary: no force. */

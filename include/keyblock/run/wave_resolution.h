@@ -2,7 +2,7 @@
 #ifndef keyblock_run_wave_resolution_h
 #define keyblock_run_wave_resolution_h
 
-#include <keyblock/blocks/interface.h>
+#include <keyblock/blocks/ground.h>
 #include <keyblock/scene/scene.h>
 
 #include <string>
@@ -14,11 +14,11 @@ namespace Keyblock
   constexpr double least_cells_per_wavelength = 10.;
 
   /** A sentence for each history of a support with shear waves shorter than
-   * that somewhere in the rock: up to the frequency below which 95 % of its
-   * energy lies. */
+   * that somewhere in the rock of its stage: up to the frequency below which 95
+   * % of its energy lies. */
   template <int dim>
   std::vector<std::string> warnings_of_short_waves(const Scene<dim> &scene,
-                                                   const Mesh<dim> &mesh);
+                                                   const SplitMesh<dim> &split);
 } // namespace Keyblock
 
 #endif

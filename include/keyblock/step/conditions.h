@@ -148,8 +148,10 @@ namespace Keyblock
 
     StableStep<dim> stable_step; ///< of the masses in use and all elements
 
-    /** Highest frequency with structural liners over that without them [-]. */
+    /** Highest frequency with shotcrete and structural liners over that without
+     * them [-]. */
     double frequency_ratio_of_liners = 1.;
+    double frequency_ratio_of_traces = 1.; ///< the same of shotcrete alone
 
   private:
     void make_elements();

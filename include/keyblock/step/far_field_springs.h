@@ -10,7 +10,8 @@ namespace Keyblock
   /**
    * The rock around the model, in place of the supports of kind far field: they
    * hold the boundary until the initial state is in balance, then its springs
-   * (rock/far_field.h) take over, and what it carried stays as a dead load.
+   * (rock/far_field.h) take over, and what it carried stays as a dead load; so
+   * does what the springs carry when a stage changes the rock beside them.
    */
   template <int dim>
   class FarFieldSprings : public ForceElement<dim>
@@ -18,7 +19,8 @@ namespace Keyblock
   public:
     FarFieldSprings(const Scene<dim> &scene,
                     const SplitMesh<dim> &split,
-                    const Numbering<dim> &numbering);
+                    const Numbering<dim> &numbering,
+                    const Fields<dim> &fields);
 
     /** Whether a support of @p scene is one. */
     static bool is_wanted(const Scene<dim> &scene);
@@ -46,6 +48,7 @@ namespace Keyblock
     {
       return "far_field";
     }
+    void take_ground(const Ground<dim> &ground) override;
     std::vector<unsigned int> nodes() const override;
     void add_force(const std::vector<double> &displacement,
                    std::vector<double> &force) override;
@@ -63,12 +66,27 @@ namespace Keyblock
   private:
     void set_up();
 
+    /** Boundary of a support, material of the rock beside it at the present
+     * stage. */
+    struct Side
+    {
+      const Support<dim> *support;
+      CellFace face;
+      unsigned int material;
+    };
+    std::vector<Side> list_sides(const unsigned int stage) const;
+
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
     const Numbering<dim> &numbering;
+    const Fields<dim> &fields;
 
     FarField<dim> far_field; ///< empty until it acts
-    bool acts = false;
+    bool acts          = false;
+    unsigned int stage = 1; ///< whose rock the springs are of
+    /** Stored by springs that others took the place of, less what those
+     * stored then (the same on every rank) [J]. */
+    double energy_before = 0.;
     std::vector<double> dead_load; ///< by owned degree of freedom [N]
   };
 } // namespace Keyblock

@@ -28,20 +28,24 @@ namespace Keyblock
               const Numbering<dim> &numbering);
 
     /** Velocity that a support prescribes, or the wave that it lets in, by its
-     * number, a place and a time [m/s]. */
+     * number, a place and a time [m/s; Pa if it lets_in_stress()]. */
     using Motion = std::function<
       Tensor<1, dim>(const unsigned int, const Point<dim> &, const double)>;
 
     /**
      * Find the sides of the supports that act.
      *
+     * @param material by cell, `none` where it is excavated
      * @param entry_of_node index of an owned node in the lists that add_drive()
      * is given
      */
     void find_sides(
       const std::vector<bool> &acts,
-      const std::vector<bool> &is_excavated,
+      const std::vector<unsigned int> &material,
       const std::function<unsigned int(unsigned int node)> &entry_of_node);
+
+    /** Take the ground's materials of a stage. */
+    void take_ground(const Ground<dim> &ground);
 
     /** Move the columns on. */
     void advance(const MotionOfStep<dim> &step,
@@ -83,6 +87,10 @@ namespace Keyblock
 
     Side make_side(const unsigned int support,
                    const std::string &boundary) const;
+
+    /** What the side is made of, from below. */
+    std::vector<SideFace<dim>> list_faces(const std::string &boundary,
+                                          const Ground<dim> &ground) const;
 
     FootMotion<dim> foot_motion(const Side &side,
                                 const std::vector<bool> &acts,

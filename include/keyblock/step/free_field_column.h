@@ -19,8 +19,9 @@ namespace Keyblock
   template <int dim>
   struct SideFace
   {
-    double bottom, top; ///< elevations [m]
-    const Material<dim> *material;
+    double bottom, top;            ///< elevations [m]
+    const Material<dim> *material; ///< at present
+    double largest_speed; ///< of pressure waves in all it is ever of [m/s]
   };
 
   /** What moves a column at its foot in a step. */
@@ -29,7 +30,7 @@ namespace Keyblock
   {
     /** Of the rock below, zero where the foot is not quiet [Pa s/m]. */
     Tensor<2, dim> impedance;
-    /** Particle velocity of the wave that comes in [m/s]. */
+    /** Traction of the wave that comes in [Pa]. */
     Tensor<1, dim> incoming;
     /** Axes along which the foot is held, and its velocity there [m/s]. */
     std::array<bool, dim> is_held{};
@@ -43,8 +44,8 @@ namespace Keyblock
    * It takes the steps that the model takes, so that a model without an
    * excavation moves as the column does, to the last digits.
    *
-   * Layers are those of the side; rock is elastic, of the properties that it
-   * has at the start.
+   * Layers are those of the side; rock is elastic, and keeps its stress when a
+   * stage changes its properties.
    */
   template <int dim>
   class FreeFieldColumn
@@ -53,6 +54,9 @@ namespace Keyblock
     /** @param least_step time step that a layer has to bear [s] */
     FreeFieldColumn(const std::vector<SideFace<dim>> &side,
                     const double least_step);
+
+    /** Take the present materials of the same faces; stresses stay. */
+    void take_materials(const std::vector<SideFace<dim>> &side);
 
     /** Damping and times of a step, as in MotionOfStep. */
     struct Step
@@ -72,14 +76,14 @@ namespace Keyblock
     /** Stress before the last kick, damping included, at an elevation [Pa]. */
     SymmetricTensor<2, dim> stress(const double elevation) const;
 
-    /** Displacements and velocities, to go on with. */
+    /** Stresses and velocities, to go on with. */
     std::vector<double> remember() const;
 
     /** Number of numbers that remember() gives. */
     std::size_t
     n_numbers() const
     {
-      return 3 * dim * levels.size();
+      return 2 * dim * levels.size() + n_stresses * layers.size();
     }
 
     /** Take up n_numbers() numbers from @p numbers on. */
@@ -97,22 +101,30 @@ namespace Keyblock
     /** Between levels i and i + 1. */
     struct Layer
     {
-      double thickness, density, lame_lambda, shear_modulus;
+      double thickness, lame_lambda, shear_modulus;
+      SymmetricTensor<2, dim> stress; ///< damping left out [Pa]
     };
+
+    static constexpr unsigned int n_stresses =
+      SymmetricTensor<2, dim>::n_independent_components;
 
     unsigned int layer_at(const double elevation) const;
 
-    /** Rate of displacement with height [-] or velocity [1/s]. */
-    Vector gradient(const std::vector<Vector> &values,
-                    const unsigned int layer) const;
+    /** Change of the velocity with height before the last kick [1/s]. */
+    Vector rate(const unsigned int layer) const;
 
-    /** Traction on a horizontal plane for a gradient. */
-    Vector traction(const Vector &gradient, const Layer &layer) const;
+    /** Stress of rock whose displacement changes with height like this. */
+    SymmetricTensor<2, dim> elastic_stress(const Vector &gradient,
+                                           const Layer &layer) const;
+
+    /** Stress before the last kick, damping included [Pa]. */
+    SymmetricTensor<2, dim> stress_of(const Layer &layer,
+                                      const Vector &rate) const;
 
     std::vector<double> levels;
     std::vector<Layer> layers;
     std::vector<double> mass; ///< by level, per area [kg/m2]
-    std::vector<Vector> displacement, velocity_before, velocity_after;
+    std::vector<Vector> velocity_before, velocity_after;
     double stiffness_damping = 0.; ///< of the last step [s]
   };
 } // namespace Keyblock

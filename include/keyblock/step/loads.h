@@ -151,6 +151,12 @@ namespace Keyblock
     void set_up_tractions(const Ground<dim> &ground);
     void set_up_water(const Ground<dim> &ground);
 
+    /** Add the water in a joint, of which a formula in time is varying, to the
+     * nodes of one of its sides. */
+    void add_water(const CellFace &side,
+                   const unsigned int joint,
+                   const bool is_varying);
+
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
     const Numbering<dim> &numbering;

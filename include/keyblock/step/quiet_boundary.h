@@ -18,6 +18,16 @@ namespace Keyblock
   Tensor<2, dim> quiet_impedance(const Material<dim> &material,
                                  const Tensor<1, dim> &n);
 
+  /** Whether the history of a quiet support is the traction of a wave, not its
+   * particle velocity. */
+  template <int dim>
+  bool
+  lets_in_stress(const Support<dim> &support)
+  {
+    return support.history &&
+           support.history_quantity == HistoryQuantity::stress;
+  }
+
   /**
    * Supports of kind quiet and free field: dashpots that let waves out of the
    * model and, if a wave is given or ground beside the model moves (FreeField),
@@ -25,7 +35,7 @@ namespace Keyblock
    * names; from then on what it carried stays as a dead load. With impedance C,
    * velocity v and the incoming wave's particle velocity w the traction is
    * 2 C w - C v: outgoing and incoming waves add up without disturbing each
-   * other.
+   * other. Of a history of stress C w is what it says.
    *
    * The velocity of the dashpots is the mean of those before and after the
    * kick, so that they neither shorten the step nor add energy: with the kick
@@ -100,6 +110,7 @@ namespace Keyblock
     {
       unsigned int node, support;
       Tensor<2, dim> impedance; ///< times the area [N s/m]
+      double area;              ///< [m^(dim-1)]
     };
 
     /** All dashpots at a node. */
@@ -120,16 +131,18 @@ namespace Keyblock
     }
 
     /** Particle velocity of the wave that support number @p support lets in, or
-     * the velocity that it prescribes [m/s]. */
-    Tensor<1, dim> incoming_velocity(const unsigned int support,
-                                     const Point<dim> &place,
-                                     const double time) const;
+     * the velocity that it prescribes [m/s]; the wave's traction if it
+     * lets_in_stress() [Pa]. */
+    Tensor<1, dim> incoming(const unsigned int support,
+                            const Point<dim> &place,
+                            const double time) const;
 
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
     const Numbering<dim> &numbering;
     const StageClock &clock;
-    std::vector<bool> is_excavated; ///< by cell
+    /** Index into Scene::materials by cell, `none` where it is excavated. */
+    std::vector<unsigned int> material;
 
     std::vector<bool> acts;                              ///< by support
     std::vector<std::unique_ptr<Expression<dim>>> waves; ///< by support
