@@ -215,28 +215,14 @@ namespace Keyblock
     warnings_of_free_fields(const Scene<dim> &scene, const Mesh<dim> &mesh)
     {
       std::vector<std::string> warnings;
-      const bool has_damping_ratio = std::any_of(
-        scene.stages.begin(), scene.stages.end(), [](const auto &stage) {
-          return stage->kind == StageKind::dynamic && stage->damping_ratio > 0.;
-        });
       for (const auto &support : scene.supports)
-        if (support->is_free_field())
-          {
-            const std::string who = "The support '" + support->name +
-                                    "' is a free field whose ground beside "
-                                    "the model ";
-            if (is_beside_yielding_rock(*support, scene, mesh))
-              warnings.push_back(who +
-                                 "stays elastic, while the rock at it may "
-                                 "yield; give the rock along the sides an "
-                                 "elastic material if the shaking brings it "
-                                 "to its strength.");
-            if (has_damping_ratio)
-              warnings.push_back(who +
-                                 "has no 'Damping ratio', while the rock of a "
-                                 "dynamic stage has; use 'Rayleigh ratio' and "
-                                 "'Rayleigh frequency', which act on both.");
-          }
+        if (support->is_free_field() &&
+            is_beside_yielding_rock(*support, scene, mesh))
+          warnings.push_back(
+            "The support '" + support->name +
+            "' is a free field whose ground beside the model stays elastic, "
+            "while the rock at it may yield; give the rock along the sides an "
+            "elastic material if the shaking brings it to its strength.");
       return warnings;
     }
   } // namespace

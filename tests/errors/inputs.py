@@ -618,7 +618,7 @@ def free_field_warnings():
                            "Materials/soft/Cohesion=1e6"]),
           "ground beside the model stays elastic")
     valid(validate(scene, ["Stages/shake/Damping ratio=0.01"]),
-          "ground beside the model has no 'Damping ratio'")
+          "whose 'Damping ratio' the ground beside the model has not")
 
 
 OBLIQUE = """set Dimension = 3
