@@ -2,6 +2,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/scene/decimal_commas.h>
 #include <keyblock/scene/dropped_names.h>
 #include <keyblock/scene/old_names.h>
 #include <keyblock/scene/text.h>
@@ -356,6 +357,11 @@ namespace Keyblock
     set_joints_apart(*this);
     for (const std::string &assignment : overrides)
       add_override(assignment, *this);
+    std::string all = text;
+    for (const Override &entry : this->overrides)
+      all += "\n" + entry.text;
+    for (const std::string &warning : warnings_of_decimal_commas(all))
+      warnings.push_back(warning);
     drop_names_taken_out(*this);
   }
 

@@ -610,6 +610,16 @@ def monitor_of_all_joints():
         assert last["one." + name] == last["every." + name] != 0.
 
 
+def decimal_comma():
+    """Two numbers that look like one."""
+    scene = PRM / "verification/cavern_at_depth.prm"
+    valid(validate(scene, ["Ground/K0=0,6"]), "'0,6', which are two numbers; write 0.6")
+    text = scene.read_text("utf-8")
+    pathlib.Path("s.prm").write_text(
+        text + "subsection Ground\n  set K0 = 1,2 # as in Excel\nend\n", "utf-8")
+    valid(validate("s.prm"), "'1,2', which are two numbers")
+
+
 def free_field_warnings():
     """What the ground beside a free field leaves out is said."""
     scene = PRM / "verification/free_field.prm"
