@@ -368,7 +368,7 @@ namespace Keyblock
         result.n_stages = std::max(result.n_stages, mesh.excavation_stage[c]);
       }
     classify(result, mesh, scene);
-    measure_exactly(result, mesh);
+    measure_exactly(result, mesh, scene);
     measure_widths(result, mesh, scene);
     return result;
   }
