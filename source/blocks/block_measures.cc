@@ -21,6 +21,9 @@ namespace Keyblock
      * cell there [-]. */
     constexpr double coincident = 1e-7, farthest = 3., across = 1e-6;
 
+    /** The same of a joint that may lie on another, which rules [-]. */
+    constexpr double merged = 1e-5;
+
     template <int dim>
     using SurfacesOfFace =
       std::map<typename Mesh<dim>::FaceVertices, std::vector<unsigned int>>;
@@ -174,7 +177,7 @@ namespace Keyblock
         area = std::abs(area);
       exact.bent_area = bent_areas(faces, mesh);
       exact.is_known =
-        exact.volume > 0. && !planes.is_cut(edges, across * size);
+        exact.volume > 0. && !planes.is_cut(edges, merged * size);
       if (exact.is_known)
         block.exact = exact;
     }

@@ -13,6 +13,10 @@ namespace Keyblock
      * plane, and by which faces may lie behind outlines and beyond rims [-]. */
     constexpr double coincident = 1e-9, touching = 1e-6;
 
+    /** How far a joint without faces of the block may cut into it: such a one
+     * lies on another, which rules, over the size of a cell [-]. */
+    constexpr double merged = 1e-5;
+
     /** Rounding of a coordinate over the coordinate [-]. */
     constexpr double rounding = 1e-14;
 
@@ -262,7 +266,7 @@ namespace Keyblock
             const JointExtent<dim> &joint = joints[j];
             const auto [least, greatest] =
               body.reach(joint.origin, joint.normal);
-            if (least >= -tolerance || greatest <= tolerance)
+            if (least >= -merged * size || greatest <= merged * size)
               continue;
             if (!reaches_over(j,
                               body.section(joint.origin, joint.normal),
