@@ -24,6 +24,9 @@ namespace Keyblock
     /** The same of a joint that may lie on another, which rules [-]. */
     constexpr double merged = 1e-5;
 
+    /** Ratio of volumes up to which a block is what the planes bound [-]. */
+    constexpr double most_like = 3.;
+
     template <int dim>
     using SurfacesOfFace =
       std::map<typename Mesh<dim>::FaceVertices, std::vector<unsigned int>>;
@@ -183,7 +186,7 @@ namespace Keyblock
     }
 
     /** Of blocks between the same planes, which the mesh has split, none is
-     * what the planes bound but the largest. */
+     * what the planes bound but the largest; nor is one of another size. */
     template <int dim>
     void
     forget_parts(Blocks<dim> &blocks,
@@ -196,12 +199,21 @@ namespace Keyblock
                              return face.outward * (p - face.corners[0]) < 0.;
                            });
       };
-      // blocks stand in the order of their size
-      for (unsigned int a = 0; a < bodies.size(); ++a)
-        if (bodies[a])
-          for (unsigned int b = a + 1; b < bodies.size(); ++b)
-            if (bodies[b] && is_inside(blocks.blocks[b].centroid, *bodies[a]))
-              blocks.blocks[b].exact = typename Block<dim>::Measures();
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        if (bodies[b])
+          {
+            Block<dim> &block  = blocks.blocks[b];
+            const double ratio = std::max(block.exact.volume / block.volume,
+                                          block.volume / block.exact.volume);
+            if (ratio > most_like ||
+                std::any_of(blocks.blocks.begin(),
+                            blocks.blocks.end(),
+                            [&](const Block<dim> &other) {
+                              return other.volume > block.volume &&
+                                     is_inside(other.centroid, *bodies[b]);
+                            }))
+              block.exact = typename Block<dim>::Measures();
+          }
     }
   } // namespace
 
