@@ -2,6 +2,7 @@
 #include <keyblock/blocks/block_measures.h>
 
 #include <keyblock/base/expression.h>
+#include <keyblock/blocks/plane_arrangement.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,16 +16,16 @@ namespace Keyblock
     /** Sine between planes below which they count as parallel. */
     constexpr double least_sine = 1e-4;
 
-    /** How far a vertex may be from one more plane, and how far it may be
-     * moved, over the size of a cell there [-]. */
-    constexpr double coincident = 1e-7, farthest = 3.;
+    /** How far a vertex may be from one more plane, how far it may be moved,
+     * and how far a block may lie on both sides of a joint, over the size of a
+     * cell there [-]. */
+    constexpr double coincident = 1e-7, farthest = 3., across = 1e-6;
 
-    /** One face on the surface of a block. */
-    struct OuterFace
-    {
-      unsigned int cell, face;
-      unsigned int surface; ///< index into Mesh::surfaces
-    };
+    /** The same of a joint that may lie on another, which rules [-]. */
+    constexpr double merged = 1e-5;
+
+    /** Ratio of volumes up to which a block is what the planes bound [-]. */
+    constexpr double most_like = 3.;
 
     template <int dim>
     using SurfacesOfFace =
@@ -91,21 +92,64 @@ namespace Keyblock
       return is_inward<dim>(face) ? -area : area;
     }
 
+    /** Areas on the joints as the mesh has them. */
+    template <int dim>
+    std::map<unsigned int, double>
+    bent_areas(const std::vector<OuterFace> &faces, const Mesh<dim> &mesh)
+    {
+      std::map<unsigned int, double> areas;
+      for (const OuterFace &face : faces)
+        if (face.surface != none && mesh.surfaces[face.surface].is_joint())
+          areas[mesh.surfaces[face.surface].joint] +=
+            mesh.face_area_vector(face.cell, face.face).norm();
+      return areas;
+    }
+
+    /** Measure a convex block by the planes alone. Joints on which the mesh has
+     * no face of it have a bent area of zero. */
+    template <int dim>
+    void
+    measure(Block<dim> &block,
+            const ConvexBody<dim> &body,
+            const std::vector<OuterFace> &faces,
+            const Mesh<dim> &mesh,
+            const unsigned int n_joints)
+    {
+      auto &exact     = block.exact;
+      exact.volume    = body.volume();
+      exact.bent_area = bent_areas(faces, mesh);
+      for (const auto &[joint, area] : exact.bent_area)
+        exact.joint_area[joint] = 0.;
+      for (const auto &face : body.get_faces())
+        if (face.name < n_joints)
+          {
+            exact.joint_area[face.name] += body.area(face);
+            exact.bent_area.try_emplace(face.name, 0.);
+          }
+      exact.is_known = exact.volume > 0.;
+    }
+
+    /** Measure a block whose faces are those of the mesh, made plane: where the
+     * planes do not meet as the mesh has it, or a joint goes on through the
+     * block, nothing is known. */
     template <int dim>
     void
     measure(Block<dim> &block,
             const std::vector<OuterFace> &faces,
-            const Mesh<dim> &mesh)
+            const Mesh<dim> &mesh,
+            const PlaneArrangement<dim> &planes)
     {
       std::map<unsigned int, std::vector<unsigned int>> surfaces_at;
       for (const OuterFace &face : faces)
         for (const unsigned int v : mesh.face_vertices(face.cell, face.face))
           {
+            if (face.surface == none)
+              return;
             auto &list = surfaces_at[v];
             if (std::find(list.begin(), list.end(), face.surface) == list.end())
               list.push_back(face.surface);
           }
-      const double size = std::pow(block.volume / block.n_cells, 1. / dim);
+      const double size = cell_size(block);
       std::map<unsigned int, Point<dim>> place;
       for (const auto &[v, list] : surfaces_at)
         {
@@ -115,30 +159,61 @@ namespace Keyblock
           place[v] = *x;
         }
       typename Block<dim>::Measures exact;
+      std::vector<std::pair<Point<dim>, Point<dim>>> edges;
       for (const OuterFace &face : faces)
         {
           const auto vertices = mesh.face_vertices(face.cell, face.face);
-          std::array<Point<dim>, Mesh<dim>::n_face_vertices> x, bent;
+          std::array<Point<dim>, Mesh<dim>::n_face_vertices> x;
           for (unsigned int i = 0; i < vertices.size(); ++i)
-            {
-              x[i]    = place.at(vertices[i]);
-              bent[i] = mesh.vertices[vertices[i]];
-            }
+            x[i] = place.at(vertices[i]);
+          for (unsigned int i = 0; i < vertices.size(); ++i)
+            for (unsigned int d = 1; d < dim; ++d)
+              if (i < (i ^ d)) // along edges: in 2D 01, in 3D 01 02 13 23
+                edges.emplace_back(x[i], x[i ^ d]);
           const Tensor<1, dim> area = outward_area<dim>(x, face.face);
           exact.volume += area * (x[0] - block.centroid) / dim;
           const Surface<dim> &surface = mesh.surfaces[face.surface];
           if (surface.is_joint())
-            {
-              exact.joint_area[surface.joint] += area * surface.normal;
-              exact.bent_area[surface.joint] +=
-                outward_area<dim>(bent, face.face).norm();
-            }
+            exact.joint_area[surface.joint] += area * surface.normal;
         }
       for (auto &[joint, area] : exact.joint_area)
         area = std::abs(area);
-      exact.is_known = exact.volume > 0.;
+      exact.bent_area = bent_areas(faces, mesh);
+      exact.is_known =
+        exact.volume > 0. && !planes.is_cut(edges, merged * size);
       if (exact.is_known)
         block.exact = exact;
+    }
+
+    /** Of blocks between the same planes, which the mesh has split, none is
+     * what the planes bound but the largest; nor is one of another size. */
+    template <int dim>
+    void
+    forget_parts(Blocks<dim> &blocks,
+                 const std::vector<std::optional<ConvexBody<dim>>> &bodies)
+    {
+      const auto is_inside = [](const Point<dim> &p, const ConvexBody<dim> &b) {
+        return std::all_of(b.get_faces().begin(),
+                           b.get_faces().end(),
+                           [&p](const auto &face) {
+                             return face.outward * (p - face.corners[0]) < 0.;
+                           });
+      };
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        if (bodies[b])
+          {
+            Block<dim> &block  = blocks.blocks[b];
+            const double ratio = std::max(block.exact.volume / block.volume,
+                                          block.volume / block.exact.volume);
+            if (ratio > most_like ||
+                std::any_of(blocks.blocks.begin(),
+                            blocks.blocks.end(),
+                            [&](const Block<dim> &other) {
+                              return other.volume > block.volume &&
+                                     is_inside(other.centroid, *bodies[b]);
+                            }))
+              block.exact = typename Block<dim>::Measures();
+          }
     }
   } // namespace
 
@@ -146,7 +221,9 @@ namespace Keyblock
 
   template <int dim>
   void
-  measure_exactly(Blocks<dim> &blocks, const Mesh<dim> &mesh)
+  measure_exactly(Blocks<dim> &blocks,
+                  const Mesh<dim> &mesh,
+                  const Scene<dim> &scene)
   {
     if (mesh.surfaces.empty())
       return;
@@ -168,7 +245,10 @@ namespace Keyblock
             const auto found = surfaces.find(key);
             if (found == surfaces.end())
               {
-                is_plane[b] = false;
+                if (other == none && scene.domain.shape != DomainShape::file)
+                  faces[b].push_back({c, f, none});
+                else
+                  is_plane[b] = false;
                 continue;
               }
             // of several that share the face the one that rules
@@ -180,9 +260,32 @@ namespace Keyblock
             faces[b].push_back({c, f, surface});
           }
       }
+    const PlaneArrangement<dim> planes(mesh, scene);
+    std::vector<std::optional<ConvexBody<dim>>> bodies(blocks.blocks.size());
     for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
       if (is_plane[b] && !faces[b].empty())
-        measure(blocks.blocks[b], faces[b], mesh);
+        {
+          Block<dim> &block = blocks.blocks[b];
+          const double size = cell_size(block);
+          if (const auto body = planes.body_of(block, faces[b], true))
+            {
+              if (!planes.is_in_rock(*body, across * size))
+                continue;
+              bodies[b].emplace(*body);
+              measure(block, *body, faces[b], mesh, scene.joints.size());
+              continue;
+            }
+          measure(block, faces[b], mesh, planes);
+          // between infinite joints alone, what is around the block is known
+          if (planes.has_finite_joint(faces[b]) || !block.exact.is_known)
+            continue;
+          const auto around = planes.body_of(block, faces[b], false);
+          const double volume =
+            around ? around->volume() - planes.excavated_volume(*around) : 0.;
+          if (std::abs(block.exact.volume - volume) > across * volume)
+            block.exact = typename Block<dim>::Measures();
+        }
+    forget_parts(blocks, bodies);
   }
 
 
@@ -201,6 +304,6 @@ namespace Keyblock
 
   template double weight_per_mass(const Scene<2> &);
   template double weight_per_mass(const Scene<3> &);
-  template void measure_exactly(Blocks<2> &, const Mesh<2> &);
-  template void measure_exactly(Blocks<3> &, const Mesh<3> &);
+  template void measure_exactly(Blocks<2> &, const Mesh<2> &, const Scene<2> &);
+  template void measure_exactly(Blocks<3> &, const Mesh<3> &, const Scene<3> &);
 } // namespace Keyblock

@@ -264,10 +264,12 @@ namespace Keyblock
                 }
               if (j != none && other != none && excavated == 0)
                 {
-                  const int side = mesh.side[c][f];
+                  const int side      = mesh.side[c][f];
+                  const bool is_outer = result.block_of_cell[other] != b;
+                  // (a joint that ends in the block is met from both sides)
                   result.blocks[b].joint_area[j] +=
-                    mesh.face_area_vector(c, f).norm();
-                  if (result.block_of_cell[other] != b)
+                    (is_outer ? 1. : 0.5) * mesh.face_area_vector(c, f).norm();
+                  if (is_outer)
                     {
                       const Tensor<1, dim> n =
                         double(side) * scene.joints[j]->normal();
@@ -368,7 +370,7 @@ namespace Keyblock
         result.n_stages = std::max(result.n_stages, mesh.excavation_stage[c]);
       }
     classify(result, mesh, scene);
-    measure_exactly(result, mesh);
+    measure_exactly(result, mesh, scene);
     measure_widths(result, mesh, scene);
     return result;
   }

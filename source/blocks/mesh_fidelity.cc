@@ -143,6 +143,58 @@ namespace Keyblock
              "'Mesh/Size' or 'Mesh/Size at excavation', or set 'Mesh/Cells "
              "across blocks'.";
     }
+
+    /** Blocks of which a joint cuts a corner off that the mesh has lost. */
+    template <int dim>
+    std::string
+    warning_of_lost_corners(const Scene<dim> &scene, const Blocks<dim> &blocks)
+    {
+      std::vector<std::string> cuts;
+      for (const Block<dim> &block : blocks.blocks)
+        for (const auto &[joint, area] : block.exact.joint_area)
+          if (area > 0. && block.exact.bent_area.at(joint) == 0.)
+            cuts.push_back(scene.joints[joint]->name + " off block " +
+                           std::to_string(block.id));
+      if (cuts.empty())
+        return "";
+      return "Joints cut off corners that the mesh has left on (" +
+             list_some(cuts) +
+             "); limit equilibrium takes the blocks without them.";
+    }
+
+    /** Blocks that the mesh has bent, nobody knows how much. */
+    template <int dim>
+    std::string
+    warning_of_unknown_volumes(const SplitMesh<dim> &split,
+                               const Scene<dim> &scene,
+                               const Blocks<dim> &blocks)
+    {
+      const Mesh<dim> &mesh = split.mesh;
+      std::vector<bool> is_bent(blocks.blocks.size());
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        if (const unsigned int b = split.block_of_cell[c];
+            b != none && !blocks.blocks[b].is_infinite &&
+            !blocks.blocks[b].exact.is_known && !is_bent[b])
+          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+            if (const unsigned int j = mesh.joint[c][f]; j != none)
+              for (const unsigned int v : mesh.face_vertices(c, f))
+                if (std::abs(scene.joints[j]->distance(mesh.vertices[v])) >
+                    largest_shift * std::pow(mesh.cell_volume(c), 1. / dim))
+                  is_bent[b] = true;
+      std::vector<std::string> ids;
+      for (unsigned int b = 0; b < is_bent.size(); ++b)
+        if (is_bent[b])
+          ids.push_back(std::to_string(blocks.blocks[b].id));
+      if (ids.empty())
+        return "";
+      return (ids.size() > 1 ? "The exact volumes of blocks "
+                             : "The exact volume of block ") +
+             list_some(ids) + (ids.size() > 1 ? " are" : " is") +
+             " not known (a block that is not convex, or that joints bound "
+             "which end there, or that the mesh has split, on faces that it "
+             "moved); limit equilibrium takes the volume of the mesh: lower "
+             "'Mesh/Size' or 'Mesh/Size at excavation'.";
+    }
   } // namespace
 
 
@@ -156,7 +208,9 @@ namespace Keyblock
     std::vector<std::string> warnings;
     for (const std::string &warning :
          {warning_of_shifts(scene, measure_shifts(scene, split, blocks)),
-          warning_of_volumes(blocks)})
+          warning_of_volumes(blocks),
+          warning_of_lost_corners(scene, blocks),
+          warning_of_unknown_volumes(split, scene, blocks)})
       if (!warning.empty())
         warnings.push_back(warning);
     return warnings;

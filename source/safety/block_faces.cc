@@ -69,6 +69,8 @@ namespace Keyblock
             ground.is_excavated(face.minus_cell) ||
             ground.is_excavated(face.plus_cell))
           return;
+        if (block.exact.is_known && block.area_ratio(face.joint) == 0.)
+          return; // only the mesh has it
         const Joint<dim> &joint  = *ground.scene.joints[face.joint];
         const CellFace own       = is_plus
                                      ? CellFace{face.plus_cell, face.plus_face}
@@ -98,6 +100,19 @@ namespace Keyblock
                     own,
                     block.exact.is_known ? area * into.inward : inward,
                     into);
+      }
+
+      /** Faces on joints that cut corners off which the mesh has left on. */
+      void
+      add_faces_without_mesh()
+      {
+        for (const auto &[joint, area] : block.exact.joint_area)
+          if (area > 0. && block.exact.bent_area.at(joint) == 0.)
+            result
+              .faces[joint_entry(joint,
+                                 ground.scene.joints[joint]->distance(
+                                   block.centroid) > 0.)]
+              .area += area;
       }
 
       /** Put the faces into the order of the joints. */
@@ -365,6 +380,7 @@ namespace Keyblock
     Collector<dim> collector(ground, block, time);
     for (const unsigned int i : free.joint_faces_of_block(block.id - 1))
       collector.add_joint_face(ground.split.interface.joint_faces[i]);
+    collector.add_faces_without_mesh();
     collector.sort_faces();
     collector.add_other_faces(free);
     collector.measure_free_area(free);

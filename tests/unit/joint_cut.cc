@@ -277,6 +277,23 @@ BOOST_AUTO_TEST_CASE(exact_volume_of_a_bent_block)
     }
 }
 
+// A trace within a block is as long as it is, though it is met from both sides.
+BOOST_AUTO_TEST_CASE(area_of_a_joint_that_ends_in_a_block)
+{
+  const std::string name = write_scene<2>(
+    "subsection Joints\n set Names = a\n subsection a\n"
+    "  set Extent = polygon\n  set Vertices = 3.1, 5.2; 9, 6.1\n end\nend\n",
+    " set Size = 1\n");
+  Scene<2> scene;
+  scene.read(world, name + ".prm", {});
+  const Mesh<2> mesh     = make_mesh(world, scene, silent);
+  const Blocks<2> blocks = find_blocks(mesh, scene);
+  BOOST_TEST(blocks.blocks.size() == 1);
+  const double length = std::hypot(5.9, 0.9);
+  BOOST_TEST(std::abs(blocks.blocks[0].joint_area.at(0) - length) <
+             1e-9 * length);
+}
+
 // Halved cells have the joints and outlines of those they come from.
 BOOST_AUTO_TEST_CASE(refined_cells_keep_joints)
 {

@@ -12,8 +12,10 @@ namespace Keyblock
   /**
    * Warnings about finite blocks that a coarse mesh has changed, one sentence
    * each: faces that lie farther from their joint's plane than half the size of
-   * their cell, and volumes that differ by more than 5 % from those between
-   * the planes, where these are known (Block::exact). Empty: neither.
+   * their cell, volumes that differ by more than 5 % from those between the
+   * planes, where these are known (Block::exact), corners that a joint cuts off
+   * and the mesh does not, and faces moved so far of blocks where nothing is
+   * known. Empty: none of them.
    */
   template <int dim>
   std::vector<std::string> warnings_of_coarse_mesh(const Scene<dim> &scene,
