@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/vtu_file.h>
 
+#include <cmath>
 #include <zlib.h>
 
 #include <algorithm>
@@ -15,6 +16,10 @@ namespace Keyblock
 {
   namespace
   {
+    /** Distance from the origin over the extent, up to which numbers of 32 bits
+     * tell places apart to a millionth of the extent [-]. */
+    constexpr double most_extents = 16.;
+
     /** Text as the value of an attribute. */
     std::string
     quoted(const std::string &text)
@@ -97,6 +102,12 @@ namespace Keyblock
 
       std::string bytes;
     };
+
+    std::string
+    type_of(const std::vector<double> &)
+    {
+      return "Float64";
+    }
 
     std::string
     type_of(const std::vector<float> &)
@@ -298,6 +309,28 @@ namespace Keyblock
 
 
   bool
+  are_far(const std::vector<double> &points)
+  {
+    double farthest = 0., extent = 0.;
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        double low = std::numeric_limits<double>::max(), high = -low;
+        for (std::size_t i = d; i < points.size(); i += 3)
+          {
+            low  = std::min(low, points[i]);
+            high = std::max(high, points[i]);
+          }
+        if (low > high)
+          return false;
+        farthest = std::max({farthest, std::abs(low), std::abs(high)});
+        extent   = std::max(extent, high - low);
+      }
+    return farthest > most_extents * extent;
+  }
+
+
+
+  bool
   write_vtu(const VtuGrid &grid, const std::string &file_name)
   {
     std::ofstream out(file_name, std::ios::binary);
@@ -309,10 +342,14 @@ namespace Keyblock
     put_arrays(out, data, grid.point_data, "PointData");
     put_arrays(out, data, grid.cell_data, "CellData");
     out << "<Points>\n";
-    put_list(out,
-             data,
-             grid.points,
-             "Name=\"Points\" NumberOfComponents=\"3\"");
+    const std::string points = "Name=\"Points\" NumberOfComponents=\"3\"";
+    if (grid.is_far)
+      put_list(out, data, grid.points, points);
+    else
+      put_list(out,
+               data,
+               std::vector<float>(grid.points.begin(), grid.points.end()),
+               points);
     out << "</Points>\n<Cells>\n";
     put_list(out, data, grid.connectivity, "Name=\"connectivity\"");
     put_list(out, data, grid.offsets, "Name=\"offsets\"");
@@ -335,8 +372,9 @@ namespace Keyblock
     put_field_data(out, data, grid);
     put_kinds(out, grid.point_data, "PPointData");
     put_kinds(out, grid.cell_data, "PCellData");
-    out << "<PPoints>\n<PDataArray type=\"Float32\" "
-           "NumberOfComponents=\"3\"/>\n</PPoints>\n";
+    out << "<PPoints>\n<PDataArray type=\""
+        << (grid.is_far ? "Float64" : "Float32")
+        << "\" NumberOfComponents=\"3\"/>\n</PPoints>\n";
     for (const std::string &piece : pieces)
       out << "<Piece Source=" << quoted(piece) << "/>\n";
     put_end(out, data, "PUnstructuredGrid");

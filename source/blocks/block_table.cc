@@ -47,8 +47,15 @@ namespace Keyblock
             << (block.is_removable ? "yes" : "no") << std::right
             << std::setprecision(6) << std::setw(12) << block.volume
             << std::setw(13) << 1e-3 * block.mass * weight << "  (";
+        // digits enough to tell places in it apart, also far from the origin
+        double farthest = 0.;
         for (unsigned int d = 0; d < dim; ++d)
-          out << (d ? ", " : "") << std::setprecision(4) << block.centroid[d];
+          farthest = std::max(farthest, std::abs(block.centroid[d]));
+        const bool is_far = farthest > 1000. * block.size;
+        out << std::setprecision(
+          is_far ? 2 + int(std::ceil(std::log10(farthest / block.size))) : 4);
+        for (unsigned int d = 0; d < dim; ++d)
+          out << (d ? ", " : "") << block.centroid[d];
         out << ")  ";
         for (const auto &[joint, area] : block.joint_area)
           out << scene.joints[joint]->name << ' ';

@@ -2,6 +2,7 @@
 #include <keyblock/blocks/mesh_fidelity.h>
 
 #include <keyblock/base/number_text.h>
+#include <keyblock/mesh/place_digits.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +82,8 @@ namespace Keyblock
     template <int dim>
     std::string
     warning_of_shifts(const Scene<dim> &scene,
-                      const std::vector<Shift<dim>> &shifts)
+                      const std::vector<Shift<dim>> &shifts,
+                      const int digits)
     {
       Shift<dim> most;
       std::vector<std::string> names;
@@ -96,7 +98,7 @@ namespace Keyblock
         return "";
       std::string place;
       for (unsigned int d = 0; d < dim; ++d)
-        place += (d ? ", " : "") + text_of(most.place[d], 3);
+        place += (d ? ", " : "") + text_of(most.place[d], digits);
       return "The mesh has moved faces of blocks off the planes of their "
              "joints (" +
              list_some(names) + "), the most on " +
@@ -207,7 +209,9 @@ namespace Keyblock
   {
     std::vector<std::string> warnings;
     for (const std::string &warning :
-         {warning_of_shifts(scene, measure_shifts(scene, split, blocks)),
+         {warning_of_shifts(scene,
+                            measure_shifts(scene, split, blocks),
+                            digits_of_place(split.mesh, 3)),
           warning_of_volumes(blocks),
           warning_of_lost_corners(scene, blocks),
           warning_of_unknown_volumes(split, scene, blocks)})

@@ -315,6 +315,9 @@ namespace Keyblock
     file.exchange(group + "contact_steps", memory.n_steps);
     file.exchange(group + "last_kick", memory.last_kick);
     file.exchange(group + "searched_position", memory.searched_position);
+    std::vector<double> gap = {memory.searched_gap};
+    file.exchange(group + "searched_gap", gap);
+    memory.searched_gap = gap.at(0);
     file.exchange(group + "is_search_due", memory.is_search_due);
     file.exchange(group + "next_normal_check", memory.next_normal_check);
   }

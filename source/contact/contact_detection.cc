@@ -189,6 +189,9 @@ namespace Keyblock
     if (is_moved)
       memory.searched_position = nodes.gather_positions();
     share_pair_states();
+    if (is_moved)
+      memory.searched_gap =
+        history.largest_dilation() + springs.largest_offset();
     list_candidates(is_moved);
     mark_surface_contacts();
     return true;
@@ -269,6 +272,7 @@ namespace Keyblock
           has_changed.push_back(g != none && changes[g]);
       }
     listed_converted = converted;
+    search.widen(memory.searched_gap);
     search.search(
       memory.searched_position,
       [&](const unsigned int node, const unsigned int face) {

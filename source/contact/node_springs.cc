@@ -121,8 +121,6 @@ namespace Keyblock
               gap += (nodes.position[dim * spring.node + d] -
                       nodes.position[dim * partner + d]) *
                      spring.normal[d];
-            if (strength.has_memory)
-              gap -= memory.pair_histories[p].dilation;
             spring.offset = dot<dim>(spring.state.stretch, spring.normal) - gap;
             break;
           }
@@ -310,6 +308,8 @@ namespace Keyblock
                                                      nodes.velocity.data()),
                               point.status,
                               point.strength);
+        if (point.status == ContactStatus::sliding)
+          spring.offset -= point.strength.dilation * norm<dim>(change.slip);
         spring.state  = change.after;
         spring.stored = point.spring.energy(change.after.force, point.normal);
       }

@@ -43,7 +43,7 @@ namespace Keyblock
     // behind the face for good, or too far beside it
     if (now.gap < -result.largest_overlap - surface.skin() ||
         (!(now.gap < 0. && now.is_inside) &&
-         distance > surface.skin() + 1e-5 * now.size))
+         distance > range() + 1e-5 * now.size))
       result.clearance = -1.;
     return result;
   }
@@ -103,7 +103,7 @@ namespace Keyblock
   {
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>> boxes;
     for (const unsigned int f : surface.faces_with_area)
-      boxes.emplace_back(surface.box_of(position, f, surface.skin()), f);
+      boxes.emplace_back(surface.box_of(position, f, range()), f);
     const auto tree = dealii::pack_rtree(boxes);
 
     const std::vector<Candidate> before = std::move(candidates);

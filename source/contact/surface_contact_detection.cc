@@ -139,7 +139,9 @@ namespace Keyblock
         JointHistory past;
         if (strength.has_memory)
           past = history.of(contact);
-        if (!contact.is_ridge)
+        // (the offset of a spring has its dilation, without a jump where the
+        // history of another face begins)
+        if (!contact.is_ridge && !springs.has_spring(contact))
           contact.point.gap -= past.dilation;
         contact.point.strength = strength.of_surface(contact,
                                                      areas.of(contact),

@@ -55,6 +55,7 @@ namespace Keyblock
       lines.point_data = {slip};
       lines.cell_data  = {axial, dowel, bolt, set};
       lines.texts.emplace_back("bolt set names", names_of(scene.bolts));
+      lines.is_far = are_far(lines.points);
       return lines;
     }
   } // namespace

@@ -222,6 +222,7 @@ namespace Keyblock
       return;
     const std::string last = file_of(records.size() / 2 - 1);
     VtuGrid grid           = draw(loads, scene);
+    grid.is_far            = are_far(grid.points);
     grid.time              = records.back().time;
     grid.texts.emplace_back("stage",
                             std::vector<std::string>{records.back().stage});

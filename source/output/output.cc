@@ -46,11 +46,16 @@ namespace Keyblock
     for (const std::string &name : names_of(scene.stages))
       stages.push_back(name);
     VtuGrid grid;
-    grid.time  = time;
-    grid.texts = {{"stage", {stage_name()}},
-                  {"excavation stage names", stages},
-                  {"material names", names_of(scene.materials)},
-                  {"joint names", names_of(scene.joints)}};
+    std::vector<double> places;
+    for (const Point<dim> &vertex : split.mesh.vertices)
+      for (unsigned int d = 0; d < 3; ++d)
+        places.push_back(d < dim ? vertex[d] : 0.);
+    grid.is_far = are_far(places);
+    grid.time   = time;
+    grid.texts  = {{"stage", {stage_name()}},
+                   {"excavation stage names", stages},
+                   {"material names", names_of(scene.materials)},
+                   {"joint names", names_of(scene.joints)}};
     return grid;
   }
 

@@ -3,6 +3,7 @@
 #include <keyblock/blocks/bolt_layout.h>
 #include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/law/joint_stiffness.h>
+#include <keyblock/mesh/place_digits.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/wave_resolution.h>
 #include <keyblock/safety/block_theory.h>
@@ -260,6 +261,7 @@ namespace Keyblock
   report_stable_step(const Model<dim> &model, RunReport &report)
   {
     std::ostringstream place;
+    place.precision(digits_of_place(model.split.mesh, 6));
     for (unsigned int d = 0; d < dim; ++d)
       place << (d ? ", " : "") << model.conditions->stable_step.place[d];
     report.stable_step_place = place.str();

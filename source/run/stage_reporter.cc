@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/number_text.h>
 #include <keyblock/law/joint_stiffness.h>
+#include <keyblock/mesh/place_digits.h>
 #include <keyblock/output/liner_output.h>
 #include <keyblock/run/stage_reporter.h>
 #include <keyblock/run/static_stage.h>
@@ -247,7 +248,8 @@ namespace Keyblock
     if (report.largest_overlap > notable_overlap * report.max_displacement)
       {
         out << "        a node was up to " << std::setprecision(3)
-            << report.largest_overlap << " m inside another block, at (";
+            << report.largest_overlap << " m inside another block, at ("
+            << std::setprecision(digits_of_place(model.split.mesh, 3));
         for (unsigned int d = 0; d < dim; ++d)
           out << (d ? ", " : "") << report.overlap_place[d];
         out << ')'

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/number_text.h>
+#include <keyblock/mesh/place_digits.h>
 #include <keyblock/run/wave_resolution.h>
 
 #include <algorithm>
@@ -67,9 +68,10 @@ namespace Keyblock
         const double n_cells = crossing / frequency;
         if (n_cells >= least_cells_per_wavelength)
           continue;
-        std::string where = text_of(place[0]);
+        const int digits  = digits_of_place(split.mesh, 6);
+        std::string where = text_of(place[0], digits);
         for (unsigned int d = 1; d < dim; ++d)
-          where += ", " + text_of(place[d]);
+          where += ", " + text_of(place[d], digits);
         warnings.push_back(
           "Of the history '" + support->history_file +
           "' 95 % of the energy is below " + text_of(frequency) +

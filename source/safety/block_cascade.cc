@@ -3,7 +3,7 @@
 #include <keyblock/safety/block_cascade.h>
 
 #include <algorithm>
-#include <map>
+#include <set>
 
 namespace Keyblock
 {
@@ -12,27 +12,13 @@ namespace Keyblock
     /** Decrease of a factor that counts as one [-]. */
     constexpr double least_decrease = 1e-9;
 
-    /** Blocks that the others of a list lean on, and where in it these are. */
     template <int dim>
-    std::map<unsigned int, std::vector<unsigned int>>
-    list_leaning(const std::vector<JudgedBlock<dim>> &judged,
-                 const Blocks<dim> &blocks)
+    std::vector<bool>
+    removed_from(const Ground<dim> &ground, const std::size_t n_blocks)
     {
-      std::map<unsigned int, std::vector<unsigned int>> leaning;
-      for (unsigned int k = 0; k < judged.size(); ++k)
-        {
-          const LimitEquilibrium<dim> &limit = judged[k].statics.limit;
-          std::set<unsigned int> below;
-          for (unsigned int i = 0; i < limit.n_pressed; ++i)
-            for (const unsigned int other :
-                 judged[k].statics.around.others[limit.faces[i]])
-              if (!blocks.blocks[other].is_infinite &&
-                  !blocks.blocks[other].is_rigid)
-                below.insert(other);
-          for (const unsigned int other : below)
-            leaning[other].push_back(k);
-        }
-      return leaning;
+      return ground.is_removed && !ground.is_removed->empty()
+               ? *ground.is_removed
+               : std::vector<bool>(n_blocks, false);
     }
 
     /** Ids of the blocks that are gone among the neighbours of one. */
@@ -70,9 +56,7 @@ namespace Keyblock
                        const double time)
   {
     std::vector<JudgedBlock<dim>> judged;
-    std::vector<bool> is_gone(blocks.blocks.size(), false);
-    if (ground.is_removed && !ground.is_removed->empty())
-      is_gone = *ground.is_removed;
+    std::vector<bool> is_gone = removed_from(ground, blocks.blocks.size());
     for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
       {
         const auto &classes = blocks.blocks[b].class_of_stage;
@@ -85,14 +69,6 @@ namespace Keyblock
             judged.back().least_factor = judged.back().statics.limit.factor;
           }
       }
-    for (const auto &[below, list] : list_leaning(judged, blocks))
-      for (JudgedBlock<dim> &one : judged)
-        if (one.block == below && one.statics.limit.direction.norm() > 0.)
-          for (const unsigned int k : list)
-            one.statics.remarks.push_back(
-              "block " + std::to_string(blocks.blocks[judged[k].block].id) +
-              " leans on it, left out");
-
     std::vector<std::string> once_gone(judged.size());
     for (bool is_new = true; is_new;)
       {
@@ -135,6 +111,44 @@ namespace Keyblock
 
   template <int dim>
   void
+  note_leaning_blocks(const Ground<dim> &ground,
+                      const Blocks<dim> &blocks,
+                      const double time,
+                      std::vector<JudgedBlock<dim>> &judged)
+  {
+    for (JudgedBlock<dim> &below : judged)
+      {
+        if (below.statics.limit.direction.norm() == 0.)
+          continue;
+        std::vector<bool> is_gone = removed_from(ground, blocks.blocks.size());
+        is_gone[below.block]      = true;
+        const Ground<dim> later   = {ground.scene,
+                                     ground.split,
+                                     ground.stage_number,
+                                     &is_gone};
+        std::unique_ptr<FreeFaces<dim>> free;
+        for (const JudgedBlock<dim> &other : judged)
+          {
+            if (other.block == below.block ||
+                gone_beside(other.statics, is_gone, blocks)
+                    .count(blocks.blocks[below.block].id) == 0)
+              continue;
+            if (!free)
+              free = std::make_unique<FreeFaces<dim>>(later);
+            if (judge_block(later, *free, blocks, other.block, time)
+                  .limit.factor <
+                (1. - least_decrease) * other.statics.limit.factor)
+              below.statics.remarks.push_back(
+                "block " + std::to_string(blocks.blocks[other.block].id) +
+                " may lean on it, left out");
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
   for_each_changed_ground(const Scene<dim> &scene,
                           const SplitMesh<dim> &split,
                           const GroundAction<dim> &action)
@@ -149,6 +163,10 @@ namespace Keyblock
   }
 
 #define INSTANTIATE(dim)                                                       \
+  template void note_leaning_blocks(const Ground<dim> &,                       \
+                                    const Blocks<dim> &,                       \
+                                    const double,                              \
+                                    std::vector<JudgedBlock<dim>> &);          \
   template std::vector<JudgedBlock<dim>> judge_exposed_blocks(                 \
     const Ground<dim> &,                                                       \
     const FreeFaces<dim> &,                                                    \

@@ -108,8 +108,9 @@ namespace Keyblock
     std::ostringstream rows;
     for_each_changed_ground<dim>(
       scene, split, [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
-        for (JudgedBlock<dim> &one :
-             judge_exposed_blocks(ground, free, blocks, 0.))
+        auto judged = judge_exposed_blocks(ground, free, blocks, 0.);
+        note_leaning_blocks(ground, blocks, 0., judged);
+        for (JudgedBlock<dim> &one : judged)
           {
             auto &before = last[one.block];
             if (!before || !agree(*before, one.statics))

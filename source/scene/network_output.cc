@@ -279,6 +279,7 @@ namespace Keyblock
         friction.add(joint.friction_angle);
       }
     planes.cell_data = {index, set, dip, direction, friction};
+    planes.is_far    = are_far(planes.points);
     check_written(write_vtu(planes, file_name), file_name);
   }
 

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -28,6 +29,10 @@ namespace Keyblock
     /** Distance of vertices of an .stl file that are one, over the size of the
      * surface [-]: its numbers have seven digits. */
     constexpr double closeness = 1e-7;
+
+    /** Step of the numbers of an .stl file over the size of the surface that is
+     * taken [-]. */
+    constexpr double coarsest_step = 1e-3;
 
     /** Chords of a full circle where a curved surface becomes triangles. */
     constexpr double chords_of_circle = 96.;
@@ -73,6 +78,33 @@ namespace Keyblock
           add_triangle(surface, corners);
         }
       return surface;
+    }
+
+    /** Throw if the numbers of 32 bits of binary STL are too coarse for a shape
+     * so far from the origin. */
+    void
+    require_fine_steps(const TriangleSurface &surface)
+    {
+      double farthest = 0., size = 0.;
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          double low = std::numeric_limits<double>::max(), high = -low;
+          for (const Point<3> &corner : surface.vertices)
+            {
+              low  = std::min(low, corner[d]);
+              high = std::max(high, corner[d]);
+            }
+          farthest = std::max({farthest, std::abs(low), std::abs(high)});
+          size     = std::max(size, high - low);
+        }
+      const float place = static_cast<float>(farthest);
+      const double step =
+        std::nextafter(place, std::numeric_limits<float>::infinity()) - place;
+      if (step > coarsest_step * size)
+        throw std::runtime_error(
+          "numbers of binary STL have steps of " + text_of(step, 3) + " at " +
+          text_of(farthest, 8) +
+          "; export it relative to 'Domain/Origin', as ASCII STL or as STEP");
     }
 
     TriangleSurface
@@ -190,6 +222,8 @@ namespace Keyblock
     if (surface.triangles.empty())
       throw std::runtime_error("it has no triangles");
     require_few_triangles(surface);
+    if (is_binary)
+      require_fine_steps(surface);
     weld_corners(surface);
     return surface;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <keyblock/mesh/place_digits.h>
 #include <keyblock/step/initial_tension.h>
 
 #include <algorithm>
@@ -89,7 +90,9 @@ namespace Keyblock
     std::ostringstream place;
     if (largest > 0. && tension.largest == largest)
       for (unsigned int d = 0; d < dim; ++d)
-        place << (d ? ", " : "") << std::setprecision(4) << tension.place[d];
+        place << (d ? ", " : "")
+              << std::setprecision(digits_of_place(split.mesh, 4))
+              << tension.place[d];
     const std::string where = communicator.any_text(place.str());
     if (!(largest > least))
       return "";

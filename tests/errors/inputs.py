@@ -580,7 +580,7 @@ def blocks_that_lean():
                           if line[:6].strip().isdigit()}
         print(rows[friction])
     for row in rows.values():
-        assert "block 2 leans on it, left out" in row["1"], row
+        assert "block 2 may lean on it, left out" in row["1"], row
     assert "has gone" not in rows[35]["2"]
     assert "once block 1 has gone" in rows[20]["2"]
     # a study counts it among those that fail
@@ -592,7 +592,7 @@ def blocks_that_lean():
     assert done.returncode == 0, done.stderr
     results = json.loads(pathlib.Path("o/study.json").read_text("utf-8"))
     print(results["blocks"])
-    assert [block["probability"]["value"] for block in results["blocks"]] == [1., 1.]
+    assert [block["probability"]["value"] for block in results["blocks"]][:2] == [1., 1.]
 
 
 def monitor_of_all_joints():

@@ -9,7 +9,7 @@
 #include <vector>
 
 // VTU files: unstructured grids as VTK and ParaView read them, with numbers of
-// 32 bits, compressed by zlib.
+// 32 bits (points far from the origin: 64), compressed by zlib.
 namespace Keyblock
 {
   /** A quantity at all points or all cells of a VtuGrid. */
@@ -74,7 +74,11 @@ namespace Keyblock
   /** Points, cells and what is known at them. */
   struct VtuGrid
   {
-    std::vector<float> points; ///< x, y, z of each [m]
+    std::vector<double> points; ///< x, y, z of each [m]
+
+    /** Whether points are written with 64 bits: 32 would move those far from
+     * the origin. The same for all pieces of a collection. */
+    bool is_far = false;
 
     std::vector<std::int32_t> connectivity; ///< points of the cells
     std::vector<std::int32_t> offsets;      ///< where each cell ends in it
@@ -104,7 +108,7 @@ namespace Keyblock
     add_point(const VectorType &x, const unsigned int dim)
     {
       for (unsigned int d = 0; d < 3; ++d)
-        points.push_back(d < dim ? static_cast<float>(x[d]) : 0.f);
+        points.push_back(d < dim ? x[d] : 0.);
       return n_points() - 1;
     }
 
@@ -115,6 +119,10 @@ namespace Keyblock
      * quadrilateral or a hexahedron, by their number. */
     void add_lattice_cell(const std::vector<unsigned int> &corners);
   };
+
+  /** Whether points (x, y, z of each) lie so far from the origin, over their
+   * extent, that numbers of 32 bits would move them. */
+  bool are_far(const std::vector<double> &points);
 
   /** Write a grid; returns whether that worked. */
   bool write_vtu(const VtuGrid &grid, const std::string &file_name);

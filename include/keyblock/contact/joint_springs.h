@@ -65,6 +65,9 @@ namespace Keyblock
      * meet others from now on. */
     void pass_on(const unsigned int pair);
 
+    /** Whether a contact on surfaces yields elastically when it is not held. */
+    bool has_spring(const SurfaceContact<dim> &contact) const;
+
     /** Find the offsets of springs that pairs have just left to their nodes,
      * for those that do not touch now and may later. */
     void measure_offsets();
@@ -116,8 +119,6 @@ namespace Keyblock
                         const SurfaceContact<dim> &contact);
 
     void put_into_contact(SurfaceContact<dim> &contact, const bool is_booked);
-    bool has_spring(const SurfaceContact<dim> &contact) const;
-
     /** The spring of a contact that was rigid, with the force that it bore. */
     void be_born(const SurfaceContact<dim> &contact,
                  NodeSpring<dim> &spring) const;

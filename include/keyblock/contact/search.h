@@ -35,6 +35,14 @@ namespace Keyblock
                 const IsPaired &is_paired,
                 const std::vector<bool> &has_changed = {});
 
+    /** Let the next search find what presses on each other although it is
+     * @p gap apart: joints that have dilated, springs [m]. */
+    void
+    widen(const double gap)
+    {
+      held_gap = gap;
+    }
+
     /** Surface nodes of all candidate slaves and of the faces they may meet. */
     std::vector<unsigned int> candidate_nodes() const;
 
@@ -135,8 +143,16 @@ namespace Keyblock
                       const Candidate &candidate,
                       std::vector<SurfaceContact<dim>> &contacts) const;
 
+    /** How far from a face its slaves are looked for [m]. */
+    double
+    range() const
+    {
+      return surface.skin() + held_gap;
+    }
+
     std::vector<Candidate> candidates;
     std::unique_ptr<RidgeSearch> ridges; ///< in 3D
+    double held_gap = 0.;                ///< [m]
   };
 } // namespace Keyblock
 

@@ -102,6 +102,9 @@ namespace Keyblock
 
     // when surface contacts were searched, and when they are to be again
     std::vector<double> searched_position;
+
+    /** Gap over which something pressed on each other then [m]. */
+    double searched_gap            = 0.;
     bool is_search_due             = true;
     unsigned int next_normal_check = 0; ///< step at which motion is measured
 

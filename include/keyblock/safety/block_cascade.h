@@ -21,14 +21,21 @@ namespace Keyblock
   /**
    * judge_block() for all blocks with a free face at the stage of @p ground.
    * Those with a factor below 1 fall out, and what rested on them is judged
-   * again without them, until no more fall. The remarks say what that changes,
-   * and which blocks lean on one that can move.
+   * again without them, until no more fall. The remarks say what that changes.
    */
   template <int dim>
   std::vector<JudgedBlock<dim>> judge_exposed_blocks(const Ground<dim> &ground,
                                                      const FreeFaces<dim> &free,
                                                      const Blocks<dim> &blocks,
                                                      const double time);
+
+  /** Add remarks to blocks that can move: which others would if it had gone, so
+   * that they may lean on it. */
+  template <int dim>
+  void note_leaning_blocks(const Ground<dim> &ground,
+                           const Blocks<dim> &blocks,
+                           const double time,
+                           std::vector<JudgedBlock<dim>> &judged);
 
   /** Something to be done for the ground of a stage. */
   template <int dim>
