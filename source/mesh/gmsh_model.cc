@@ -154,16 +154,10 @@ namespace Keyblock
       return tags;
     }
 
-    /** Edges of a disc's polygon. */
-    constexpr unsigned int fewest_edges = 8, most_edges = 24;
-
     /** A joint; an infinite one reaches beyond the ball of radius @p reach
      * about @p center. */
     int
-    add_joint(const Joint<2> &joint,
-              const Point<2> &center,
-              const double reach,
-              const double)
+    add_joint(const Joint<2> &joint, const Point<2> &center, const double reach)
     {
       const Tensor<1, 2> normal  = joint.normal();
       const Tensor<1, 2> along   = Point<2>(normal[1], -normal[0]);
@@ -181,10 +175,7 @@ namespace Keyblock
     }
 
     int
-    add_joint(const Joint<3> &joint,
-              const Point<3> &center,
-              const double reach,
-              const double cell_size)
+    add_joint(const Joint<3> &joint, const Point<3> &center, const double reach)
     {
       const Tensor<1, 3> normal = joint.normal();
       const unsigned int axis =
@@ -194,23 +185,12 @@ namespace Keyblock
       Tensor<1, 3> first        = cross_product_3d(normal, unit);
       first                     = first / first.norm();
       const Tensor<1, 3> second = cross_product_3d(normal, first);
-      std::vector<Point<3>> corners;
       if (joint.extent == JointShape::disc)
-        {
-          // a polygon with the area of the circle, with edges of a cell's size
-          const double turn    = 2. * dealii::numbers::PI;
-          const double n_edges = std::round(turn * joint.radius / cell_size);
-          const unsigned int n =
-            std::max<double>(fewest_edges,
-                             std::min<double>(most_edges, n_edges));
-          const double radius =
-            joint.radius * std::sqrt(turn / n / std::sin(turn / n));
-          for (unsigned int i = 0; i < n; ++i)
-            corners.push_back(joint.point +
-                              radius * (std::cos(turn * i / n) * first +
-                                        std::sin(turn * i / n) * second));
-        }
-      else if (joint.extent == JointShape::infinite)
+        return add_disc(joint.point,
+                        joint.radius * first,
+                        joint.radius * second);
+      std::vector<Point<3>> corners;
+      if (joint.extent == JointShape::infinite)
         {
           const Point<3> middle = center - joint.distance(center) * normal;
           corners               = {middle - reach * first - reach * second,
@@ -322,17 +302,14 @@ namespace Keyblock
     const std::size_t n_tools_of_excavations = tools.size();
     std::vector<unsigned int> joint_of_tool;
     const double reach = low.distance(high);
-    double cell_size   = scene.meshing.size > 0. ? scene.meshing.size : reach;
-    if (scene.meshing.size_at_joints > 0.)
-      cell_size = std::min(cell_size, scene.meshing.size_at_joints);
     if (with_joints)
       for (unsigned int j = 0; j < scene.joints.size(); ++j)
         // (OpenCASCADE breaks down over some that are far away)
         if (JointExtent<dim>(*scene.joints[j]).distance_to_joint(center) <
             reach)
           {
-            tools.emplace_back(
-              dim - 1, add_joint(*scene.joints[j], center, reach, cell_size));
+            tools.emplace_back(dim - 1,
+                               add_joint(*scene.joints[j], center, reach));
             joint_of_tool.push_back(j);
           }
 

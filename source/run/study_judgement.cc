@@ -25,14 +25,20 @@ namespace Keyblock
       sample,
       g.split,
       [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
-        for (const JudgedBlock<dim> &one :
-             judge_exposed_blocks(ground, free, g.blocks, 0.))
+        for (unsigned int b = 0; b < all.size(); ++b)
           {
-            found.is_exposed[one.block] = true;
-            if (one.least_factor < found.factor[one.block])
+            const auto &classes = all[b].class_of_stage;
+            if (classes[std::min<std::size_t>(ground.stage_number,
+                                              classes.size() - 1)] !=
+                BlockClass::exposed)
+              continue;
+            found.is_exposed[b] = true;
+            const double factor =
+              judge_block(ground, free, g.blocks, b, 0.).limit.factor;
+            if (factor < found.factor[b])
               {
-                found.factor[one.block] = one.least_factor;
-                found.stage[one.block]  = ground.stage_number;
+                found.factor[b] = factor;
+                found.stage[b]  = ground.stage_number;
               }
           }
       });

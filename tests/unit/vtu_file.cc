@@ -108,6 +108,28 @@ BOOST_AUTO_TEST_CASE(vtu_of_a_hexahedron)
   BOOST_TEST(std::string(text.begin(), text.end()) == std::string("\0é\0", 4));
 }
 
+// 32 bits would move these by 0.25 m
+BOOST_AUTO_TEST_CASE(vtu_of_points_far_away)
+{
+  VtuGrid grid;
+  const std::array<double, 3> a = {{694200.3, 5391000.7, 1200.1}},
+                              b = {{694201.3, 5391003.8, 1200.1}};
+  grid.add_lattice_cell({grid.add_point(a, 3), grid.add_point(b, 3)});
+  BOOST_TEST(are_far(grid.points));
+  grid.is_far            = true;
+  const std::string name = file_called("far.vtu");
+  BOOST_REQUIRE(write_vtu(grid, name));
+  const auto points =
+    numbers_of<double>(content_of(name),
+                       "<DataArray type=\"Float64\" Name=\"Points");
+  BOOST_TEST(points ==
+               std::vector<double>({a[0], a[1], a[2], b[0], b[1], b[2]}),
+             boost::test_tools::per_element());
+  BOOST_TEST(!are_far({0., 0., 0., 10., 5., 0.}));
+  BOOST_TEST(!are_far({100., 0., 0., 120., 5., 0.}));
+  BOOST_TEST(!are_far({}));
+}
+
 BOOST_AUTO_TEST_CASE(vtu_that_cannot_be_written)
 {
   BOOST_TEST(!write_vtu(VtuGrid(), "no such folder/grid.vtu"));

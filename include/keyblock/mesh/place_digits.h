@@ -30,7 +30,8 @@ namespace Keyblock
         extent = std::max(extent, (*high)[d] - (*low)[d]);
       }
     return extent > 0. && farthest > extent
-             ? digits + static_cast<int>(std::ceil(std::log10(farthest / extent)))
+             ? digits +
+                 static_cast<int>(std::ceil(std::log10(farthest / extent)))
              : digits;
   }
 } // namespace Keyblock
