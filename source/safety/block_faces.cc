@@ -41,7 +41,6 @@ namespace Keyblock
     /** Distance of faces that touch, and cosine of the angle between them, over
      * the size of a face, and up to which they face each other [-]. */
     constexpr double touching = 1e-6, opposed = -0.999;
-
     constexpr double degree = dealii::numbers::PI / 180.;
 
     /** The faces of one block, filled one face of a cell after the other. */
@@ -65,12 +64,12 @@ namespace Keyblock
       {
         const auto &block_of_cell = ground.split.block_of_cell;
         const bool is_plus        = block_of_cell[face.plus_cell] == index;
+        // (some only the mesh has)
         if ((block_of_cell[face.minus_cell] == index) == is_plus ||
             ground.is_excavated(face.minus_cell) ||
-            ground.is_excavated(face.plus_cell))
+            ground.is_excavated(face.plus_cell) ||
+            (block.exact.is_known && block.area_ratio(face.joint) == 0.))
           return;
-        if (block.exact.is_known && block.area_ratio(face.joint) == 0.)
-          return; // only the mesh has it
         const Joint<dim> &joint  = *ground.scene.joints[face.joint];
         const CellFace own       = is_plus
                                      ? CellFace{face.plus_cell, face.plus_face}
@@ -161,8 +160,7 @@ namespace Keyblock
           in_mesh +=
             mesh.face_area_vector(free.faces[i].cell, free.faces[i].face);
         const double ratio = between_planes * in_mesh / in_mesh.norm_square();
-        if (ratio > 0.)
-          result.free_area_ratio = ratio;
+        result.free_area_ratio = ratio > 0. ? ratio : 1.;
       }
 
       BlockSurroundings<dim> result;
