@@ -227,9 +227,10 @@ namespace Keyblock
           is_on_joint         = is_on_joint || is_joint;
         }
       // below a free face, along a joint at its edge, it is still outside
-      if (is_on_joint)
-        return depth;
-      return is_in_front ? 0. : std::min(depth, distance);
+      if (is_in_front && !is_on_joint)
+        return 0.;
+      // no deeper than to the nearest joint, as at a corner that it slides off
+      return std::min(depth, distance);
     }
   } // namespace
 
