@@ -7,11 +7,44 @@
 
 #include <algorithm>
 #include <iostream>
+#include <mutex>
 #include <regex>
 #include <sstream>
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Keeps what is written to the standard error stream from it as long as
+     * this lives; one thread at a time. */
+    class MutedErrors
+    {
+    public:
+      MutedErrors()
+        : lock(mutex)
+        , screen(std::cerr.rdbuf(nothing.rdbuf()))
+      {}
+
+      ~MutedErrors()
+      {
+        std::cerr.rdbuf(screen);
+      }
+
+      MutedErrors(const MutedErrors &)            = delete;
+      MutedErrors &operator=(const MutedErrors &) = delete;
+
+    private:
+      static std::mutex mutex;
+      const std::lock_guard<std::mutex> lock;
+      std::ostringstream nothing;
+      std::streambuf *const screen;
+    };
+
+    std::mutex MutedErrors::mutex;
+  } // namespace
+
+
+
   template <int dim>
   Expression<dim>::Expression(const std::string &text,
                               const unsigned int n_components,
@@ -36,11 +69,10 @@ namespace Keyblock
     const std::string variables =
       (dim == 2) ? std::string("x,y,t") : std::string("x,y,z,t");
     // muParser's own complaint would stand beside our sentence
-    std::ostringstream complaint;
-    std::streambuf *const screen = std::cerr.rdbuf(complaint.rdbuf());
-    bool is_understood           = true;
+    bool is_understood = true;
     try
       {
+        const MutedErrors muted;
         function->initialize(variables,
                              text,
                              {{"pi", dealii::numbers::PI}},
@@ -53,7 +85,6 @@ namespace Keyblock
       {
         is_understood = false;
       }
-    std::cerr.rdbuf(screen);
     AssertThrow(is_understood,
                 InputError("The formula '" + text + "' of the entry '" + entry +
                            "' cannot be understood; use the variables " +
