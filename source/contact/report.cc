@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace Keyblock
 {
@@ -30,33 +31,45 @@ namespace Keyblock
       sums.n_sticking += status == ContactStatus::sticking;
     }
 
+    /** Sum each of @p sums over the ranks, all at once, and find the centres.
+     */
     template <int dim>
-    JointSums<dim>
+    void
     finish_sums(const Communicator &communicator,
-                const JointSums<dim> &sums,
-                const Vector<dim> &moment)
+                const std::vector<Vector<dim>> &moment,
+                std::vector<JointSums<dim>> &sums)
     {
-      std::vector<double> values = {sums.normal,
-                                    double(sums.n_open),
-                                    double(sums.n_sliding),
-                                    double(sums.n_sticking),
-                                    double(sums.n_intact)};
-      values.insert(values.end(), sums.force.begin(), sums.force.end());
-      values.insert(values.end(), moment.begin(), moment.end());
-      communicator.sum_lists(values);
-      JointSums<dim> total;
-      total.normal     = values[0];
-      total.n_open     = std::lround(values[1]);
-      total.n_sliding  = std::lround(values[2]);
-      total.n_sticking = std::lround(values[3]);
-      total.n_intact   = std::lround(values[4]);
-      for (int d = 0; d < dim; ++d)
+      std::vector<double> values;
+      for (unsigned int i = 0; i < sums.size(); ++i)
         {
-          total.force[d] = values[5 + d];
-          if (total.normal != 0.)
-            total.center[d] = values[5 + dim + d] / total.normal;
+          values.insert(values.end(),
+                        {sums[i].normal,
+                         double(sums[i].n_open),
+                         double(sums[i].n_sliding),
+                         double(sums[i].n_sticking),
+                         double(sums[i].n_intact)});
+          values.insert(values.end(),
+                        sums[i].force.begin(),
+                        sums[i].force.end());
+          values.insert(values.end(), moment[i].begin(), moment[i].end());
         }
-      return total;
+      communicator.sum_lists(values);
+      const double *of_one = values.data();
+      for (JointSums<dim> &total : sums)
+        {
+          total.normal     = of_one[0];
+          total.n_open     = std::lround(of_one[1]);
+          total.n_sliding  = std::lround(of_one[2]);
+          total.n_sticking = std::lround(of_one[3]);
+          total.n_intact   = std::lround(of_one[4]);
+          for (int d = 0; d < dim; ++d)
+            {
+              total.force[d] = of_one[5 + d];
+              if (total.normal != 0.)
+                total.center[d] = of_one[5 + dim + d] / total.normal;
+            }
+          of_one += 5 + 2 * dim;
+        }
     }
 
     /** Size of the part of a vector across @p normal. */
@@ -198,24 +211,25 @@ namespace Keyblock
   ContactReport<dim>::sum_over_joints(
     const std::vector<unsigned int> &joints) const
   {
-    // one sum for each joint, or one for all points
-    std::vector<JointSums<dim>> sums(std::max<std::size_t>(joints.size(), 1));
-    std::vector<Vector<dim>> moment(sums.size());
-    // the last is that of faces on no joint
-    std::vector<unsigned int> sum_of_joint(scene.joints.size() + 1,
-                                           joints.empty() ? 0 : none);
+    // one sum for each joint; of all of them, the last for faces on no joint
+    const bool is_all = joints.empty();
+    std::vector<unsigned int> sum_of_joint(scene.joints.size() + 1, none);
+    if (is_all)
+      std::iota(sum_of_joint.begin(), sum_of_joint.end(), 0);
     for (unsigned int i = 0; i < joints.size(); ++i)
       sum_of_joint[joints[i]] = i;
+    std::vector<JointSums<dim>> sums(is_all ? sum_of_joint.size()
+                                            : joints.size());
+    std::vector<Vector<dim>> moment(sums.size());
     add_pairs(sum_of_joint, sums, moment);
     add_surface_contacts(sum_of_joint, sums, moment);
-    for (unsigned int i = 0; i < sums.size(); ++i)
-      {
-        sums[i] =
-          finish_sums<dim>(topology.numbering.communicator, sums[i], moment[i]);
-        if (!joints.empty())
-          sums[i].shear =
-            shear_of<dim>(sums[i].force, scene.joints[joints[i]]->normal());
-      }
+    finish_sums<dim>(topology.numbering.communicator, moment, sums);
+    for (unsigned int j = 0; j < scene.joints.size(); ++j)
+      if (sum_of_joint[j] != none)
+        {
+          JointSums<dim> &sum = sums[sum_of_joint[j]];
+          sum.shear = shear_of<dim>(sum.force, scene.joints[j]->normal());
+        }
     return sums.size() == 1 ? sums[0] : add_up<dim>(sums);
   }
 
@@ -332,9 +346,7 @@ namespace Keyblock
                 reversed(point.normal),
                 point.status);
         }
-    for (unsigned int j = 0; j < sums.size(); ++j)
-      sums[j] =
-        finish_sums<dim>(topology.numbering.communicator, sums[j], moment[j]);
+    finish_sums<dim>(topology.numbering.communicator, moment, sums);
     return sums;
   }
 

@@ -133,7 +133,6 @@ namespace Keyblock
   Monitors<dim>::sample_joint(const Monitor<dim> &monitor,
                               std::vector<double> &row)
   {
-    // all: what meets faces on no joint, too, but for shear and motion
     const bool is_all = monitor.joint == "all";
     std::vector<unsigned int> joints;
     if (is_all)
@@ -142,12 +141,10 @@ namespace Keyblock
     else
       joints = scene.joints_called(monitor.joint);
     JointSums<dim> sums;
-    if (contact && is_all)
-      sums = contact->report().sum_over_joints({});
-    else if (contact && !joints.empty())
-      sums = contact->report().sum_over_joints(joints);
-    if (contact && is_all && !joints.empty())
-      sums.shear = contact->report().sum_over_joints(joints).shear;
+    // all: what meets faces on no joint, too
+    if (contact && (is_all || !joints.empty()))
+      sums = contact->report().sum_over_joints(
+        is_all ? std::vector<unsigned int>() : joints);
     row.push_back(sums.normal);
     row.push_back(sums.shear);
     row.insert(row.end(), sums.force.begin(), sums.force.end());

@@ -30,7 +30,8 @@ namespace Keyblock
     std::vector<JointSums<dim>> sum_over_block(const unsigned int block) const;
 
     /** Sums over the points of @p joints, shear being the sum of what each of
-     * them bears; without any joint over all points, without shear. */
+     * them bears; without any joint over all points, shear being that of all
+     * joints. */
     JointSums<dim>
     sum_over_joints(const std::vector<unsigned int> &joints) const;
 
