@@ -11,11 +11,11 @@ namespace Keyblock
   {
     /** Lengths over the size of a cell: up to which corners count as on a
      * plane, and by which faces may lie behind outlines and beyond rims [-]. */
-    constexpr double coincident = 1e-9, touching = 1e-6;
+    constexpr double same_vertex = 1e-9, touching = 1e-6;
 
     /** How far a joint without faces of the block may cut into it: such a one
      * lies on another, which rules, over the size of a cell [-]. */
-    constexpr double merged = 1e-5;
+    constexpr double thinnest_part = 1e-5;
 
     /** Rounding of a coordinate over the coordinate [-]. */
     constexpr double rounding = 1e-14;
@@ -253,7 +253,7 @@ namespace Keyblock
   {
     const double size = cell_size(block);
     const double tolerance =
-      std::max(coincident * size, rounding * (low.norm() + high.norm()));
+      std::max(same_vertex * size, rounding * (low.norm() + high.norm()));
     const Tensor<1, dim> margin = 0.5 * (high - low);
     ConvexBody<dim> body(low - margin, high + margin, tolerance);
     std::vector<bool> is_done(joints.size(), false);
@@ -266,7 +266,7 @@ namespace Keyblock
             const JointExtent<dim> &joint = joints[j];
             const auto [least, greatest] =
               body.reach(joint.origin, joint.normal);
-            if (least >= -merged * size || greatest <= merged * size)
+            if (least >= -thinnest_part * size || greatest <= thinnest_part * size)
               continue;
             if (!reaches_over(j,
                               body.section(joint.origin, joint.normal),

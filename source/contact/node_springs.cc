@@ -11,7 +11,7 @@ namespace Keyblock
     /** Where that of a node on a joint is, or is to be inserted. */
     template <typename Springs>
     auto
-    place_in(Springs &springs,
+    place_of_spring(Springs &springs,
              const unsigned int node,
              const unsigned int joint)
     {
@@ -31,7 +31,7 @@ namespace Keyblock
   NodeSpring<dim> *
   JointSprings<dim>::find(const unsigned int node, const unsigned int joint)
   {
-    const auto place = place_in(memory.node_springs, node, joint);
+    const auto place = place_of_spring(memory.node_springs, node, joint);
     return place != memory.node_springs.end() && place->node == node &&
                place->joint == joint
              ? &*place
@@ -50,7 +50,7 @@ namespace Keyblock
     fresh.node  = node;
     fresh.joint = joint;
     return *memory.node_springs.insert(
-      place_in(memory.node_springs, node, joint), fresh);
+      place_of_spring(memory.node_springs, node, joint), fresh);
   }
 
 

@@ -15,7 +15,7 @@ namespace Keyblock
   {
     /** Planes with a smaller sine between them count as one; joints of a node
      * with a smaller one: it goes onto the wider joint only. */
-    constexpr double least_sine = 1e-2, least_sine_of_joints = 0.34;
+    constexpr double least_sine_to_normal = 1e-2, least_sine_of_joints = 0.34;
 
     /** Free faces with a larger sine between them make an edge. */
     constexpr double least_sine_of_edge = 0.34;
@@ -221,7 +221,7 @@ namespace Keyblock
                 chosen.push_back(normals[i]);
             const std::vector<Tensor<1, dim>> kept = orthonormal(chosen);
             const auto shift =
-              shift_onto(joint, vertex(node), kept, least_sine);
+              shift_onto(joint, vertex(node), kept, least_sine_to_normal);
             if (!shift || kept.size() < most)
               continue;
             const double way = shift->norm();
@@ -251,7 +251,7 @@ namespace Keyblock
               shift_onto(joint,
                          result,
                          kept,
-                         is_first ? least_sine : least_sine_of_joints);
+                         is_first ? least_sine_to_normal : least_sine_of_joints);
             // planes that meet far away do not meet here
             if (!shift || (!is_first && shift->norm() > farthest_along * size))
               continue;

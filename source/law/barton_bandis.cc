@@ -61,7 +61,7 @@ namespace Keyblock
     };
 
     std::shared_ptr<const JointLaw>
-    make(const JointStrength &entries, const std::string &section)
+    make_barton_bandis(const JointStrength &entries, const std::string &section)
     {
       const auto require = [&](const bool condition,
                                const std::string &entry,
@@ -126,6 +126,6 @@ namespace Keyblock
               "Length of the joint between others [m], for the law "
               "barton-bandis: JRC and JCS, measured on 0.1 m, are scaled to "
               "it; 0: they are those of the joint."}},
-            make};
+            make_barton_bandis};
   }
 } // namespace Keyblock

@@ -65,7 +65,7 @@ namespace Keyblock
     };
 
     std::shared_ptr<const JointLaw>
-    make(const JointStrength &entries, const std::string &section)
+    make_slip_weakening(const JointStrength &entries, const std::string &section)
     {
       AssertThrow(entries.value_of("Slip distance") > 0.,
                   InputError("'" + section +
@@ -124,6 +124,6 @@ namespace Keyblock
             "friction and cohesion fall along straight lines from their peak "
             "to their residual values over Slip distance",
             entries,
-            make};
+            make_slip_weakening};
   }
 } // namespace Keyblock

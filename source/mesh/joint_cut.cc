@@ -20,7 +20,7 @@ namespace Keyblock
 
     /** Cells below these are mended: before and at the end, and the new ones
      * of one joint. */
-    constexpr double wanted_quality = 0.35, wanted_between = 0.25;
+    constexpr double wanted_at_joints = 0.35, wanted_between = 0.25;
 
     /** At the end joints are bent so far, over the target size, where cells are
      * below this: the stable step is then a tenth of that of cells of the
@@ -266,7 +266,7 @@ namespace Keyblock
     MeshReport<dim> report;
     report.way = "cut";
     MeshImprovement<dim> improvement(mesh, allowed_bend);
-    improvement.improve(wanted_quality, 3);
+    improvement.improve(wanted_at_joints, 3);
     const JointSheets<dim> sheets = make_sheets(scene);
     for (const auto &sheet : sheets.sheets)
       {
@@ -282,9 +282,9 @@ namespace Keyblock
       }
     trim_joints(mesh, sheets);
     dissolve_crumbs(mesh, report);
-    improvement.improve(wanted_quality, 8);
+    improvement.improve(wanted_at_joints, 8);
     improvement.flatten(least_quality_of_flattening);
-    improvement.improve(wanted_quality, 2);
+    improvement.improve(wanted_at_joints, 2);
     improvement.flatten(least_quality_of_flattening);
 
     improvement.improve_by_bending(least_quality<dim>, 8, largest_bend);

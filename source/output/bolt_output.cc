@@ -16,7 +16,7 @@ namespace Keyblock
   namespace
   {
     std::string
-    file_of(const unsigned int number)
+    bolts_file(const unsigned int number)
     {
       return "bolts_" + dealii::Utilities::int_to_string(number, 4) + ".vtu";
     }
@@ -107,7 +107,7 @@ namespace Keyblock
   {
     if (reports.empty() || records.empty())
       return;
-    const std::string last = file_of(records.size() / 2 - 1);
+    const std::string last = bolts_file(records.size() / 2 - 1);
     VtuGrid lines          = draw(reports, scene);
     lines.time             = records.back().time;
     lines.texts.emplace_back("stage",
@@ -115,9 +115,9 @@ namespace Keyblock
     bool is_written = write_vtu(lines, folder + last);
     std::vector<VtuRecord> written;
     for (unsigned int i = 0; i < records.size() / 2; ++i)
-      if (std::filesystem::exists(folder + file_of(i)))
+      if (std::filesystem::exists(folder + bolts_file(i)))
         written.push_back(
-          {records[2 * i].time, file_of(i), "", records[2 * i].stage});
+          {records[2 * i].time, bolts_file(i), "", records[2 * i].stage});
     is_written = write_pvd(written, folder + "bolts.pvd") && is_written;
     AssertThrow(is_written,
                 ComputationError("The file '" + folder + last +

@@ -19,7 +19,7 @@ namespace Keyblock
   namespace
   {
     std::string
-    file_of(const unsigned int number)
+    liners_file(const unsigned int number)
     {
       return "liners_" + dealii::Utilities::int_to_string(number, 4) + ".vtu";
     }
@@ -220,7 +220,7 @@ namespace Keyblock
   {
     if (loads.empty() || records.empty())
       return;
-    const std::string last = file_of(records.size() / 2 - 1);
+    const std::string last = liners_file(records.size() / 2 - 1);
     VtuGrid grid           = draw(loads, scene);
     grid.is_far            = are_far(grid.points);
     grid.time              = records.back().time;
@@ -229,9 +229,9 @@ namespace Keyblock
     bool is_written = write_vtu(grid, folder + last);
     std::vector<VtuRecord> written;
     for (unsigned int i = 0; i < records.size() / 2; ++i)
-      if (std::filesystem::exists(folder + file_of(i)))
+      if (std::filesystem::exists(folder + liners_file(i)))
         written.push_back(
-          {records[2 * i].time, file_of(i), "", records[2 * i].stage});
+          {records[2 * i].time, liners_file(i), "", records[2 * i].stage});
     is_written = write_pvd(written, folder + "liners.pvd") && is_written;
     AssertThrow(is_written,
                 ComputationError("The file '" + folder + last +

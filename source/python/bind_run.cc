@@ -11,7 +11,7 @@ namespace Keyblock::Python
     using Callback   = std::function<void(const Advance &)>;
 
     RunPointer
-    start_run(const std::shared_ptr<AnyScene> &scene,
+    run_of_scene(const std::shared_ptr<AnyScene> &scene,
               const py::object &output,
               const py::object &restart,
               const bool is_verbose)
@@ -319,7 +319,7 @@ namespace Keyblock::Python
       "them, and have the same ones.");
     bind_state(run);
     run
-      .def(py::init(&start_run),
+      .def(py::init(&run_of_scene),
            py::arg("scene"),
            py::kw_only(),
            py::arg("output")  = py::none(),

@@ -11,7 +11,7 @@ namespace Keyblock
 
     /** Segments that end and begin at a point, `nothing` where there is none or
      * more than one. */
-    struct Joint
+    struct SegmentJoint
     {
       unsigned int before = nothing, after = nothing;
       unsigned int n_before = 0, n_after = 0;
@@ -109,7 +109,7 @@ namespace Keyblock
   {
     std::vector<LinerPiece<2>> pieces;
     std::vector<Segment> segments;
-    std::vector<Joint> joints(points.size());
+    std::vector<SegmentJoint> joints(points.size());
     for (const LinedFace<2> &face : faces)
       {
         Segment s{face.points[0], face.points[1], 0., {}, {}};
@@ -132,7 +132,7 @@ namespace Keyblock
         ++joints[s.end].n_before;
         segments.push_back(s);
       }
-    for (const Joint &joint : joints)
+    for (const SegmentJoint &joint : joints)
       if (joint.n_before == 1 && joint.n_after == 1)
         pieces.push_back(
           bend_between(section, segments[joint.before], segments[joint.after]));

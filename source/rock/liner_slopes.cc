@@ -14,7 +14,7 @@ namespace Keyblock
     using Vector = Tensor<1, 3>;
 
     Vector
-    unit(const Vector &v)
+    unit_vector(const Vector &v)
     {
       return v / v.norm();
     }
@@ -55,7 +55,7 @@ namespace Keyblock
     };
     const Vector twice = cross_product_3d(edge_across(0), edge_across(1));
     area               = 0.5 * twice.norm();
-    normal             = unit(twice);
+    normal             = unit_vector(twice);
     for (unsigned int i = 0; i < 3; ++i)
       gradient[i] = cross_product_3d(normal, edge_across(i)) / (2. * area);
   }
@@ -87,7 +87,7 @@ namespace Keyblock
   Vector
   LinerEdge::outward(const Vector &normal) const
   {
-    return unit(cross_product_3d(way, normal));
+    return unit_vector(cross_product_3d(way, normal));
   }
 
 
@@ -101,7 +101,7 @@ namespace Keyblock
     for (unsigned int f = 0; f < faces.size(); ++f)
       {
         const auto &q = faces[f].points;
-        normals.push_back(unit(cross_product_3d(places[q[2]] - places[q[0]],
+        normals.push_back(unit_vector(cross_product_3d(places[q[2]] - places[q[0]],
                                                 places[q[3]] - places[q[1]])));
         for (unsigned int k = 0; k < 4; ++k)
           {
@@ -166,7 +166,7 @@ namespace Keyblock
                             const Vector &direction,
                             const std::vector<unsigned int> &points) const
   {
-    const Vector normal = unit(direction - (direction * edge.way) * edge.way);
+    const Vector normal = unit_vector(direction - (direction * edge.way) * edge.way);
     const QuadraticFit fit =
       fit_around(places[edge.begin] + 0.5 * edge.length * edge.way,
                  edge.way,
@@ -189,7 +189,7 @@ namespace Keyblock
     LinerRows rows;
     if (mine * other > smooth_cosine)
       {
-        const Vector normal = unit(mine + other);
+        const Vector normal = unit_vector(mine + other);
         rows =
           fitted_slope(edge, normal, patch({edge.begin, edge.end}, normal));
       }

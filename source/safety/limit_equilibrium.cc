@@ -13,10 +13,10 @@ namespace Keyblock
   namespace
   {
     /** Cosines below this are taken for a movement along the face. */
-    constexpr double tolerance = 1e-9;
+    constexpr double rounding = 1e-9;
 
     /** Difference of unit normals up to which faces count as parallel. */
-    constexpr double parallel = 1e-6;
+    constexpr double parallel_normals = 1e-6;
 
     template <int dim>
     bool
@@ -24,7 +24,7 @@ namespace Keyblock
                 const Tensor<1, dim> &direction)
     {
       for (const BlockFace<dim> &face : faces)
-        if (face.inward * direction < -tolerance)
+        if (face.inward * direction < -rounding)
           return false;
       return true;
     }
@@ -35,7 +35,7 @@ namespace Keyblock
     along(const BlockFace<dim> &face, const Tensor<1, dim> &force)
     {
       const Tensor<1, dim> t = force - (force * face.inward) * face.inward;
-      return t.norm() > tolerance * force.norm() ? t / t.norm()
+      return t.norm() > rounding * force.norm() ? t / t.norm()
                                                  : Tensor<1, dim>();
     }
 
@@ -49,7 +49,7 @@ namespace Keyblock
       const std::vector<unsigned int> pressed = result.faces;
       double resistance                       = 0.;
       for (unsigned int i = 0; i < faces.size(); ++i)
-        if (std::abs(faces[i].inward * result.direction) <= tolerance &&
+        if (std::abs(faces[i].inward * result.direction) <= rounding &&
             faces[i].cohesion > 0. &&
             std::find(pressed.begin(), pressed.end(), i) == pressed.end())
           {
@@ -74,7 +74,7 @@ namespace Keyblock
           std::vector<unsigned int> group;
           double area = 0.;
           for (unsigned int i = 0; i < faces.size(); ++i)
-            if ((faces[i].inward - faces[planes[p]].inward).norm() < parallel)
+            if ((faces[i].inward - faces[planes[p]].inward).norm() < parallel_normals)
               {
                 group.push_back(i);
                 area += faces[i].area;
@@ -176,10 +176,10 @@ namespace Keyblock
           {
             Tensor<1, dim> s =
               cross_product_3d(faces[i].inward, faces[j].inward);
-            if (s.norm() < tolerance)
+            if (s.norm() < rounding)
               continue;
             s *= (s * resultant > 0. ? 1. : -1.) / s.norm();
-            if (s * resultant < tolerance * resultant.norm() ||
+            if (s * resultant < rounding * resultant.norm() ||
                 !closes_none(faces, s) ||
                 along(faces[i], resultant) * faces[j].inward > 0. ||
                 along(faces[j], resultant) * faces[i].inward > 0.)

@@ -12,7 +12,7 @@ namespace Keyblock
     /** Checks in a row that must agree: joints that slip in fits and starts
      * show a different frequency at each. */
     constexpr unsigned int n_checks = 3;
-    constexpr double tolerance      = 0.2; ///< of two frequencies [-]
+    constexpr double same_frequency      = 0.2; ///< of two frequencies [-]
   }                                        // namespace
 
 
@@ -66,7 +66,7 @@ namespace Keyblock
     const double frequency =
       sums[0] > 0. && sums[1] > 0. ? std::sqrt(sums[0] / sums[1]) : 0.;
     const double difference = std::abs(frequency - last_frequency);
-    if (difference < tolerance * std::max(frequency, last_frequency))
+    if (difference < same_frequency * std::max(frequency, last_frequency))
       ++n_alike;
     else
       n_alike = 1;

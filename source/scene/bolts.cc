@@ -7,20 +7,14 @@
 #include <keyblock/base/expression.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
+#include <keyblock/scene/entry_patterns.h>
 
 #include <algorithm>
 #include <sstream>
 
 namespace Keyblock
 {
-  namespace
-  {
-    using dealii::Patterns::Double;
-
-    const Double not_negative(0.);
-    const Double positive(1e-300);
-
-  } // namespace
+  using namespace EntryPatterns;
 
 
 

@@ -7,6 +7,7 @@
 #include <keyblock/base/expression.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
+#include <keyblock/scene/entries.h>
 #include <keyblock/scene/scene.h>
 #include <keyblock/scene/text.h>
 
@@ -18,18 +19,6 @@ namespace Keyblock
   namespace
   {
     using Entries = std::vector<std::pair<std::string, std::string>>;
-
-    /** Put what was derived into the entries that used.prm shows. */
-    void
-    note(ParameterHandler &prm,
-         const std::string &section,
-         const Entries &entries)
-    {
-      prm.enter_subsection(section);
-      for (const auto &[entry, value] : entries)
-        prm.set(entry, value);
-      prm.leave_subsection();
-    }
 
     /** Add a named thing to the others of its section, under a name that none
      * of them has, and to the entries. */
@@ -51,7 +40,7 @@ namespace Keyblock
       std::string names;
       for (const auto &i : items)
         names += (names.empty() ? "" : ", ") + i->name;
-      note(prm, section, {{"Names", names}});
+      set_entries(prm, section, {{"Names", names}});
       prm.enter_subsection(section);
       prm.enter_subsection(items.back()->name);
       items.back()->declare(prm);
@@ -172,7 +161,7 @@ namespace Keyblock
             {"Lateral azimuth", exact_text(ground.azimuth)}};
       for (const auto &entry : derived)
         if (!text.gives(section, entry.first))
-          note(prm, section, {entry});
+          set_entries(prm, section, {entry});
     }
 
     /** Put rollers on the sides and the bottom where nothing else holds. */
@@ -231,7 +220,7 @@ namespace Keyblock
               " m above elevation 0; lower the domain, or raise the depth.");
     const std::string none_across = dim == 2 ? "0; " : "0; 0; ";
     if (initial_state.gravity.empty())
-      note(*prm,
+      set_entries(*prm,
            "Initial state",
            {{"Gravity", none_across + "-" + exact_text(standard_gravity)}});
     double pressure = standard_gravity * density * (ground.depth - top);

@@ -44,6 +44,19 @@ namespace Keyblock
 
 
 
+  void
+  set_entries(dealii::ParameterHandler &prm,
+              const std::string &section,
+              const std::vector<std::pair<std::string, std::string>> &entries)
+  {
+    prm.enter_subsection(section);
+    for (const auto &[entry, value] : entries)
+      prm.set(entry, value);
+    prm.leave_subsection();
+  }
+
+
+
   std::string
   last_of(const std::string &entry)
   {

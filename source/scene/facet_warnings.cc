@@ -13,7 +13,7 @@ namespace Keyblock
   {
     /** Edges that are cut into cells, over the size of these; their part below
      * which a facet is lost among them [-]. */
-    constexpr double coarsening = 3., least_part = 0.3;
+    constexpr double coarsening = 3., least_edge = 0.3;
 
     std::vector<std::string> found;
     const Meshing<dim> &meshing = scene.meshing;
@@ -32,7 +32,7 @@ namespace Keyblock
                            (dim == 2 ? 2. : 1.5));
         const auto middle = widths.begin() + widths.size() / 2;
         std::nth_element(widths.begin(), middle, widths.end());
-        if (*middle < least_part * coarsening * size)
+        if (*middle < least_edge * coarsening * size)
           found.push_back(
             "The joint '" + name + "' has plane parts of about " +
             text_of(*middle) + " m, much smaller than the edges of " +

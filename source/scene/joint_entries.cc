@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Every entry of joints, their table and their sets.
 #include <keyblock/scene/choice_patterns.h>
+#include <keyblock/scene/entry_patterns.h>
 #include <keyblock/scene/scene.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -30,13 +31,9 @@ namespace dealii::Patterns::Tools
 
 namespace Keyblock
 {
-  namespace
-  {
-    using dealii::Patterns::Double;
+  using namespace EntryPatterns;
 
-    const Double not_negative(0.);
-    const Double fraction(0., 1.);
-  } // namespace
+
 
   void
   JointNetwork::declare(ParameterHandler &prm)

@@ -83,7 +83,7 @@ namespace Keyblock
 
     template <int dim>
     std::set<std::string>
-    names_of(const Joints<dim> &joints)
+    set_of_names(const Joints<dim> &joints)
     {
       std::set<std::string> names;
       for (const auto &joint : joints)
@@ -188,7 +188,7 @@ namespace Keyblock
                         ", there is a subsection 'Joints/" + passage.joint +
                         "', but no such joint; add it to "
                         "'Joints/Names' or correct its name (joints: " +
-                        list_some(names_of<dim>(joints)) + ")."));
+                        list_some(set_of_names<dim>(joints)) + ")."));
           passages[found->second].push_back(&passage);
         }
     }
@@ -215,7 +215,7 @@ namespace Keyblock
                       InputError("The override " + passage.place +
                                  " matches no joint and no set of joints; "
                                  "name one (joints: " +
-                                 list_some(names_of<dim>(joints)) +
+                                 list_some(set_of_names<dim>(joints)) +
                                  "; sets: " + list_some(sets_of<dim>(joints)) +
                                  ") or use * for all of them."));
         }

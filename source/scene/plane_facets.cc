@@ -19,7 +19,7 @@ namespace Keyblock
     /** Over the size of the joint [-]: distance of points that are one;
      * distance of corners from the plane of their facet; least altitude of a
      * triangle. */
-    constexpr double closeness = 1e-9, flatness = 1e-9, thinness = 1e-8;
+    constexpr double same_point = 1e-9, in_plane = 1e-9, thinness = 1e-8;
 
     /** Sine between planes below which vertices are not put where they meet. */
     constexpr double least_sine = 1e-3;
@@ -120,7 +120,7 @@ namespace Keyblock
           {
             const auto same =
               std::find_if(ends.begin(), ends.end(), [&](const auto &other) {
-                return other.distance(*end) <= closeness * size;
+                return other.distance(*end) <= same_point * size;
               });
             if (same == ends.end())
               ends.push_back(*end);
@@ -131,7 +131,7 @@ namespace Keyblock
         for (const Point<2> &p : path)
           {
             if (!corners.empty() &&
-                p.distance(corners.back()) <= closeness * size)
+                p.distance(corners.back()) <= same_point * size)
               continue;
             if (corners.size() > 1)
               {
@@ -139,7 +139,7 @@ namespace Keyblock
                                      corners.back() - *(corners.end() - 2),
                                    after = p - corners.back();
                 if (std::abs(cross_product_2d(before) * after) <=
-                      flatness * size * before.norm() &&
+                      in_plane * size * before.norm() &&
                     before * after > 0.)
                   corners.pop_back();
               }
@@ -214,7 +214,7 @@ namespace Keyblock
         {
           Point<3> &p      = surface.vertices[v];
           const auto is_on = [&](const PlaneFacet<3> &plane) {
-            return std::abs(distance(plane, p)) <= flatness * size;
+            return std::abs(distance(plane, p)) <= in_plane * size;
           };
           if (std::all_of(planes_at[v].begin(), planes_at[v].end(), is_on))
             continue;
@@ -332,7 +332,7 @@ namespace Keyblock
                                     {face[0], face[i], face[i + 1]});
             surface.triangles.push_back({{n, n + 1, n + 2}});
           }
-      surface.weld(closeness * size_of(surface.vertices));
+      surface.weld(same_point * size_of(surface.vertices));
       if (!surface.align().empty())
         return largest;
       for (const PlaneFace &face : list_faces(surface))
@@ -372,7 +372,7 @@ namespace Keyblock
           return std::all_of(
             faces[f].begin(), faces[f].end(), [&](const Point<dim> &p) {
               return std::abs(plane.normal * (p - plane.point)) <=
-                     flatness * size;
+                     in_plane * size;
             });
         };
         auto plane = std::find_if(planes.begin(), planes.end(), holds);

@@ -4,6 +4,7 @@
 
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
+#include <keyblock/scene/entries.h>
 #include <keyblock/scene/scene.h>
 
 #include <algorithm>
@@ -18,18 +19,6 @@ namespace Keyblock
     constexpr double margin_of_domain = 4.;
 
     using Polygon = std::vector<Point<2>>;
-
-    /** Put what was derived into the entries that used.prm shows. */
-    void
-    note(ParameterHandler &prm,
-         const std::string &section,
-         const std::vector<std::pair<std::string, std::string>> &entries)
-    {
-      prm.enter_subsection(section);
-      for (const auto &[entry, value] : entries)
-        prm.set(entry, value);
-      prm.leave_subsection();
-    }
 
     /** Chords of a crown if no number is given: as long as the edges that
      * are cut into cells there, since shorter ones make needles beside them.
@@ -206,7 +195,7 @@ namespace Keyblock
     if (domain.shape == DomainShape::box && domain.size.empty())
       {
         surround(domain, profiles);
-        note(*prm,
+        set_entries(*prm,
              "Domain",
              {{"Corner", exact_list(domain.corner, dim)},
               {"Size", exact_list(domain.size, dim)}});

@@ -25,7 +25,7 @@ namespace Keyblock
   {
     /** Longest side of a shape over that of the domain, below which its unit
      * is doubted [-]. */
-    constexpr double least_part = 1e-3;
+    constexpr double least_of_domain = 1e-3;
 
     /** Chords of half a circle in a drawing if no number is given. */
     constexpr unsigned int default_segments = 24;
@@ -222,7 +222,7 @@ namespace Keyblock
         require(!is_larger,
                 subject + " has a shape of " + sides +
                   " m, larger than the domain" + remedy);
-        require(longest >= least_part * longest_of_domain,
+        require(longest >= least_of_domain * longest_of_domain,
                 subject + " has a shape of " + sides +
                   " m, less than a thousandth of the domain" + remedy);
         require(!is_outside,

@@ -28,7 +28,7 @@ namespace Keyblock
 
     /** Distance of vertices of an .stl file that are one, over the size of the
      * surface [-]: its numbers have seven digits. */
-    constexpr double closeness = 1e-7;
+    constexpr double same_vertex = 1e-7;
 
     /** Step of the numbers of an .stl file over the size of the surface that is
      * taken [-]. */
@@ -147,7 +147,7 @@ namespace Keyblock
             low[d]  = std::min(low[d], p[d]);
             high[d] = std::max(high[d], p[d]);
           }
-      surface.weld(closeness * low.distance(high));
+      surface.weld(same_vertex * low.distance(high));
     }
 
     /** Let OpenCASCADE turn lengths of files that name a unit into metres. */

@@ -11,6 +11,8 @@
 #include <random>
 #include <sstream>
 
+BOOST_AUTO_TEST_SUITE(block_theory)
+
 using namespace Keyblock;
 
 namespace
@@ -293,3 +295,5 @@ BOOST_AUTO_TEST_CASE(report_of_block_theory)
   BOOST_TEST(roof.at("removable").front().get<std::string>() == "1011");
   BOOST_TEST(roof.at("largest_volumes").size() == 2);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -9,6 +9,8 @@
 #include <limits>
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(bolt_chain)
+
 using namespace Keyblock;
 
 namespace
@@ -342,3 +344,5 @@ BOOST_AUTO_TEST_CASE(bolt_product_is_the_change_of_its_forces)
         BOOST_TEST(std::abs(a - b) < 1e-9 * (std::abs(a) + std::abs(b)));
       }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

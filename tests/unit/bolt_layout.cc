@@ -13,6 +13,8 @@
 
 #include "world.h"
 
+BOOST_AUTO_TEST_SUITE(bolt_layout)
+
 using namespace Keyblock;
 
 namespace
@@ -223,3 +225,5 @@ BOOST_AUTO_TEST_CASE(bolt_grout_ends_where_rock_is_dug)
         BOOST_TEST(std::abs(length[2] - slope) < near);
       });
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(cell_kernels)
+
 using namespace Keyblock;
 
 namespace
@@ -192,3 +194,5 @@ BOOST_AUTO_TEST_CASE(unknown_kernels_are_refused)
 {
   BOOST_CHECK_THROW(choose_kernels("abacus"), std::invalid_argument);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -10,6 +10,8 @@
 
 #include <fstream>
 
+BOOST_AUTO_TEST_SUITE(cell_order)
+
 using namespace Keyblock;
 
 BOOST_AUTO_TEST_CASE(sweep_order_of_box)
@@ -42,3 +44,5 @@ BOOST_AUTO_TEST_CASE(sweep_order_of_box)
     BOOST_TEST(part[i] == 7 + i);
   BOOST_TEST(sweep_order<2>(mesh, 7, 7).empty());
 }
+
+BOOST_AUTO_TEST_SUITE_END()

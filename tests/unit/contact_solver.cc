@@ -6,6 +6,8 @@
 
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(contact_solver)
+
 using namespace Keyblock;
 
 namespace
@@ -248,3 +250,5 @@ BOOST_AUTO_TEST_CASE(turned_force)
   BOOST_TEST(std::abs(dot<3>(turned, to) - 3.) < 1e-14);
   BOOST_TEST(std::abs(turned[1] - 2.) < 1e-14);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -11,6 +11,8 @@
 
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(depth_ground)
+
 using namespace Keyblock;
 
 namespace
@@ -193,3 +195,5 @@ BOOST_AUTO_TEST_CASE(ground_holds_shear_along_the_sides)
   BOOST_TEST((directions({"Initial state/Stress=-1e6; -1e6; -1e6; 0; 0; 0"}) ==
               D::normal));
 }
+
+BOOST_AUTO_TEST_SUITE_END()

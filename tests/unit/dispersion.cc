@@ -12,6 +12,8 @@
 #include <fstream>
 #include <iomanip>
 
+BOOST_AUTO_TEST_SUITE(dispersion)
+
 using namespace Keyblock;
 
 namespace
@@ -201,3 +203,5 @@ BOOST_AUTO_TEST_CASE(phase_error_at_45_degrees)
   check_mode({99, 99, 14, 14, 0.25, 0.8, false}, -1.71);
   check_mode({99, 99, 14, 14, 0.25, 0.8, true}, -1.29);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -10,6 +10,8 @@
 
 #include "world.h"
 
+BOOST_AUTO_TEST_SUITE(excavation_marks)
+
 using namespace Keyblock;
 
 namespace
@@ -99,3 +101,5 @@ BOOST_AUTO_TEST_CASE(a_joint_on_a_roof_keeps_nothing_from_being_dug)
       BOOST_TEST(std::abs(dug.at(3) - 30.) < 1e-6, vertices);
     }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(expression)
+
 using namespace Keyblock;
 
 namespace
@@ -111,3 +113,5 @@ BOOST_AUTO_TEST_CASE(formulas_that_are_refused)
   // a longer name is another one
   check_refused<2>("brand(x)", 1, {"cannot be understood"});
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -12,6 +12,8 @@
 
 #include <fstream>
 
+BOOST_AUTO_TEST_SUITE(far_field)
+
 using namespace Keyblock;
 
 namespace
@@ -232,3 +234,5 @@ BOOST_AUTO_TEST_CASE(far_field_of_rock_that_changes)
   springs.recall(after);
   expect_near(force(1e-3), soft, 1.);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

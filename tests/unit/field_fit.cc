@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(field_fit)
+
 using namespace Keyblock;
 
 namespace
@@ -114,3 +116,5 @@ BOOST_AUTO_TEST_CASE(fields_that_data_cannot_separate_are_named)
       BOOST_TEST(error.message.find("'push x', 'push y'") != std::string::npos);
     }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

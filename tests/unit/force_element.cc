@@ -12,6 +12,8 @@
 
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(force_element)
+
 using namespace Keyblock;
 
 namespace
@@ -190,3 +192,5 @@ BOOST_AUTO_TEST_CASE(state_of_elements)
   // the ground of the state's stage is handed to the element again
   BOOST_TEST(mounts.n_stages == 1.);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(joint_law)
+
 using namespace Keyblock;
 using dealii::Tensor;
 
@@ -220,3 +222,5 @@ BOOST_AUTO_TEST_CASE(slip_weakening_by_slip)
   state.has_opened = true;
   BOOST_TEST(law->envelope(state).cohesion == 0.);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <functional>
 
+BOOST_AUTO_TEST_SUITE(joint_sets)
+
 using namespace Keyblock;
 
 namespace
@@ -475,3 +477,5 @@ BOOST_AUTO_TEST_CASE(seeds_and_names_of_sets)
   set.name = "B";
   BOOST_TEST(places() != first);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -14,6 +14,8 @@
 #include <random>
 #include <stdexcept>
 
+BOOST_AUTO_TEST_SUITE(joint_surfaces)
+
 using namespace Keyblock;
 
 namespace
@@ -221,3 +223,5 @@ BOOST_AUTO_TEST_CASE(sides_of_a_rough_surface)
   BOOST_TEST(std::abs(sheet.depth_inside(Point<3>(3, 3, 0.5)) - 3.) < 0.6);
   BOOST_TEST(sheet.depth_inside(Point<3>(8, 3, 0.5)) < -1.);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

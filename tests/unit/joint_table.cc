@@ -9,6 +9,8 @@
 
 #include <fstream>
 
+BOOST_AUTO_TEST_SUITE(joint_table)
+
 using namespace Keyblock;
 
 namespace
@@ -224,3 +226,5 @@ BOOST_AUTO_TEST_CASE(refused_tables)
   check_refused<3>("dip,dip direction,x,y,z,c\n1,2,3,4,5,-1\n",
                    {"column 'cohesion'", "-1", "0 or more Pa"});
 }
+
+BOOST_AUTO_TEST_SUITE_END()

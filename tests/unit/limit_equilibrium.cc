@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(limit_equilibrium)
+
 using namespace Keyblock;
 using dealii::Tensor;
 
@@ -316,3 +318,5 @@ BOOST_AUTO_TEST_CASE(blocks_in_the_plane)
                      std::tan(30. * radian) / std::tan(50. * radian),
                      1e-14));
 }
+
+BOOST_AUTO_TEST_SUITE_END()

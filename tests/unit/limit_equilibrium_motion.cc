@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(limit_equilibrium_motion)
+
 using namespace Keyblock;
 using dealii::Tensor;
 
@@ -82,3 +84,5 @@ BOOST_AUTO_TEST_CASE(random_blocks_move_as_frictionless_ones_would)
   for (const unsigned int n : n_of_mode)
     BOOST_TEST(n > 50);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -11,6 +11,8 @@
 #include <map>
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(liner_shell)
+
 using namespace Keyblock;
 
 namespace
@@ -530,3 +532,5 @@ BOOST_AUTO_TEST_CASE(liner_and_its_bound)
   BOOST_TEST(plate < 1. + 1e-9);
   BOOST_TEST(plate > 0.6);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

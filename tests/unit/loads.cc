@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(loads)
+
 using namespace Keyblock;
 
 namespace
@@ -150,3 +152,5 @@ BOOST_AUTO_TEST_CASE(carried_force_is_ramped_out)
   plate.conditions->set_load(0.);
   check_sum(plate, 4e3, -10. * Plate::mass);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

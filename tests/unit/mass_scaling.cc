@@ -13,6 +13,8 @@
 #include <numeric>
 #include <sstream>
 
+BOOST_AUTO_TEST_SUITE(mass_scaling)
+
 using namespace Keyblock;
 
 namespace
@@ -247,3 +249,5 @@ BOOST_AUTO_TEST_CASE(wave_in_a_bar_with_thin_cells)
   BOOST_TEST(scaled_steps < 0.5 * steps);
   BOOST_TEST(scaled_residual < 1e-12);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <map>
 
+BOOST_AUTO_TEST_SUITE(mesh_readers)
+
 using namespace Keyblock;
 
 namespace
@@ -312,3 +314,5 @@ BOOST_AUTO_TEST_CASE(mesh_files_that_are_refused)
                    replaced(squares_ucd, "1 2 5 4", "1 5 2 4"),
                    {"flat, folded or not convex", "repair it"});
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -6,6 +6,8 @@
 
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(mohr_coulomb)
+
 using namespace Keyblock;
 
 namespace
@@ -178,3 +180,5 @@ BOOST_AUTO_TEST_CASE(surely_elastic_is_elastic)
     }
   BOOST_TEST(n_sure > 100);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

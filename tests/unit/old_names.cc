@@ -4,6 +4,8 @@
 
 #include <keyblock/scene/old_names.h>
 
+BOOST_AUTO_TEST_SUITE(old_names)
+
 using namespace Keyblock;
 
 BOOST_AUTO_TEST_CASE(old_names_are_replaced)
@@ -44,3 +46,5 @@ BOOST_AUTO_TEST_CASE(present_names_stay)
       BOOST_TEST(text == before);
     }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <sstream>
 
+BOOST_AUTO_TEST_SUITE(patch)
+
 using namespace Keyblock;
 
 namespace
@@ -210,3 +212,5 @@ BOOST_AUTO_TEST_CASE(unlike_meshes_transmit_stress_approximately)
       before = error[1];
     }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(progress_line)
+
 using namespace Keyblock;
 
 BOOST_AUTO_TEST_CASE(time_left_by_steps)
@@ -46,3 +48,5 @@ BOOST_AUTO_TEST_CASE(durations_for_people)
   BOOST_TEST(duration_text(210.) == "3.5 min");
   BOOST_TEST(duration_text(7560.) == "2.1 h");
 }
+
+BOOST_AUTO_TEST_SUITE_END()

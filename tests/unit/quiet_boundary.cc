@@ -8,6 +8,8 @@
 #include <cmath>
 #include <complex>
 
+BOOST_AUTO_TEST_SUITE(quiet_boundary)
+
 using namespace Keyblock;
 
 namespace
@@ -124,3 +126,5 @@ BOOST_AUTO_TEST_CASE(quiet_boundary_carries_on)
   BOOST_TEST(std::abs(sum[1]) < 1e-3);
   BOOST_TEST(plate.conditions->has_viscous_elements());
 }
+
+BOOST_AUTO_TEST_SUITE_END()

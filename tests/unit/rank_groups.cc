@@ -6,6 +6,8 @@
 
 #include <keyblock/base/rank_groups.h>
 
+BOOST_AUTO_TEST_SUITE(rank_groups)
+
 using namespace Keyblock;
 
 BOOST_AUTO_TEST_CASE(share_out_of_jobs)
@@ -43,3 +45,5 @@ BOOST_AUTO_TEST_CASE(groups_of_ranks)
       BOOST_CHECK_THROW(RankGroups(world, n), InputError);
   BOOST_CHECK_THROW(RankGroups(world, n_ranks + 1), InputError);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

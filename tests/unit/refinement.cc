@@ -10,6 +10,8 @@
 #include <cmath>
 #include <fstream>
 
+BOOST_AUTO_TEST_SUITE(refinement)
+
 using namespace Keyblock;
 
 namespace
@@ -89,3 +91,5 @@ BOOST_AUTO_TEST_CASE(hanging_nodes_pass_linear_fields_in_3d)
   BOOST_TEST(deviation<3>(static_stage, levels) < 1e-11);
   BOOST_TEST(deviation<3>(damped_stage, levels) < 1e-10);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

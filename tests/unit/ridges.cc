@@ -12,6 +12,8 @@
 #include <fstream>
 #include <sstream>
 
+BOOST_AUTO_TEST_SUITE(ridges)
+
 using namespace Keyblock;
 
 namespace
@@ -108,3 +110,5 @@ BOOST_AUTO_TEST_CASE(crossed_ridges_rebound)
       BOOST_TEST(std::abs(residual.back()) < 1e-4 * kinetic[0]);
     }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(sample_statistics)
+
 using namespace Keyblock;
 
 namespace
@@ -98,3 +100,5 @@ BOOST_AUTO_TEST_CASE(ranks_are_correlated)
                      0.94868,
                      1e-5));
 }
+
+BOOST_AUTO_TEST_SUITE_END()

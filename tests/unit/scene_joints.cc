@@ -14,6 +14,8 @@
 #include <fstream>
 #include <sstream>
 
+BOOST_AUTO_TEST_SUITE(scene_joints)
+
 using namespace Keyblock;
 
 namespace
@@ -363,3 +365,5 @@ BOOST_AUTO_TEST_CASE(overrides_of_used_scenes)
   for (const auto &each : weaker->joints)
     BOOST_TEST((each->friction_angle == 10.) == (each->set == "S"));
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -24,6 +24,8 @@
 #include <sstream>
 #include <stdexcept>
 
+BOOST_AUTO_TEST_SUITE(shape_files)
+
 using namespace Keyblock;
 
 namespace
@@ -558,3 +560,5 @@ BOOST_AUTO_TEST_CASE(names_in_a_mesh_file)
     }
   BOOST_TEST(std::abs(area - 1.) < 1e-9);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -9,6 +9,8 @@
 
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(slow_mode)
+
 using namespace Keyblock;
 
 namespace
@@ -72,3 +74,5 @@ BOOST_AUTO_TEST_CASE(slow_mode_of_creep)
       BOOST_TEST(creep.check() == 0.);
     }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

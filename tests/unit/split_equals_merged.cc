@@ -9,6 +9,8 @@
 
 #include <fstream>
 
+BOOST_AUTO_TEST_SUITE(split_equals_merged)
+
 using namespace Keyblock;
 
 namespace
@@ -306,3 +308,5 @@ BOOST_AUTO_TEST_CASE(cohesionless_joints_rest_in_graded_stress_3d)
                   "-1.8e6 + 0.9*2700*9.81*(z - 2); -1.5e6 + "
                   "0.8*2700*9.81*(z - 2); -1.8e6 + 2700*9.81*(z - 2); 0; 0; 0");
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -12,6 +12,8 @@
 #include <iomanip>
 #include <sstream>
 
+BOOST_AUTO_TEST_SUITE(stability)
+
 using namespace Keyblock;
 
 namespace
@@ -124,3 +126,5 @@ BOOST_AUTO_TEST_CASE(jointed_rock_in_equilibrium_stays_at_rest)
     }
   BOOST_TEST(simulation.state().split.interface.pairs.size() > 5);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

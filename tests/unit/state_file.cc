@@ -6,6 +6,8 @@
 
 #include <keyblock/checkpoint/state_file.h>
 
+BOOST_AUTO_TEST_SUITE(state_file)
+
 using namespace Keyblock;
 
 BOOST_AUTO_TEST_CASE(several_state_files_at_once)
@@ -23,3 +25,5 @@ BOOST_AUTO_TEST_CASE(several_state_files_at_once)
   second_again.exchange("run/value", value);
   BOOST_TEST(value == 2.);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

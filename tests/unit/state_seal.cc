@@ -12,6 +12,8 @@
 #include <fstream>
 #include <iterator>
 
+BOOST_AUTO_TEST_SUITE(state_seal)
+
 using namespace Keyblock;
 
 namespace
@@ -113,3 +115,5 @@ BOOST_AUTO_TEST_CASE(seal_sees_every_byte)
                   "of format " + std::to_string(state_format + 1)));
   std::remove(name.c_str());
 }
+
+BOOST_AUTO_TEST_SUITE_END()

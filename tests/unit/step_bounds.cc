@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The bound of the time step is below the limit of the mesh in every scene of
-// prm/verification (by --run_test=bounds_of_all_scenes: minutes).
+// prm/verification (by --run_test=step_bounds/bounds_of_all_scenes: minutes).
 #include "mesh_frequency.h"
 
 #include <boost/test/unit_test.hpp>
 
 #include <filesystem>
 #include <iostream>
+
+BOOST_AUTO_TEST_SUITE(step_bounds)
 
 using namespace Keyblock;
 
@@ -44,3 +46,5 @@ BOOST_AUTO_TEST_CASE(bounds_of_all_scenes, *boost::unit_test::disabled())
     else
       check_scene<3>(file.string(), file.stem().string());
 }
+
+BOOST_AUTO_TEST_SUITE_END()

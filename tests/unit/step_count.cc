@@ -7,6 +7,8 @@
 
 #include <limits>
 
+BOOST_AUTO_TEST_SUITE(step_count)
+
 using namespace Keyblock;
 
 namespace
@@ -73,3 +75,5 @@ BOOST_AUTO_TEST_CASE(numbers_that_are_none_are_refused)
   BOOST_TEST(has(refusal(1., infinity), "'Time stepping/Maximum step'"));
   BOOST_TEST(has(refusal(1., infinity - infinity), "Maximum step"));
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -8,6 +8,8 @@
 
 #include <numeric>
 
+BOOST_AUTO_TEST_SUITE(step_spread)
+
 using namespace Keyblock;
 
 namespace
@@ -60,3 +62,5 @@ BOOST_AUTO_TEST_CASE(spread_of_steps)
   BOOST_TEST(empty.cell == none);
   BOOST_TEST(empty.ratio() == 1.);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(structural_liner)
+
 using namespace Keyblock;
 
 namespace
@@ -190,3 +192,5 @@ BOOST_AUTO_TEST_CASE(section_of_a_liner)
   liner.compressive_strength = liner.tensile_strength = 0.;
   BOOST_TEST(std::isinf(check_section(liner, force).factor));
 }
+
+BOOST_AUTO_TEST_SUITE_END()

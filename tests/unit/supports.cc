@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(supports)
+
 using namespace Keyblock;
 
 namespace
@@ -117,3 +119,5 @@ BOOST_AUTO_TEST_CASE(prescribed_displacement)
         is_near(way[2 * node + 1], is_moved ? -0.01 * (1. + place[0]) : 0.));
     }
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <fstream>
 
+BOOST_AUTO_TEST_SUITE(time_series)
+
 using namespace Keyblock;
 
 namespace
@@ -85,3 +87,5 @@ BOOST_AUTO_TEST_CASE(time_series_refusals)
   BOOST_TEST(refusal("t, v\n0, 1\n1, 2\n", 2).find("it needs 3") !=
              std::string::npos);
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -14,6 +14,8 @@
 #include <iterator>
 #include <regex>
 
+BOOST_AUTO_TEST_SUITE(vtu_file)
+
 using namespace Keyblock;
 
 namespace
@@ -164,3 +166,5 @@ BOOST_AUTO_TEST_CASE(states_follow_each_other_in_time)
   BOOST_TEST((times[2] > 0. && times[2] < 1e-8 && times[3] == times[2]));
   BOOST_TEST((times[4] == 2.5 && times[5] == 2.5));
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -2,6 +2,8 @@
 #ifndef keyblock_scene_entries_h
 #define keyblock_scene_entries_h
 
+#include <deal.II/base/parameter_handler.h>
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +15,12 @@ namespace Keyblock
    * The lines are as a ParameterHandler writes them. */
   std::vector<std::pair<std::string, std::string>>
   list_entries(const std::string &text);
+
+  /** Put what was derived into the entries of @p section that used.prm shows. */
+  void set_entries(
+    dealii::ParameterHandler &prm,
+    const std::string &section,
+    const std::vector<std::pair<std::string, std::string>> &entries);
 
   /** What follows the last slash of an entry. */
   std::string last_of(const std::string &entry);
