@@ -16,11 +16,12 @@ namespace Keyblock
   std::vector<std::pair<std::string, std::string>>
   list_entries(const std::string &text);
 
-  /** Put what was derived into the entries of @p section that used.prm shows. */
-  void set_entries(
-    dealii::ParameterHandler &prm,
-    const std::string &section,
-    const std::vector<std::pair<std::string, std::string>> &entries);
+  /** Put what was derived into the entries of @p section that used.prm shows.
+   */
+  void
+  set_entries(dealii::ParameterHandler &prm,
+              const std::string &section,
+              const std::vector<std::pair<std::string, std::string>> &entries);
 
   /** What follows the last slash of an entry. */
   std::string last_of(const std::string &entry);
