@@ -2,6 +2,7 @@
 #include <keyblock/blocks/block_measures.h>
 
 #include <keyblock/base/expression.h>
+#include <keyblock/blocks/face_quadrature.h>
 #include <keyblock/blocks/plane_arrangement.h>
 
 #include <algorithm>
@@ -92,6 +93,19 @@ namespace Keyblock
       return is_inward<dim>(face) ? -area : area;
     }
 
+    /** The corners at @p x around a face as seen from outside its cell. */
+    template <int dim>
+    std::vector<Point<dim>>
+    polygon_of(const FaceCorners<dim> &x, const bool is_turned)
+    {
+      std::vector<Point<dim>> polygon(x.begin(), x.end());
+      if constexpr (dim == 3)
+        std::swap(polygon[2], polygon[3]);
+      if (is_turned)
+        std::reverse(polygon.begin(), polygon.end());
+      return polygon;
+    }
+
     /** Areas on the joints as the mesh has them. */
     template <int dim>
     std::map<unsigned int, double>
@@ -117,6 +131,7 @@ namespace Keyblock
     {
       auto &exact     = block.exact;
       exact.volume    = body.volume();
+      exact.centroid  = body.centroid();
       exact.bent_area = bent_areas(faces, mesh);
       for (const auto &[joint, area] : exact.bent_area)
         exact.joint_area[joint] = 0.;
@@ -124,6 +139,7 @@ namespace Keyblock
         if (face.name < n_joints)
           {
             exact.joint_area[face.name] += body.area(face);
+            exact.joint_faces[face.name].push_back(face.corners);
             exact.bent_area.try_emplace(face.name, 0.);
           }
       exact.is_known = exact.volume > 0.;
@@ -159,6 +175,7 @@ namespace Keyblock
           place[v] = *x;
         }
       typename Block<dim>::Measures exact;
+      Tensor<1, dim> moment;
       std::vector<std::pair<Point<dim>, Point<dim>>> edges;
       for (const OuterFace &face : faces)
         {
@@ -172,10 +189,22 @@ namespace Keyblock
                 edges.emplace_back(x[i], x[i ^ d]);
           const Tensor<1, dim> area = outward_area<dim>(x, face.face);
           exact.volume += area * (x[0] - block.centroid) / dim;
+          auto points = gauss_points<dim>(x);
+          turn_outward(points, area);
+          for (const FacePoint<dim> &point : points)
+            for (unsigned int d = 0; d < dim; ++d)
+              moment[d] += 0.5 *
+                           std::pow(point.place[d] - block.centroid[d], 2) *
+                           point.area[d];
           const Surface<dim> &surface = mesh.surfaces[face.surface];
           if (surface.is_joint())
-            exact.joint_area[surface.joint] += area * surface.normal;
+            {
+              exact.joint_area[surface.joint] += area * surface.normal;
+              exact.joint_faces[surface.joint].push_back(
+                polygon_of<dim>(x, is_inward<dim>(face.face)));
+            }
         }
+      exact.centroid = block.centroid + moment / exact.volume;
       for (auto &[joint, area] : exact.joint_area)
         area = std::abs(area);
       exact.bent_area = bent_areas(faces, mesh);

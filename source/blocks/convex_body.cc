@@ -215,6 +215,34 @@ namespace Keyblock
 
 
   template <int dim>
+  Point<dim>
+  ConvexBody<dim>::centroid() const
+  {
+    // cones over the faces, or over the triangles that these are fanned into
+    const Point<dim> origin = faces[0].corners[0];
+    Tensor<1, dim> moment;
+    double sum = 0.;
+    for (const Face &face : faces)
+      {
+        const double height = face.outward * (face.corners[0] - origin);
+        for (unsigned int i = dim - 1; i < face.corners.size(); ++i)
+          {
+            Face part = face;
+            part.corners.assign(face.corners.begin() + i - (dim - 2),
+                                face.corners.begin() + i + 1);
+            part.corners.insert(part.corners.begin(), face.corners[0]);
+            const double cone = area(part) * height / dim;
+            for (const Point<dim> &p : part.corners)
+              moment += cone / (dim + 1) * (p - origin);
+            sum += cone;
+          }
+      }
+    return origin + moment / sum;
+  }
+
+
+
+  template <int dim>
   double
   ConvexBody<dim>::area(const Face &face)
   {

@@ -266,7 +266,8 @@ namespace Keyblock
             const JointExtent<dim> &joint = joints[j];
             const auto [least, greatest] =
               body.reach(joint.origin, joint.normal);
-            if (least >= -thinnest_part * size || greatest <= thinnest_part * size)
+            if (least >= -thinnest_part * size ||
+                greatest <= thinnest_part * size)
               continue;
             if (!reaches_over(j,
                               body.section(joint.origin, joint.normal),

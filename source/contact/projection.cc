@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 namespace Keyblock
 {
@@ -256,6 +257,37 @@ namespace Keyblock
 
 
   template <int dim>
+  unsigned int
+  ContactSearch<dim>::joint_at_rim(const std::vector<double> &position,
+                                   const Candidate &candidate,
+                                   const Projection<dim> &foot) const
+  {
+    // of what a node at the rim of its block stands for, half a face
+    constexpr double share  = 0.5;
+    const Vector<dim> place = at<dim>(position, candidate.slave);
+    unsigned int joint      = none;
+    double nearest          = std::numeric_limits<double>::max();
+    for (const auto *faces : {&candidate.faces, &candidate.paired_faces})
+      for (const CandidateFace &face : *faces)
+        if (const unsigned int own = surface.interface.surface[face.face].joint;
+            surface.is_on_joint(candidate.slave, own))
+          {
+            const Projection<dim> beside =
+              surface.project(position, place, face.face);
+            const double distance = norm<dim>(beside.offset);
+            if (distance < std::min(share * beside.size, nearest) &&
+                is_coplanar(beside, foot))
+              {
+                nearest = distance;
+                joint   = own;
+              }
+          }
+    return joint;
+  }
+
+
+
+  template <int dim>
   void
   ContactSearch<dim>::add_contacts(
     const std::vector<double> &position,
@@ -271,7 +303,11 @@ namespace Keyblock
     const std::vector<Projection<dim>> kept =
       feet_that_count(position, candidate.slave, inside);
     for (const Projection<dim> &foot : kept)
-      add_contact(candidate.slave, foot, foot.normal, foot.gap, contacts);
+      {
+        add_contact(candidate.slave, foot, foot.normal, foot.gap, contacts);
+        if (contacts.back().joint == none)
+          contacts.back().joint = joint_at_rim(position, candidate, foot);
+      }
     if (kept.empty() && !outside.empty())
       add_contact_beside(position, reach, candidate.slave, outside, contacts);
   }

@@ -97,8 +97,9 @@ namespace Keyblock
     prm.add_parameter("Water pressure",
                       water_pressure,
                       "A formula in x, y (z) and t: pressure of water in the "
-                      "joint, which pushes both sides apart [Pa]; empty: that "
-                      "below Water level.");
+                      "joint, which pushes both sides apart [Pa]; where it is "
+                      "negative there is none (no suction); empty: that below "
+                      "Water level.");
     prm.add_parameter("Water level",
                       water_level,
                       "Elevation of the water that stands in the joint, a "

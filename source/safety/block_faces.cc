@@ -1,41 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a block touches, weighs and bears: input of limit equilibrium.
 #include <keyblock/base/expression.h>
-#include <keyblock/blocks/nodal_areas.h>
 #include <keyblock/law/joint_law.h>
 #include <keyblock/safety/block_faces.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+#include <set>
 
 namespace Keyblock
 {
-  template <int dim>
-  Tensor<1, dim>
-  sum_of(const std::vector<PointForce<dim>> &forces)
-  {
-    Tensor<1, dim> sum;
-    for (const PointForce<dim> &force : forces)
-      sum += force.force;
-    return sum;
-  }
-
-
-
-  template <int dim>
-  std::vector<PointForce<dim>>
-  BlockLoads<dim>::all() const
-  {
-    std::vector<PointForce<dim>> list = {{centroid, weight + seismic}};
-    list.insert(list.end(), tractions.begin(), tractions.end());
-    list.insert(list.end(), water.begin(), water.end());
-    return list;
-  }
-
-
-
   namespace
   {
     /** Distance of faces that touch, and cosine of the angle between them, over
@@ -64,11 +39,16 @@ namespace Keyblock
       {
         const auto &block_of_cell = ground.split.block_of_cell;
         const bool is_plus        = block_of_cell[face.plus_cell] == index;
+        if ((block_of_cell[face.minus_cell] == index) == is_plus)
+          return;
+        if (ground.is_excavated(face.minus_cell) ||
+            ground.is_excavated(face.plus_cell))
+          {
+            bare_joints.insert(face.joint);
+            return;
+          }
         // (some only the mesh has)
-        if ((block_of_cell[face.minus_cell] == index) == is_plus ||
-            ground.is_excavated(face.minus_cell) ||
-            ground.is_excavated(face.plus_cell) ||
-            (block.exact.is_known && block.area_ratio(face.joint) == 0.))
+        if (block.exact.is_known && block.area_ratio(face.joint) == 0.)
           return;
         const Joint<dim> &joint  = *ground.scene.joints[face.joint];
         const CellFace own       = is_plus
@@ -94,11 +74,13 @@ namespace Keyblock
             result.largest_bend = bend;
             result.bent         = joint.name;
           }
-        if (const auto *pressure = pressure_in(face.joint))
-          add_water(*pressure,
-                    own,
-                    block.exact.is_known ? area * into.inward : inward,
-                    into);
+        if (pressure_in(face.joint))
+          wet_faces.push_back({face.joint,
+                               is_plus,
+                               face_corners(mesh, own.cell, own.face),
+                               block.exact.is_known
+                                 ? area / inward.norm() * into.inward
+                                 : inward / inward.norm()});
       }
 
       /** Faces on joints that cut corners off which the mesh has left on. */
@@ -112,6 +94,28 @@ namespace Keyblock
                                  ground.scene.joints[joint]->distance(
                                    block.centroid) > 0.)]
               .area += area;
+      }
+
+      /** Water in the joints: over the faces between the planes where these are
+       * known, else over those of the mesh. */
+      void
+      add_water()
+      {
+        for (const auto &[key, entry] : entries)
+          if (const auto &[joint, is_plus] = key;
+              is_known_exactly(joint) && pressure_in(joint))
+            for (const auto &polygon : block.exact.joint_faces.at(joint))
+              for (const FaceCorners<dim> &corners : faces_of<dim>(polygon))
+                add_pressure(joint,
+                             corners,
+                             result.faces[entry].inward,
+                             result.faces[entry]);
+        for (const WetFace &face : wet_faces)
+          if (!is_known_exactly(face.joint))
+            add_pressure(face.joint,
+                         face.corners,
+                         face.inward,
+                         result.faces[entries.at({face.joint, face.is_plus})]);
       }
 
       /** Put the faces into the order of the joints. */
@@ -228,26 +232,32 @@ namespace Keyblock
         return pressure[joint].get();
       }
 
-      /** The water beside a face with the vector area @p inward. */
+      /** The water beside a face of a joint: see pressure_on(). */
       void
-      add_water(const Expression<dim> &pressure,
-                const CellFace &own,
-                const Tensor<1, dim> &inward,
-                BlockFace<dim> &into)
+      add_pressure(const unsigned int joint,
+                   const FaceCorners<dim> &corners,
+                   const Tensor<1, dim> &inward,
+                   BlockFace<dim> &into)
       {
-        const auto areas    = nodal_areas(mesh, own.cell, own.face);
-        const auto vertices = mesh.face_vertices(own.cell, own.face);
-        const double sum    = std::accumulate(areas.begin(), areas.end(), 0.);
-        for (unsigned int i = 0; i < vertices.size(); ++i)
+        for (const PointForce<dim> &water :
+             pressure_on(corners, *pressure_in(joint), time, inward))
           {
-            const Point<dim> &place = mesh.vertices[vertices[i]];
-            const Tensor<1, dim> force =
-              pressure.value(place, time, 0) * areas[i] / sum * inward;
-            result.loads.water.push_back({place, force});
-            into.water_force += force * into.inward;
+            result.loads.water.push_back(water);
+            into.water_force += water.force * into.inward;
             result.loads.water_along +=
-              force - (force * into.inward) * into.inward;
+              water.force - (water.force * into.inward) * into.inward;
           }
+      }
+
+      /** Whether the faces between the planes are all of those on a joint. */
+      bool
+      is_known_exactly(const unsigned int joint) const
+      {
+        return block.exact.is_known &&
+               block.exact.joint_faces.count(joint) > 0 &&
+               bare_joints.count(joint) == 0 &&
+               entries.count({joint, true}) + entries.count({joint, false}) ==
+                 1;
       }
 
       void
@@ -281,89 +291,27 @@ namespace Keyblock
         result.has_free_face = true;
       }
 
+      /** A face on a joint that holds water. */
+      struct WetFace
+      {
+        unsigned int joint;
+        bool is_plus; ///< the block is on the joint's positive side
+        FaceCorners<dim> corners;
+        Tensor<1, dim> inward; ///< see pressure_on()
+      };
+
       const Ground<dim> &ground;
       const Mesh<dim> &mesh;
       const Block<dim> &block;
       const unsigned int index;
       const double time;
       std::vector<std::unique_ptr<Expression<dim>>> pressure; ///< by joint
+      std::vector<WetFace> wet_faces;
+      std::set<unsigned int> bare_joints; ///< one side is excavated in places
 
       /** Of faces, by joint and side; free faces come after them. */
       std::map<std::pair<unsigned int, bool>, unsigned int> entries;
     };
-
-    /** Present mass over that of the materials of the start [-]. */
-    template <int dim>
-    double
-    mass_ratio(const Ground<dim> &ground,
-               const std::vector<unsigned int> &cells)
-    {
-      const Mesh<dim> &mesh = ground.split.mesh;
-      if (mesh.later_materials.empty())
-        return 1.;
-      double now = 0., first = 0.;
-      for (const unsigned int c : cells)
-        {
-          const auto &materials = ground.scene.materials;
-          const double volume   = mesh.cell_volume(c);
-          now += volume * materials[ground.material_of(c)]->density;
-          first += volume * materials[mesh.material[c]]->density;
-        }
-      return now / first;
-    }
-
-    template <int dim>
-    void
-    add_body_forces(const Ground<dim> &ground,
-                    const FreeFaces<dim> &free,
-                    const Block<dim> &block,
-                    const double time,
-                    BlockLoads<dim> &loads)
-    {
-      const Scene<dim> &scene = ground.scene;
-      const double mass       = block.exact_mass() *
-                          mass_ratio(ground, free.cells_of_block(block.id - 1));
-      loads.centroid = block.centroid;
-      if (!scene.initial_state.gravity.empty())
-        loads.weight = mass * Expression<dim>(scene.initial_state.gravity,
-                                              dim,
-                                              "Initial state/Gravity")
-                                .vector(Point<dim>(), time);
-      loads.seismic = mass * standard_gravity *
-                      scene.seismic_coefficient(ground.stage_number);
-      for (unsigned int d = 0; d < scene.safety.seismic_coefficient.size(); ++d)
-        loads.seismic[d] +=
-          mass * standard_gravity * scene.safety.seismic_coefficient[d];
-    }
-
-    template <int dim>
-    void
-    add_tractions(const Ground<dim> &ground,
-                  const FreeFaces<dim> &free,
-                  const unsigned int block,
-                  const double time,
-                  BlockSurroundings<dim> &around)
-    {
-      const Mesh<dim> &mesh = ground.split.mesh;
-      std::vector<CellFace> own;
-      for (const unsigned int i : free.of_block(block))
-        own.push_back(free.faces[i]);
-      for (const auto &traction : ground.scene.tractions)
-        {
-          const Expression<dim> value(traction->expression,
-                                      dim,
-                                      "Tractions/*/Traction");
-          for (const CellFace &f : list_loaded_faces(ground, own, *traction))
-            {
-              const Point<dim> center = mesh.face_center(f.cell, f.face);
-              around.loads.tractions.push_back(
-                {center,
-                 around.free_area_ratio *
-                   mesh.face_area_vector(f.cell, f.face).norm() *
-                   value.vector(center, time)});
-            }
-        }
-    }
   } // namespace
 
 
@@ -379,17 +327,21 @@ namespace Keyblock
     for (const unsigned int i : free.joint_faces_of_block(block.id - 1))
       collector.add_joint_face(ground.split.interface.joint_faces[i]);
     collector.add_faces_without_mesh();
+    collector.add_water();
     collector.sort_faces();
     collector.add_other_faces(free);
     collector.measure_free_area(free);
-    add_body_forces(ground, free, block, time, collector.result.loads);
-    add_tractions(ground, free, block.id - 1, time, collector.result);
+    BlockLoads<dim> &loads = collector.result.loads;
+    BlockLoads<dim> body   = body_forces_on(ground, free, block, time);
+    body.water             = loads.water;
+    body.water_along       = loads.water_along;
+    body.tractions         = tractions_on(
+      ground, free, block.id - 1, time, collector.result.free_area_ratio);
+    loads = body;
     return collector.result;
   }
 
 #define INSTANTIATE(dim)                                                       \
-  template struct BlockLoads<dim>;                                             \
-  template Tensor<1, dim> sum_of(const std::vector<PointForce<dim>> &);        \
   template BlockSurroundings<dim> look_around(const Ground<dim> &,             \
                                               const FreeFaces<dim> &,          \
                                               const Block<dim> &,              \

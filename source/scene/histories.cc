@@ -36,7 +36,7 @@ namespace Keyblock
             level = stage->water_level;
         }
     if (!own.water_pressure.empty())
-      return own.water_pressure;
+      return "max(0, (" + own.water_pressure + "))"; // joints bear no suction
     if (!own.water_level.empty())
       level = own.water_level;
     if (level.empty() || level == no_water)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Gravity, tractions, and ramps of what is out of balance.
 #include <keyblock/base/errors.h>
-#include <keyblock/blocks/nodal_areas.h>
 #include <keyblock/step/loads.h>
+
+#include <map>
 
 namespace Keyblock
 {
@@ -25,8 +26,10 @@ namespace Keyblock
   void
   Loads<dim>::set_up(const Ground<dim> &ground)
   {
+    steady_forces.clear();
     set_up_water(ground);
     set_up_tractions(ground);
+    sum_steady_forces();
     seismic_acceleration =
       standard_gravity * scene.seismic_coefficient(ground.stage_number);
     forget_load();
@@ -60,8 +63,7 @@ namespace Keyblock
   void
   Loads<dim>::set_up_tractions(const Ground<dim> &ground)
   {
-    const Mesh<dim> &mesh = split.mesh;
-    nodal_tractions.clear();
+    varying_tractions.clear();
     std::vector<CellFace> free;
     if (!scene.tractions.empty())
       free = list_free_faces(ground);
@@ -73,21 +75,7 @@ namespace Keyblock
         const std::vector<CellFace> loaded =
           list_loaded_faces(ground, free, traction);
         for (const CellFace &face : loaded)
-          {
-            const Point<dim> center = mesh.face_center(face.cell, face.face);
-            const auto areas        = nodal_areas(mesh, face.cell, face.face);
-            const auto vertices     = mesh.face_vertices(face.cell, face.face);
-            for (unsigned int v = 0; v < vertices.size(); ++v)
-              split.for_each_carrier(
-                vertices[v],
-                [&](const unsigned int carrier, const double weight) {
-                  if (numbering.is_owned(carrier))
-                    nodal_tractions.push_back({numbering.local_node(carrier),
-                                               t,
-                                               weight * areas[v],
-                                               center});
-                });
-          }
+          add_traction(face, t);
         AssertThrow(!loaded.empty() || ground.stage_number > 1,
                     InputError("The traction '" + traction.name +
                                "' loads no face; check 'Tractions/" +
@@ -99,11 +87,91 @@ namespace Keyblock
 
 
   template <int dim>
+  template <typename Action>
+  void
+  Loads<dim>::for_each_share(const CellFace &face,
+                             const FacePoint<dim> &point,
+                             const Action &action) const
+  {
+    const auto vertices = split.mesh.face_vertices(face.cell, face.face);
+    for (unsigned int v = 0; v < vertices.size(); ++v)
+      split.for_each_carrier(
+        vertices[v], [&](const unsigned int carrier, const double weight) {
+          if (numbering.is_owned(carrier))
+            action(numbering.local_node(carrier), weight * point.shape[v]);
+        });
+  }
+
+
+
+  template <int dim>
+  bool
+  Loads<dim>::has_owned_node(const CellFace &face) const
+  {
+    bool is_any = false;
+    for (const unsigned int v : split.mesh.face_vertices(face.cell, face.face))
+      split.for_each_carrier(v, [&](const unsigned int carrier, double) {
+        is_any = is_any || numbering.is_owned(carrier);
+      });
+    return is_any;
+  }
+
+
+
+  template <int dim>
+  void
+  Loads<dim>::sum_steady_forces()
+  {
+    std::map<unsigned int, double> sums;
+    for (const auto &[dof, force] : steady_forces)
+      sums[dof] += force;
+    steady_forces.assign(sums.begin(), sums.end());
+  }
+
+
+
+  template <int dim>
+  void
+  Loads<dim>::add_traction(const CellFace &face, const unsigned int traction)
+  {
+    if (!has_owned_node(face))
+      return;
+    const auto corners = face_corners(split.mesh, face.cell, face.face);
+    const bool is_varying =
+      depends_on_time(scene.tractions[traction]->expression);
+    const auto value_at = [&](const Point<dim> &place) {
+      return tractions[traction]->vector(place, 0.);
+    };
+    for (const FacePoint<dim> &point :
+         is_varying ? gauss_points<dim>(corners)
+                    : adapted_points<dim>(corners, value_at))
+      {
+        LoadPoint<dim, double> entry{traction, point.place, {}};
+        const double area = point.area.norm();
+        for_each_share(face,
+                       point,
+                       [&](const unsigned int node, const double share) {
+                         entry.areas.emplace_back(node, share * area);
+                       });
+        if (is_varying)
+          varying_tractions.push_back(entry);
+        else
+          {
+            const Tensor<1, dim> value = value_at(point.place);
+            for (const auto &[node, share] : entry.areas)
+              for (unsigned int d = 0; d < dim; ++d)
+                steady_forces.emplace_back(dim * node + d, share * value[d]);
+          }
+      }
+  }
+
+
+
+  template <int dim>
   void
   Loads<dim>::set_up_water(const Ground<dim> &ground)
   {
-    water_forces.clear();
-    water.clear();
+    varying_water.clear();
     water_pressures.clear();
     const Interface<dim> &interface = split.interface;
     std::vector<bool> is_varying;
@@ -137,25 +205,34 @@ namespace Keyblock
                         const unsigned int joint,
                         const bool is_varying)
   {
-    const auto areas    = nodal_area_vectors(split.mesh, side.cell, side.face);
-    const auto vertices = split.mesh.face_vertices(side.cell, side.face);
-    for (unsigned int v = 0; v < vertices.size(); ++v)
-      split.for_each_carrier(
-        vertices[v], [&](const unsigned int carrier, const double weight) {
-          if (!numbering.is_owned(carrier))
-            return;
-          const Point<dim> &place    = split.mesh.vertices[vertices[v]];
-          const Tensor<1, dim> share = -weight * areas[v];
-          const unsigned int node    = numbering.local_node(carrier);
-          if (is_varying)
-            {
-              water.push_back({node, joint, share, place});
-              return;
-            }
-          const double p = water_pressures[joint]->value(place, 0., 0);
-          for (unsigned int d = 0; d < dim; ++d)
-            water_forces.emplace_back(dim * node + d, p * share[d]);
-        });
+    if (!has_owned_node(side))
+      return;
+    const auto corners = face_corners(split.mesh, side.cell, side.face);
+    const Expression<dim> &pressure = *water_pressures[joint];
+    const auto value_at             = [&pressure](const Point<dim> &place) {
+      return pressure.value(place, 0., 0);
+    };
+    auto points = is_varying ? gauss_points<dim>(corners)
+                             : adapted_points<dim>(corners, value_at);
+    turn_outward(points, split.mesh.face_area_vector(side.cell, side.face));
+    for (const FacePoint<dim> &point : points)
+      {
+        LoadPoint<dim, Tensor<1, dim>> entry{joint, point.place, {}};
+        for_each_share(side,
+                       point,
+                       [&](const unsigned int node, const double share) {
+                         entry.areas.emplace_back(node, -share * point.area);
+                       });
+        if (is_varying)
+          varying_water.push_back(entry);
+        else
+          {
+            const double p = value_at(point.place);
+            for (const auto &[node, area] : entry.areas)
+              for (unsigned int d = 0; d < dim; ++d)
+                steady_forces.emplace_back(dim * node + d, p * area[d]);
+          }
+      }
   }
 
 
@@ -165,7 +242,7 @@ namespace Keyblock
   Loads<dim>::set_load(const double time)
   {
     const double left = ramp.share_left();
-    if (is_set && is_constant && water.empty() && left == share_set)
+    if (is_set && is_constant && varying_water.empty() && left == share_set)
       return false;
     is_set           = true;
     share_set        = left;
@@ -175,21 +252,23 @@ namespace Keyblock
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       for (int d = 0; d < dim; ++d)
         fields.load[dim * node + d] = fields.weighing_mass[node] * g[d];
-    for (const auto &[dof, force] : water_forces)
+    for (const auto &[dof, force] : steady_forces)
       fields.load[dof] += force;
-    for (const NodalWater<dim> &entry : water)
+    for (const auto &point : varying_water)
       {
         const double p =
-          water_pressures[entry.joint]->value(entry.place, time, 0);
-        for (int d = 0; d < dim; ++d)
-          fields.load[dim * entry.node + d] += p * entry.area[d];
+          water_pressures[point.formula]->value(point.place, time, 0);
+        for (const auto &[node, area] : point.areas)
+          for (int d = 0; d < dim; ++d)
+            fields.load[dim * node + d] += p * area[d];
       }
-    for (const NodalTraction<dim> &entry : nodal_tractions)
+    for (const auto &point : varying_tractions)
       {
         const Tensor<1, dim> t =
-          tractions[entry.traction]->vector(entry.place, time);
-        for (int d = 0; d < dim; ++d)
-          fields.load[dim * entry.node + d] += entry.area * t[d];
+          tractions[point.formula]->vector(point.place, time);
+        for (const auto &[node, area] : point.areas)
+          for (int d = 0; d < dim; ++d)
+            fields.load[dim * node + d] += area * t[d];
       }
     for (unsigned int i = 0; i < out_of_balance_force.size(); ++i)
       fields.load[i] += left * out_of_balance_force[i];

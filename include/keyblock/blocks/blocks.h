@@ -72,6 +72,11 @@ namespace Keyblock
       double volume = 0.;                        ///< [m^dim]
       std::map<unsigned int, double> joint_area; ///< in the plane [m^(dim-1)]
       std::map<unsigned int, double> bent_area;  ///< of the same faces as bent
+      Point<dim> centroid;                       ///< of the volume [m]
+
+      /** Polygons in the plane by joint, around them as seen from one side; in
+       * 2D segments. */
+      std::map<unsigned int, std::vector<std::vector<Point<dim>>>> joint_faces;
     };
     Measures exact;
 

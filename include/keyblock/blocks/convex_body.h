@@ -62,7 +62,8 @@ namespace Keyblock
       return faces.size() <= dim;
     }
 
-    double volume() const; ///< [m^dim]
+    double volume() const;       ///< [m^dim]
+    Point<dim> centroid() const; ///< of the volume [m]
 
     static double area(const Face &face); ///< [m^(dim-1)]
 

@@ -129,6 +129,13 @@ namespace Keyblock
                      const double gap,
                      std::vector<SurfaceContact<dim>> &contacts) const;
 
+    /** The joint of a slave that has slid over the rim of it, on rock that goes
+     * on level, by less than half a face: what the slave stands for is still on
+     * the joint. None if it has gone farther. */
+    unsigned int joint_at_rim(const std::vector<double> &position,
+                              const Candidate &candidate,
+                              const Projection<dim> &foot) const;
+
     /** The contact of a slave with the edge or corner nearest to it, of faces
      * that it is beside. */
     void add_contact_beside(const std::vector<double> &position,

@@ -3,45 +3,13 @@
 #define keyblock_safety_block_faces_h
 
 #include <keyblock/blocks/free_faces.h>
+#include <keyblock/safety/block_loads.h>
 #include <keyblock/safety/limit_equilibrium.h>
 
 #include <set>
 
 namespace Keyblock
 {
-  /** A force and the point it acts at. */
-  template <int dim>
-  struct PointForce
-  {
-    Point<dim> place;     ///< [m]
-    Tensor<1, dim> force; ///< [N], per metre in 2D
-  };
-
-  template <int dim>
-  Tensor<1, dim> sum_of(const std::vector<PointForce<dim>> &forces);
-
-  /** What acts on a block, but for what other blocks do. */
-  template <int dim>
-  struct BlockLoads
-  {
-    Point<dim> centroid;
-    Tensor<1, dim> weight;                  ///< mass times gravity [N]
-    Tensor<1, dim> seismic;                 ///< Seismic coefficient [N]
-    std::vector<PointForce<dim>> tractions; ///< on free faces
-    std::vector<PointForce<dim>> water;     ///< in joints
-    Tensor<1, dim> water_along;             ///< its part along bent faces [N]
-
-    /** All of it, water within the planes of joints excluded [N]. */
-    Tensor<1, dim>
-    without_water() const
-    {
-      return weight + seismic + sum_of(tractions) + water_along;
-    }
-
-    /** All of it, each where it acts. */
-    std::vector<PointForce<dim>> all() const;
-  };
-
   /** A block as limit equilibrium sees it. */
   template <int dim>
   struct BlockSurroundings

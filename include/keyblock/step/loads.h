@@ -3,6 +3,7 @@
 #define keyblock_step_loads_h
 
 #include <keyblock/base/expression.h>
+#include <keyblock/blocks/face_quadrature.h>
 #include <keyblock/blocks/ground.h>
 #include <keyblock/rock/dofs.h>
 #include <keyblock/rock/fields.h>
@@ -13,24 +14,17 @@
 
 namespace Keyblock
 {
-  /** A load on one node that depends on position and time. */
-  template <int dim>
-  struct NodalTraction
+  /** A quadrature point of a face at which a traction or a pressure that
+   * depends on time is taken, and the shares of the face's nodes in it. */
+  template <int dim, typename Area>
+  struct LoadPoint
   {
-    unsigned int node;
-    unsigned int traction; ///< index into Scene::tractions
-    double area;           ///< [m^(dim-1)]
-    Point<dim> place;      ///< of the face's centre [m]
-  };
+    unsigned int formula; ///< index into Scene::tractions or Scene::joints
+    Point<dim> place;
 
-  /** A node and the water beside it in a joint. */
-  template <int dim>
-  struct NodalWater
-  {
-    unsigned int node;
-    unsigned int joint;  ///< index into Scene::joints
-    Tensor<1, dim> area; ///< of its share, the way it is pushed [m^(dim-1)]
-    Point<dim> place;    ///< where the pressure is taken [m]
+    /** Owned nodes, and the areas that are theirs: those of pressures point
+     * the way that they push [m^(dim-1)]. */
+    std::vector<std::pair<unsigned int, Area>> areas;
   };
 
   /** What is ramped out, and how far it is. */
@@ -119,7 +113,7 @@ namespace Keyblock
     bool
     is_load_changing() const
     {
-      return !is_constant || !water.empty() || is_ramping();
+      return !is_constant || !varying_water.empty() || is_ramping();
     }
 
     /** Set fields.load to gravity, water, tractions and ramped forces at
@@ -151,11 +145,26 @@ namespace Keyblock
     void set_up_tractions(const Ground<dim> &ground);
     void set_up_water(const Ground<dim> &ground);
 
+    /** Add a traction to the nodes of a face. */
+    void add_traction(const CellFace &face, const unsigned int traction);
+
     /** Add the water in a joint, of which a formula in time is varying, to the
      * nodes of one of its sides. */
     void add_water(const CellFace &side,
                    const unsigned int joint,
                    const bool is_varying);
+
+    bool has_owned_node(const CellFace &face) const;
+
+    /** One entry by degree of freedom. */
+    void sum_steady_forces();
+
+    /** Call @p action(local node, share of it in the point [-]) for the owned
+     * nodes of a face. */
+    template <typename Action>
+    void for_each_share(const CellFace &face,
+                        const FacePoint<dim> &point,
+                        const Action &action) const;
 
     const Scene<dim> &scene;
     const SplitMesh<dim> &split;
@@ -165,12 +174,13 @@ namespace Keyblock
     Tensor<1, dim> seismic_acceleration; ///< of the stage [m/s2]
     std::unique_ptr<Expression<dim>> gravity;
     std::vector<std::unique_ptr<Expression<dim>>> tractions;
-    std::vector<NodalTraction<dim>> nodal_tractions;
-    /** Of water in joints, by degree of freedom, where it does not depend on
-     * time [N]; where it does. */
-    std::vector<std::pair<unsigned int, double>> water_forces;
-    std::vector<NodalWater<dim>> water;
     std::vector<std::unique_ptr<Expression<dim>>> water_pressures; ///< by joint
+
+    /** Of tractions and water that do not depend on time, by degree of
+     * freedom, in the order of faces [N]; those that do. */
+    std::vector<std::pair<unsigned int, double>> steady_forces;
+    std::vector<LoadPoint<dim, double>> varying_tractions;
+    std::vector<LoadPoint<dim, Tensor<1, dim>>> varying_water;
     bool is_constant = true; ///< no other formula depends on time
     bool is_set      = false;
     double share_set = 0.; ///< of the carried force in the load [-]
