@@ -22,47 +22,75 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** Places and weights of a rule between 0 and 1. */
+    using Rule = std::vector<std::pair<double, double>>;
+
+    template <int dim>
+    std::vector<FacePoint<dim>>
+    points_of(const Rule &rule,
+              const FaceCorners<dim> &corners,
+              const FacePart<dim> &part)
+    {
+      std::vector<FacePoint<dim>> points;
+      if constexpr (dim == 2)
+        {
+          const Tensor<1, dim> normal =
+            -cross_product_2d(corners[1] - corners[0]);
+          for (const auto &[a, weight] : rule)
+            {
+              const double s = part.low[0] + a * part.size;
+              points.push_back(
+                {Point<dim>((1. - s) * corners[0] + s * corners[1]),
+                 {{1. - s, s}},
+                 weight * part.size * normal});
+            }
+        }
+      else
+        for (const auto &[a, weight_a] : rule)
+          for (const auto &[b, weight_b] : rule)
+            {
+              const double s = part.low[0] + a * part.size,
+                           t = part.low[1] + b * part.size;
+              FacePoint<dim> point;
+              for (unsigned int v = 0; v < corners.size(); ++v)
+                {
+                  point.shape[v] =
+                    ((v & 1) ? s : 1. - s) * ((v & 2) ? t : 1. - t);
+                  point.place += point.shape[v] * corners[v];
+                }
+              point.area =
+                weight_a * weight_b * part.size * part.size *
+                cross_product_3d((1. - t) * (corners[1] - corners[0]) +
+                                   t * (corners[3] - corners[2]),
+                                 (1. - s) * (corners[2] - corners[0]) +
+                                   s * (corners[3] - corners[1]));
+              points.push_back(point);
+            }
+      return points;
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<FacePoint<dim>>
   gauss_points(const FaceCorners<dim> &corners, const FacePart<dim> &part)
   {
-    const double g                    = 0.5 / std::sqrt(3.);
-    const std::array<double, 2> along = {{0.5 - g, 0.5 + g}};
-    std::vector<FacePoint<dim>> points;
-    if constexpr (dim == 2)
-      {
-        const Tensor<1, dim> normal =
-          -cross_product_2d(corners[1] - corners[0]);
-        for (const double a : along)
-          {
-            const double s = part.low[0] + a * part.size;
-            points.push_back(
-              {Point<dim>((1. - s) * corners[0] + s * corners[1]),
-               {{1. - s, s}},
-               0.5 * part.size * normal});
-          }
-      }
-    else
-      for (const double a : along)
-        for (const double b : along)
-          {
-            const double s = part.low[0] + a * part.size,
-                         t = part.low[1] + b * part.size;
-            FacePoint<dim> point;
-            for (unsigned int v = 0; v < corners.size(); ++v)
-              {
-                point.shape[v] =
-                  ((v & 1) ? s : 1. - s) * ((v & 2) ? t : 1. - t);
-                point.place += point.shape[v] * corners[v];
-              }
-            point.area = 0.25 * part.size * part.size *
-                         cross_product_3d((1. - t) * (corners[1] - corners[0]) +
-                                            t * (corners[3] - corners[2]),
-                                          (1. - s) * (corners[2] - corners[0]) +
-                                            s * (corners[3] - corners[1]));
-            points.push_back(point);
-          }
-    return points;
+    const double g = 0.5 / std::sqrt(3.);
+    return points_of({{0.5 - g, 0.5}, {0.5 + g, 0.5}}, corners, part);
+  }
+
+
+
+  template <int dim>
+  std::vector<FacePoint<dim>>
+  simpson_points(const FaceCorners<dim> &corners, const FacePart<dim> &part)
+  {
+    return points_of({{0., 1. / 6.}, {0.5, 4. / 6.}, {1., 1. / 6.}},
+                     corners,
+                     part);
   }
 
 
@@ -117,6 +145,8 @@ namespace Keyblock
   template struct FacePart<dim>;                                               \
   template std::vector<FacePoint<dim>> gauss_points(const FaceCorners<dim> &,  \
                                                     const FacePart<dim> &);    \
+  template std::vector<FacePoint<dim>> simpson_points(                         \
+    const FaceCorners<dim> &, const FacePart<dim> &);                          \
   template FaceCorners<dim> face_corners(const Mesh<dim> &,                    \
                                          const unsigned int,                   \
                                          const unsigned int);                  \

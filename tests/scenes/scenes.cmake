@@ -150,11 +150,9 @@ keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
   SET "Safety factor/Removal slip=0.05")
 # safety factors of blocks on inclines: friction angle, dip
 # the toe of a block has its joint's friction, where the joint ends there
-foreach(friction 5 45)
-  keyblock_scene(verification/crack_water REFERENCES crack_water_rim RANKS 1
-    SET "Joints/base/Friction angle=15" "Joints/crack/Water level=1.2"
-    "Contact/Default friction angle=${friction}")
-endforeach()
+keyblock_scene(verification/crack_water REFERENCES crack_water_rim RANKS 1 2
+  SET "Joints/base/Friction angle=15" "Joints/crack/Water level=1.2"
+  "Contact/Default friction angle=45")
 keyblock_scene(verification/factor_incline)
 keyblock_scene(verification/factor_incline REFERENCES factor_incline_teams
   RANKS 2 SET "Safety factor/Rank groups=2")

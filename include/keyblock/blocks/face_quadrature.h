@@ -48,6 +48,11 @@ namespace Keyblock
   gauss_points(const FaceCorners<dim> &corners,
                const FacePart<dim> &part = FacePart<dim>());
 
+  /** The same by Simpson's rule, with the ends of the part. */
+  template <int dim>
+  std::vector<FacePoint<dim>> simpson_points(const FaceCorners<dim> &corners,
+                                             const FacePart<dim> &part);
+
   /** The corners of a face of a cell in their order. */
   template <int dim>
   FaceCorners<dim> face_corners(const Mesh<dim> &mesh,
@@ -65,8 +70,9 @@ namespace Keyblock
   faces_of(const std::vector<Point<dim>> &polygon);
 
   /**
-   * Points for the integral of a pressure or traction over a face: of its
-   * parts, halved where kinks (a water table, an edge of a load) ask for it.
+   * Points for the integral of a pressure or traction over a face: Gauss's of
+   * its parts, halved where these and Simpson's differ, at kinks (a water
+   * table, an edge of a load).
    * @param value called with a point, a double or a Tensor
    */
   template <int dim, typename Function>
@@ -107,25 +113,25 @@ namespace Keyblock
         if (depth == 0)
           for (const FacePoint<dim> &point : points)
             area += point.area.norm();
-        auto difference = shares_of(points);
-        std::vector<FacePart<dim>> children;
-        if (depth < deepest)
-          children = part.children();
-        for (const FacePart<dim> &child : children)
+        // (a kink between any of their points tells them apart)
+        auto difference  = shares_of(points);
+        const auto other = shares_of(simpson_points<dim>(corners, part));
+        bool is_fine     = depth == deepest;
+        if (!is_fine)
           {
-            const auto finer = shares_of(gauss_points<dim>(corners, child));
             for (unsigned int i = 0; i < difference.size(); ++i)
-              difference[i] -= finer[i];
+              difference[i] -= other[i];
+            is_fine =
+              std::all_of(difference.begin(),
+                          difference.end(),
+                          [&](const Value &d) {
+                            return size_of(d) <= tolerance * largest * area;
+                          });
           }
-        if (children.empty() || std::all_of(difference.begin(),
-                                            difference.end(),
-                                            [&](const Value &d) {
-                                              return size_of(d) <=
-                                                     tolerance * largest * area;
-                                            }))
+        if (is_fine)
           result.insert(result.end(), points.begin(), points.end());
         else
-          for (const FacePart<dim> &child : children)
+          for (const FacePart<dim> &child : part.children())
             open.emplace_back(child, depth + 1);
       }
     return result;
