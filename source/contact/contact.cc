@@ -92,6 +92,7 @@ namespace Keyblock
                springs,
                memory)
     , sums(search, topology, nodes, fields, memory)
+    , block_motions(topology, blocks, fields, memory)
   {
     for (unsigned int p = 0; p < memory.state.size(); ++p)
       memory.state[p].is_intact =

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/contact/topology.h>
 
+#include <algorithm>
+
 namespace Keyblock
 {
   template <int dim>
@@ -71,6 +73,37 @@ namespace Keyblock
       interface.group_vertices[interface.group_begin[group]]);
   }
 
+
+
+  template <int dim>
+  std::vector<std::vector<unsigned int>>
+  owned_nodes_of_blocks(const SplitMesh<dim> &split,
+                        const Numbering<dim> &numbering,
+                        const unsigned int n_blocks)
+  {
+    std::vector<std::vector<unsigned int>> nodes_of_block(n_blocks);
+    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+      if (split.block_of_cell[c] != none)
+        for (const unsigned int v : split.mesh.cells[c])
+          if (numbering.is_owned(v))
+            nodes_of_block[split.block_of_cell[c]].push_back(
+              numbering.local_node(v));
+    for (auto &nodes : nodes_of_block)
+      {
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      }
+    return nodes_of_block;
+  }
+
   template class PairTopology<2>;
   template class PairTopology<3>;
+  template std::vector<std::vector<unsigned int>>
+  owned_nodes_of_blocks(const SplitMesh<2> &,
+                        const Numbering<2> &,
+                        const unsigned int);
+  template std::vector<std::vector<unsigned int>>
+  owned_nodes_of_blocks(const SplitMesh<3> &,
+                        const Numbering<3> &,
+                        const unsigned int);
 } // namespace Keyblock

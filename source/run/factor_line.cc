@@ -9,6 +9,49 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    std::string
+    describe_group(const SafetyFactor &factor)
+    {
+      std::ostringstream text;
+      text << std::setprecision(5)
+           << (factor.has_own_group() ? "blocks " : "in the group of blocks ");
+      for (unsigned int i = 0; i < factor.group.size(); ++i)
+        text << (i > 0 ? ", " : "") << factor.group[i];
+      text << (factor.has_own_group() ? " move together: " : ": ")
+           << factor.value_of_group() << " [" << factor.group_lower << ", "
+           << factor.group_upper << "]";
+      return text.str();
+    }
+
+
+
+    template <int dim>
+    void
+    begin_line(std::ostream &out,
+               const SafetyFactor &factor,
+               const Blocks<dim> &blocks)
+    {
+      out << "Factor  block " << blocks.blocks[factor.block].id << " after "
+          << factor.stage << ": ";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  print_group(std::ostream &out,
+              const SafetyFactor &factor,
+              const Blocks<dim> &blocks)
+  {
+    begin_line(out, factor, blocks);
+    out << describe_group(factor) << std::endl;
+  }
+
+
+
   template <int dim>
   void
   print_factor(std::ostream &out,
@@ -19,8 +62,8 @@ namespace Keyblock
     double seconds = 0.;
     for (const Trial &trial : factor.trials)
       seconds += trial.seconds;
-    out << "Factor  block " << blocks.blocks[factor.block].id << " after "
-        << factor.stage << ": " << std::setprecision(5);
+    begin_line(out, factor, blocks);
+    out << std::setprecision(5);
     if (factor.outcome == SafetyFactor::Outcome::bracketed)
       out << factor.value() << " [" << factor.lower << ", " << factor.upper
           << "]";
@@ -32,13 +75,7 @@ namespace Keyblock
     if (!factor.failure_mode.empty())
       out << ", " << factor.failure_mode;
     if (!factor.group.empty())
-      {
-        out << "; blocks ";
-        for (unsigned int i = 0; i < factor.group.size(); ++i)
-          out << (i > 0 ? ", " : "") << factor.group[i];
-        out << " move together: " << factor.value_of_group() << " ["
-            << factor.group_lower << ", " << factor.group_upper << "]";
-      }
+      out << "; " << describe_group(factor);
     out << "; limit equilibrium "
         << (has_initial_stress(scene) ? "without in-situ clamping " : "");
     if (std::isfinite(factor.limit_factor))
@@ -63,6 +100,10 @@ namespace Keyblock
         << seconds << " s" << std::endl;
   }
 
+  template void
+  print_group(std::ostream &, const SafetyFactor &, const Blocks<2> &);
+  template void
+  print_group(std::ostream &, const SafetyFactor &, const Blocks<3> &);
   template void print_factor(std::ostream &,
                              const SafetyFactor &,
                              const Blocks<2> &,

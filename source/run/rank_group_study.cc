@@ -96,18 +96,13 @@ namespace Keyblock
     for (const SafetyFactor &factor :
          gather_from_rank_groups(groups.all, mine.factors))
       {
-        run.record.safety_factors.push_back(factor);
         const bool is_mine = std::any_of(mine.factors.begin(),
                                          mine.factors.end(),
                                          [&](const SafetyFactor &other) {
                                            return other.block == factor.block;
                                          });
         // those were printed as they were found
-        if (!is_mine && model.out.is_active())
-          print_factor(model.out.get_stream(),
-                       factor,
-                       model.blocks,
-                       model.scene);
+        run.safety.record_factor(factor, is_mine);
       }
     const std::string failure = model.communicator.any_text(mine.failure);
     AssertThrow(failure.empty(), ComputationError(failure));

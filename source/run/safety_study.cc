@@ -340,6 +340,24 @@ namespace Keyblock
 
   template <int dim>
   void
+  SafetyStudy<dim>::record_factor(const SafetyFactor &factor,
+                                  const bool is_printed)
+  {
+    record.safety_factors.push_back(factor);
+    const std::vector<unsigned int> told =
+      share_last_group(model.blocks, record.safety_factors);
+    if (is_printed || !model.out.is_active())
+      return;
+    std::ostream &out = model.out.get_stream();
+    print_factor(out, record.safety_factors.back(), model.blocks, model.scene);
+    for (const unsigned int i : told)
+      print_group(out, record.safety_factors[i], model.blocks);
+  }
+
+
+
+  template <int dim>
+  void
   SafetyStudy<dim>::find_remaining_factors(const RankGroups &groups)
   {
     const Snapshot<dim> after = take_snapshot(model.parts());
@@ -352,12 +370,7 @@ namespace Keyblock
             const SafetyFactor result = find_factor(search, b);
             recall(after, model.parts());
             finite_check.check_factor(result);
-            record.safety_factors.push_back(result);
-            if (model.out.is_active())
-              print_factor(model.out.get_stream(),
-                           result,
-                           model.blocks,
-                           model.scene);
+            record_factor(result, false);
             model.count_cells();
             checkpointing.save_if_due();
           }

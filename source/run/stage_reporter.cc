@@ -15,7 +15,7 @@ namespace Keyblock
 {
   namespace
   {
-    /** Slip over the size of a block since about half of the stage with which
+    /** Way over the size of a block since about half of the stage with which
      * it is on its way, however slow [-]. */
     constexpr double least_creep = 1e-5;
 
@@ -76,9 +76,12 @@ namespace Keyblock
         double way;
         unsigned int id;
         bool is_moving;
-        double speed; ///< of a steady slip [m/s]; 0: not measured
+        double speed; ///< of a steady motion [m/s]; 0: not measured
       };
       std::vector<Mover> movers;
+      const auto motions = model.contact == nullptr
+                             ? std::vector<BlockMotion<dim>>(n_blocks)
+                             : model.contact->motions().measure();
       for (unsigned int b = 0; b < n_blocks; ++b)
         {
           const double *const sum = sums.data() + b * (1 + 2 * dim);
@@ -97,12 +100,7 @@ namespace Keyblock
             way > 1e-3 * size && along > 0. && !progress.is_converged;
           // or slowly, but as fast as ever
           const auto motion =
-            model.contact == nullptr
-              ? SlipRecord::Motion{0., 0}
-              : progress.slips.motion_since(
-                  b,
-                  progress.n_done,
-                  norm<dim>(model.contact->report().mean_slip(b)));
+            progress.slips.motion_since(b, progress.n_done, motions[b].way());
           const bool creeps =
             !progress.is_converged && motion.way > least_creep * size;
           const double speed =

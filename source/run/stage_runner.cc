@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/ramp_length.h>
 #include <keyblock/run/stage_runner.h>
 #include <keyblock/run/static_stage.h>
 #include <keyblock/scene/step_count.h>
-#include <keyblock/step/equilibrium.h>
 
 #include <algorithm>
 
@@ -25,7 +25,7 @@ namespace Keyblock
     /** Steps from check to check whether the run is to be saved or stopped. */
     constexpr unsigned int save_interval = 10;
 
-    /** Slip over the size in the second half of the time so far, at a steady
+    /** Way over the size in the second half of the time so far, at a steady
      * speed, by which a block has failed [-]. */
     constexpr double steady_slip = 1e-3;
   } // namespace
@@ -181,15 +181,9 @@ namespace Keyblock
   double
   StageRunner<dim>::ramp_duration_of(const Stage &stage) const
   {
-    if (stage.ramp_duration > 0. || !stage.is_quasi_static())
-      return stage.ramp_duration;
-    StaticSolver<dim> solver(model.split,
-                             *model.numbering,
-                             model.cells,
-                             model.fields,
-                             model.fields.supports,
-                             model.conditions->elements);
-    return 4. * solver.lowest_period();
+    return stage.ramp_duration > 0. || !stage.is_quasi_static()
+             ? stage.ramp_duration
+             : find_ramp_duration(model);
   }
 
 
@@ -201,20 +195,21 @@ namespace Keyblock
     if (model.contact == nullptr || model.scene.safety.removal_slip == 0.)
       return {};
     std::vector<unsigned int> failed;
-    std::vector<double> slip(model.blocks.blocks.size(), 0.);
+    std::vector<double> way(model.blocks.blocks.size(), 0.);
     const auto can_fail = [&](const unsigned int b) {
       return !model.blocks.blocks[b].is_infinite &&
              !model.conditions->active_cells.is_removed_block(b);
     };
+    const auto motions = model.contact->motions().measure();
     for (unsigned int b = 0; b < model.blocks.blocks.size(); ++b)
       if (can_fail(b))
-        slip[b] = norm<dim>(model.contact->report().mean_slip(b));
+        way[b] = motions[b].way();
     if (model.conditions->loads.is_ramping())
       progress.slips.restart(progress.n_done);
-    const bool is_recorded = progress.slips.offer(progress.n_done, slip);
+    const bool is_recorded = progress.slips.offer(progress.n_done, way);
     for (unsigned int b = 0; b < model.blocks.blocks.size(); ++b)
       if (can_fail(b) &&
-          (slip[b] >
+          (way[b] >
              model.scene.safety.removal_slip * model.blocks.blocks[b].size ||
            (is_recorded && progress.slips.is_steady(
                              b, steady_slip * model.blocks.blocks[b].size))))

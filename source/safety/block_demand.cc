@@ -42,10 +42,11 @@ namespace Keyblock
         all.pulls.back().force = pushed.norm();
       }
     SupportedMotion<dim> motion;
-    motion.limit             = solve_with_support<dim>(around.faces,
+    motion.limit = solve_with_support<dim>(around.faces,
                                            around.loads.without_water(),
                                            all,
                                            is_passive);
+    motion.limit.orient(around.loads.weight);
     motion.factor_of_sliding = motion.limit.factor;
     // in 3D it changes nothing, see judge_rotation()
     if (dim == 2 || pressure == 0.)

@@ -80,9 +80,10 @@ namespace Keyblock
           faces[s].tangent_friction = std::tan(sets[s].friction_angle * radian);
           faces[s].name             = sets[s].name;
         }
-      const auto limit = solve_limit_equilibrium<dim>(faces, gravity);
-      result.mode      = result.is_empty ? "tapered" : limit.describe(faces);
-      result.factor    = limit.factor;
+      auto limit = solve_limit_equilibrium<dim>(faces, gravity);
+      limit.orient(gravity);
+      result.mode   = result.is_empty ? "tapered" : limit.describe(faces);
+      result.factor = limit.factor;
       return result;
     }
 

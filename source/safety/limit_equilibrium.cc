@@ -152,8 +152,10 @@ namespace Keyblock
     if (closes_none(faces, resultant / resultant.norm()))
       {
         result.direction = resultant / resultant.norm();
-        result.mode =
-          result.direction[dim - 1] > 0. ? Mode::lifting : Mode::falling;
+        result.mode      = Mode::falling;
+        Tensor<1, dim> down;
+        down[dim - 1] = -1.;
+        result.orient(down);
         result.driving_force = resultant.norm();
         result.factor = add_side_faces(faces, result) / result.driving_force;
         return result;
@@ -196,6 +198,16 @@ namespace Keyblock
           }
     result.factor = std::numeric_limits<double>::infinity();
     return result;
+  }
+
+
+
+  template <int dim>
+  void
+  LimitEquilibrium<dim>::orient(const Tensor<1, dim> &weight)
+  {
+    if ((mode == Mode::falling || mode == Mode::lifting) && weight.norm() > 0.)
+      mode = direction * weight < 0. ? Mode::lifting : Mode::falling;
   }
 
 

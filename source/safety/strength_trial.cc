@@ -74,20 +74,9 @@ namespace Keyblock
     , split(split)
     , blocks(blocks)
     , run(run)
-    , nodes_of_block(blocks.blocks.size())
-  {
-    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
-      if (split.block_of_cell[c] != none)
-        for (const unsigned int v : split.mesh.cells[c])
-          if (numbering.is_owned(v))
-            nodes_of_block[split.block_of_cell[c]].push_back(
-              numbering.local_node(v));
-    for (auto &nodes : nodes_of_block)
-      {
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-      }
-  }
+    , nodes_of_block(
+        owned_nodes_of_blocks(split, numbering, blocks.blocks.size()))
+  {}
 
 
 

@@ -173,9 +173,11 @@ namespace Keyblock
     prm.add_parameter(
       "Removal slip",
       removal_slip,
-      "Slip of a block, as a fraction of its size, at which a quasi-static "
-      "stage takes the block away as failed [-]. A block that slides steadily "
-      "is taken away earlier. 0: no block is taken away.",
+      "Way of a block, as a fraction of its size, at which a quasi-static "
+      "stage takes the block away as failed [-]: the root mean square of its "
+      "displacement against the rock around it, sliding, falling or rotating. "
+      "A block that moves on steadily is taken away earlier. 0: no block is "
+      "taken away.",
       not_negative);
   }
 

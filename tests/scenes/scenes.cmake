@@ -148,6 +148,24 @@ keyblock_scene(verification/incline_3d REFERENCES incline_3d_refined
   SET "Mesh/Refinement levels=(0.389948096*x + 0.713134173*y - 0.582563416*z < 0.125)")
 keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
   SET "Safety factor/Removal slip=0.05")
+# of two blocks that slide past each other the one that moves is taken away
+foreach(friction 10 20 25)
+  keyblock_scene(verification/passing_slab REFERENCES passing_slab_${friction}
+    RANKS 1 2 SET "Joints/top/Friction angle=${friction}")
+endforeach()
+# blocks that hang on bolts; with plates weaker than their weight, without bolts,
+# and where the upper one is dug from between: none is left to fall for ever, and
+# the ramp after it has a length
+keyblock_scene(verification/hanging_blocks RANKS 1 2)
+keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_weak
+  RANKS 1 SET "Bolts/b/Plate strength=19e3")
+keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_bare
+  RANKS 1 SET "Bolts/Names=")
+keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_dug
+  RANKS 1 2 SET "Bolts/Names=" "Excavations/Names=left, right, below, gap"
+  "Excavations/gap/Shape=box" "Excavations/gap/Corner=-1, -1"
+  "Excavations/gap/Size=2, 1" "Excavations/gap/Stage=later"
+  "Stages/Names=rest, later" "Stages/later/Kind=quasi-static")
 # safety factors of blocks on inclines: friction angle, dip
 # the toe of a block has its joint's friction, where the joint ends there
 keyblock_scene(verification/crack_water REFERENCES crack_water_rim RANKS 1 2

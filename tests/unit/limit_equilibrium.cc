@@ -311,6 +311,31 @@ BOOST_AUTO_TEST_CASE(blocks_in_the_plane)
   const auto fall = solve_limit_equilibrium<2>({left_roof, right_roof}, weight);
   BOOST_TEST((fall.mode == Mode2::falling));
   BOOST_TEST(fall.factor == 0.);
+  // the same scene, turned: the weight tells down
+  for (const double angle : {90., 137., 180.})
+    {
+      const double s = std::sin(angle * radian), c = std::cos(angle * radian);
+      const auto turned = [s, c](const Tensor<1, 2> &v) {
+        return Tensor<1, 2>({c * v[0] - s * v[1], s * v[0] + c * v[1]});
+      };
+      BlockFace<2> first = left_roof, second = right_roof;
+      first.inward  = turned(left_roof.inward);
+      second.inward = turned(right_roof.inward);
+      for (const bool is_pushed : {false, true})
+        {
+          // or thrown up by more than its weight
+          const Tensor<1, 2> load = turned(is_pushed ? -2. * weight : weight);
+          if (is_pushed)
+            {
+              first.inward *= -1.;
+              second.inward *= -1.;
+            }
+          auto motion = solve_limit_equilibrium<2>({first, second}, load);
+          motion.orient(turned(weight));
+          BOOST_TEST(
+            (motion.mode == (is_pushed ? Mode2::lifting : Mode2::falling)));
+        }
+    }
   const auto slide = solve_limit_equilibrium<2>({right_roof, left}, weight);
   BOOST_TEST((slide.mode == Mode2::one_plane));
   BOOST_TEST(slide.faces[0] == 1);

@@ -2,6 +2,7 @@
 #ifndef keyblock_contact_contact_h
 #define keyblock_contact_contact_h
 
+#include <keyblock/contact/block_motion.h>
 #include <keyblock/contact/contact_detection.h>
 #include <keyblock/contact/pair_contact.h>
 #include <keyblock/contact/pair_exchange.h>
@@ -111,6 +112,13 @@ namespace Keyblock
       return sums;
     }
 
+    /** How far blocks have gone, each by itself. */
+    const BlockMotions<dim> &
+    motions() const
+    {
+      return block_motions;
+    }
+
     /** Pair states of all ranks, by index of the pair (collective). */
     std::vector<PairState<dim>>
     gather_pairs() const
@@ -159,6 +167,7 @@ namespace Keyblock
     ContactDetection<dim> detection;
     SurfaceContacts<dim> surfaces;
     ContactReport<dim> sums;
+    BlockMotions<dim> block_motions;
   };
 } // namespace Keyblock
 

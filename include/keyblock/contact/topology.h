@@ -47,6 +47,14 @@ namespace Keyblock
     std::vector<unsigned int> group_of_pair;
     std::vector<unsigned int> group_of_node; ///< by surface node, or `none`
   };
+
+  /** Local nodes of each of @p n_blocks blocks, in order, of those that this
+   * rank owns. */
+  template <int dim>
+  std::vector<std::vector<unsigned int>>
+  owned_nodes_of_blocks(const SplitMesh<dim> &split,
+                        const Numbering<dim> &numbering,
+                        const unsigned int n_blocks);
 } // namespace Keyblock
 
 #endif

@@ -25,6 +25,10 @@ namespace Keyblock
      * the same afterwards. */
     void find_remaining_factors(const RankGroups &groups);
 
+    /** Record a factor and share its group, and print what is new of both.
+     * @param is_printed whether the factor's own line has been printed */
+    void record_factor(const SafetyFactor &factor, const bool is_printed);
+
     /** Find the factor of the block with this id after the present stage,
      * whatever the scene asks for. The state is the same afterwards; nothing
      * is recorded. Throws InputError if the block can have none. */
@@ -64,6 +68,12 @@ namespace Keyblock
     Checkpointing<dim> &checkpointing;
     RunRecord<dim> &record;
   };
+
+  /** The line about a block whose group's factor was found after its own. */
+  template <int dim>
+  void print_group(std::ostream &out,
+                   const SafetyFactor &factor,
+                   const Blocks<dim> &blocks);
 
   /** The line about a factor on the screen. */
   template <int dim>

@@ -33,7 +33,7 @@ namespace Keyblock
     /** Whether any was there to be removed. */
     bool remove_failed_blocks(const Stage &stage, StageProgress<dim> &progress);
 
-    /** Blocks that have slipped too far, or at a steady speed. */
+    /** Blocks that have gone too far, or at a steady speed. */
     std::vector<unsigned int> list_failed_blocks(StageProgress<dim> &progress);
     void pace_ramp(const Stage &stage);
     double ramp_duration_of(const Stage &stage) const;

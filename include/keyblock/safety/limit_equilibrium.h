@@ -39,8 +39,8 @@ namespace Keyblock
     enum class Mode
     {
       stable,  ///< no direction in which it is driven is free
-      falling, ///< leaves all faces, downwards
-      lifting, ///< leaves all faces, upwards
+      falling, ///< leaves all faces, with the weight
+      lifting, ///< leaves all faces, against it
       one_plane,
       two_planes,
       rotating ///< turns about an edge of the one plane it is pressed on
@@ -64,6 +64,10 @@ namespace Keyblock
     /** Stable because support bears all that drives the block. */
     bool is_borne = false;
 
+    /** Tell falling from lifting by the block's @p weight [N], which need not
+     * be along an axis; nothing changes if there is none. */
+    void orient(const dealii::Tensor<1, dim> &weight);
+
     /** The mode in words: falling, sliding on J1, sliding on J1/J2. */
     std::string describe(const std::vector<BlockFace<dim>> &all) const;
 
@@ -80,7 +84,8 @@ namespace Keyblock
    * Shi 1985). Faces with one normal, as the pieces of a stepped base, share
    * the normal force by their areas. Faces that it moves along without pressing
    * on them resist by their cohesion, faces that open by nothing. Moments are
-   * ignored; see judge_rotation().
+   * ignored; see judge_rotation(). The last axis is up, but for
+   * LimitEquilibrium::orient().
    */
   template <int dim>
   LimitEquilibrium<dim>

@@ -36,9 +36,10 @@ namespace Keyblock
      * or both, and so on. */
     std::string held_by;
 
-    /** Ids of the blocks that move together when this one fails, ascending;
-     * empty: it moves alone. With the strength of all their joints divided by
-     * the same number, it holds at group_lower and fails at group_upper. */
+    /** Ids of the blocks that move together when this one fails, or another of
+     * them, ascending; empty: it moves alone. With the strength of all their
+     * joints divided by the same number, they hold at group_lower and fail at
+     * group_upper. */
     std::vector<unsigned int> group;
     double group_lower = 0., group_upper = 0.;
 
@@ -63,11 +64,26 @@ namespace Keyblock
     {
       return 0.5 * (group_lower + group_upper);
     }
+
+    /** Whether the group is that of this block's failure, not of another's. */
+    bool has_own_group() const;
   };
 
   /** The outcome in words; a value, falls freely, immovable, above 100, held by
    * clamping (or what else), undecided, or above 1.5, as wanted. */
   std::string describe_outcome(const SafetyFactor &factor);
+
+  /**
+   * Blocks of a group have its factor even if it was found for another one: by
+   * themselves they may not move at all. Gives the group of the last of
+   * @p factors to those before it, and theirs to it, where they are of the same
+   * stage; of several it is the weakest.
+   * @return indices of those before it that got it
+   */
+  template <int dim>
+  std::vector<unsigned int>
+  share_last_group(const Blocks<dim> &blocks,
+                   std::vector<SafetyFactor> &factors);
 
   /**
    * Looks for the factor between holding and failing of one block by trials:

@@ -8,7 +8,7 @@
 namespace Keyblock
 {
   /**
-   * How far blocks had slipped after n, n/2 and n/4 steps, n being a power of
+   * How far blocks had gone after n, n/2 and n/4 steps, n being a power of
    * two times a first number: tells blocks that slide
    * steadily, under whatever damping, from such as come to rest.
    */
@@ -19,7 +19,7 @@ namespace Keyblock
      * going on. */
     void restart(const std::uint64_t n_steps);
 
-    /** Offer the slip [m] of all blocks after @p n_steps; whether it is taken.
+    /** Offer the way [m] of all blocks after @p n_steps; whether it is taken.
      */
     bool offer(const std::uint64_t n_steps, const std::vector<double> &slip);
 

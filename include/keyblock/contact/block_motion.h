@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_contact_block_motion_h
+#define keyblock_contact_block_motion_h
+
+#include <keyblock/blocks/blocks.h>
+#include <keyblock/contact/state.h>
+#include <keyblock/contact/topology.h>
+#include <keyblock/rock/fields.h>
+
+namespace Keyblock
+{
+  /** How far a block has gone by itself. */
+  template <int dim>
+  struct BlockMotion
+  {
+    Vector<dim> shift{}; ///< mean, against the rock around [m]
+    double spread = 0.;  ///< root mean square about the mean: rotation [m]
+
+    /** Root mean square of both [m]. */
+    double
+    way() const
+    {
+      return std::hypot(norm<dim>(shift), spread);
+    }
+  };
+
+
+
+  /**
+   * Motions of blocks, each its own: of two that slide past each other the one
+   * that moved.
+   *
+   * The mean displacements across faces between blocks are differences of the
+   * blocks' shifts, of which infinite blocks have none. With rotations they do
+   * not fit exactly: shifts are those that fit best, by least squares with the
+   * faces' areas. A block whose faces are all on infinite ones has the mean
+   * over these. One that touches no rock any more, with all it touches, has its
+   * displacement against the mean of the rock's walls.
+   */
+  template <int dim>
+  class BlockMotions
+  {
+  public:
+    BlockMotions(const PairTopology<dim> &topology,
+                 const Blocks<dim> &blocks,
+                 const Fields<dim> &fields,
+                 const ContactMemory<dim> &memory);
+
+    /** By index of the block, since the start; null for infinite blocks
+     * (collective). */
+    std::vector<BlockMotion<dim>> measure() const;
+
+  private:
+    /** Blocks (indices) on either side of faces; `none` for infinite ones and
+     * for rock that is to be dug. */
+    using Link = std::array<unsigned int, 2>;
+
+    /** Area [m^(dim-1)] and, times that, u(plus) - u(minus), link by link, over
+     * all ranks; last the same of u of the rock's walls. */
+    std::vector<double> sum_over_faces() const;
+
+    /** Mass [kg], mass times u and mass times its square, block by block, over
+     * all ranks. */
+    std::vector<double> sum_over_masses() const;
+
+    const PairTopology<dim> &topology;
+    const Blocks<dim> &blocks;
+    const Fields<dim> &fields;
+    const ContactMemory<dim> &memory;
+    std::vector<Link> links;
+    std::vector<unsigned int> link_of_pair; ///< `none` within rock or a block
+    std::vector<std::vector<unsigned int>> nodes_of_block;
+  };
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The factor of a group is that of each of its blocks.
+#include <keyblock/safety/safety_factor.h>
+
+#include <algorithm>
+
+namespace Keyblock
+{
+  bool
+  SafetyFactor::has_own_group() const
+  {
+    return !group.empty() &&
+           std::any_of(trials.begin(), trials.end(), [](const Trial &trial) {
+             return trial.is_of_group;
+           });
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  share_last_group(const Blocks<dim> &blocks,
+                   std::vector<SafetyFactor> &factors)
+  {
+    // whether `member` takes over the group that was found for `finder`
+    const auto shares = [&](const SafetyFactor &finder, SafetyFactor &member) {
+      if (!finder.has_own_group() || member.has_own_group() ||
+          finder.stage != member.stage ||
+          std::count(finder.group.begin(),
+                     finder.group.end(),
+                     blocks.blocks[member.block].id) == 0 ||
+          (!member.group.empty() &&
+           member.value_of_group() <= finder.value_of_group()))
+        return false;
+      member.group       = finder.group;
+      member.group_lower = finder.group_lower;
+      member.group_upper = finder.group_upper;
+      return true;
+    };
+    std::vector<unsigned int> told;
+    SafetyFactor &last = factors.back();
+    for (unsigned int i = 0; i + 1 < factors.size(); ++i)
+      {
+        shares(factors[i], last);
+        if (shares(last, factors[i]))
+          told.push_back(i);
+      }
+    return told;
+  }
+
+  template std::vector<unsigned int>
+  share_last_group(const Blocks<2> &, std::vector<SafetyFactor> &);
+  template std::vector<unsigned int>
+  share_last_group(const Blocks<3> &, std::vector<SafetyFactor> &);
+} // namespace Keyblock

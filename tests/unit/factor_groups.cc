@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Factors of groups, which all blocks of the group have.
+#include <boost/test/unit_test.hpp>
+
+#include <keyblock/safety/safety_factor.h>
+
+using namespace Keyblock;
+
+namespace
+{
+  /** Factor of a block (index) that moves with a group, or of one alone. */
+  SafetyFactor
+  factor_of(const unsigned int block,
+            const std::vector<unsigned int> &group = {},
+            const double value                     = 0.)
+  {
+    SafetyFactor factor;
+    factor.block       = block;
+    factor.stage       = "rest";
+    factor.group       = group;
+    factor.group_lower = factor.group_upper = value;
+    factor.trials.resize(1);
+    factor.trials[0].is_of_group = !group.empty();
+    return factor;
+  }
+} // namespace
+
+
+
+BOOST_AUTO_TEST_CASE(blocks_have_the_factor_of_their_group)
+{
+  Blocks<2> blocks;
+  blocks.blocks.resize(4);
+  for (unsigned int b = 0; b < 4; ++b)
+    blocks.blocks[b].id = b + 1;
+  std::vector<SafetyFactor> factors = {factor_of(0, {1, 2}, 1.9)};
+  BOOST_TEST(share_last_group(blocks, factors).empty());
+  // found before its own
+  factors.push_back(factor_of(1));
+  BOOST_TEST(share_last_group(blocks, factors).empty());
+  BOOST_TEST((factors[1].group == std::vector<unsigned int>{1, 2}));
+  BOOST_TEST(factors[1].value_of_group() == 1.9);
+  BOOST_TEST(!factors[1].has_own_group());
+  // not a member; then found after its own, weaker, and not of this stage
+  factors.push_back(factor_of(2));
+  share_last_group(blocks, factors);
+  BOOST_TEST(factors[2].group.empty());
+  factors.push_back(factor_of(3, {2, 3, 4}, 1.5));
+  const std::vector<unsigned int> told = share_last_group(blocks, factors);
+  BOOST_TEST((told == std::vector<unsigned int>{1, 2}));
+  BOOST_TEST(factors[0].value_of_group() == 1.9);
+  BOOST_TEST(factors[1].value_of_group() == 1.5);
+  factors.push_back(factor_of(0, {1, 3}, 1.2));
+  factors.back().stage = "later";
+  BOOST_TEST(share_last_group(blocks, factors).empty());
+  BOOST_TEST(factors[2].value_of_group() == 1.5);
+}
