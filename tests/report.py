@@ -7,6 +7,7 @@ usage: report.py KEYBLOCK REPORT PRM FOLDER CASE
 plane, wedge, bolts: the tables carry the numbers of summary.json, those that the run
 wrote are copied as they are, the page has all its parts, loads nothing from elsewhere and is of a sensible size; a Chromium, if
 there is one, opens it without an error on the console and shows the view.
+study: the page of a study has its probabilities, figures, variables and settings.
 poor: without VTU files, used.prm or joints.csv there is a report with a sentence
 that says what is missing; of a folder without a run there is none, and what was
 there stays.
@@ -252,9 +253,51 @@ def check_poor():
     assert path.read_bytes() == before
 
 
+def check_study():
+    """The page of a study, and of one in which no block can move."""
+    folder, path = FOLDER / "output", FOLDER / "report.html"
+    scene = PRM / "verification" / "study_incline.prm"
+    subprocess.run([KEYBLOCK, scene, "--study", "--output", folder, "--set",
+                    "Study/Samples=200"], check=True,
+                   stdout=subprocess.DEVNULL)
+    text, page = make_report(folder, path)
+    print(text.strip())
+    results = json.loads((folder / "study.json").read_text())
+    for pattern in OUTSIDE:
+        assert not re.search(pattern, page), pattern
+    assert "<h1>Probability that a block slides</h1>" in page
+    p = results["probability"]
+    band = "</td><td class=n>".join((f"{p['value']:.4g}", "{:.4g} – {:.4g}"
+                                     .format(p["lower"], p["upper"])))
+    # some block, block 1, and the last point of the convergence
+    assert page.count(f"<td class=n>{band}</td>") == 3, band
+    assert page.count("<svg") == 4
+    for name in ("probability", "factors", "convergence", "variables",
+                 "settings"):
+        assert f"<h2 id={name}>" in page and f'href="#{name}"' in page
+    variable, = results["variables"]
+    assert f"<code>{variable['entry']}</code>" in page
+    assert f"<td class=n>{variable['rank_correlation']:.3g}</td>" in page
+    assert "<code>Study/Samples</code></td><td>200</td><td>1000" in page
+    assert "This report has no" not in page
+    # nothing can slide where cohesion is large enough
+    for key in ("least_factor", "failed_volume"):
+        results.pop(key, None)
+    results["immovable_share"] = 1.
+    (folder / "study.json").write_text(json.dumps(results))
+    _, page = make_report(folder, path)
+    assert "In no sample a block can move." in page and "has no" not in page
+    (folder / "study.json").write_text("{")
+    done = subprocess.run([REPORT, folder, "-o", path], capture_output=True,
+                          text=True)
+    assert done.returncode == 1 and "study.json' is damaged" in done.stderr
+
+
 shutil.rmtree(FOLDER, ignore_errors=True)
 FOLDER.mkdir(parents=True)
 if CASE == "poor":
     check_poor()
+elif CASE == "study":
+    check_study()
 else:
     check({"plane": 3, "wedge": 2, "bolts": 2}[CASE])

@@ -150,6 +150,18 @@ def check_lost():
     assert "<h2 id=blocks>" in page and "<h2 id=bolts>" not in page
 
 
+def check_unjudged():
+    """Factors that were asked for, but of no block."""
+    def leave_infinite(summary, _):
+        summary["blocks"] = [b for b in summary["blocks"]
+                             if {"infinite", "rigid"} & set(b["class"])]
+
+    _, page = altered(leave_infinite)
+    assert "they were asked for (Safety factor/Blocks = " in page
+    assert "but there is no finite block." in page
+    assert "No safety factors were looked for" not in page
+
+
 def check_pipe():
     """A reader that has gone away is no error."""
     done = subprocess.run(
@@ -167,7 +179,7 @@ def main():
                     "Output/Write VTU=true"],
                    check=True, stdout=subprocess.DEVNULL)
     for case in (check_open, check_support, check_moving, check_held,
-                 check_demand, check_lost, check_pipe):
+                 check_demand, check_lost, check_unjudged, check_pipe):
         case()
         print(f"{case.__name__}: as it should be")
 

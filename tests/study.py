@@ -81,6 +81,55 @@ def faults_of_groups(keyblock, scene, folder):
     return faults
 
 
+def faults_of_going_on(keyblock, scene, folder):
+    """What is wrong where there are more or fewer samples, another threshold,
+    or other settings."""
+    faults, there, counts = [], 0, {}
+    for samples in (30, 50, 20, 60):
+        table, results = study(keyblock, scene, folder / "more",
+                               "Study/Sampling=random",
+                               f"Study/Samples={samples}")
+        if results["resumed_samples"] != min(there, samples) or (
+                results["samples"] != samples):
+            faults.append(f"{results['resumed_samples']} of {there} samples "
+                          f"taken over for {samples}")
+        there = max(there, samples)
+        counts[samples] = results["probability"]["value"]
+        if len(table.splitlines()) != 2 + there:
+            faults.append(f"{len(table.splitlines()) - 2} rows of {there}")
+    fresh, results = study(keyblock, scene, folder / "fresh",
+                           "Study/Sampling=random", "Study/Samples=60")
+    if fresh != table or counts[60] != results["probability"]["value"]:
+        faults.append("samples in pieces are others than those in one go")
+    # the strengths of the scene, not those of a sample
+    used = (folder / "fresh" / "used.prm").read_text(encoding="utf-8")
+    if used != (folder / "more" / "used.prm").read_text(encoding="utf-8"):
+        faults.append("used.prm depends on the samples that were there")
+    # rows have the failures of the threshold that counts now
+    higher = ["Study/Sampling=random", "Study/Samples=60",
+              "Study/Threshold=1.1"]
+    table, results = study(keyblock, scene, folder / "more", *higher)
+    other, expected = study(keyblock, scene, folder / "higher", *higher)
+    if results["resumed_samples"] != 60 or table != other or (
+            results["probability"] != expected["probability"]):
+        faults.append("another threshold has taken no or wrong samples over")
+    # samples of other settings are not lost
+    done = subprocess.run(
+        [keyblock, scene, "--study", "--output", str(folder / "more"), "--set",
+         "Study/Sampling=random", "--set", "Study/Samples=20", "--set",
+         "Study/Seed=2"], check=True, capture_output=True, text=True)
+    kept = folder / "more" / "earlier_1"
+    if (kept / "samples.csv").read_text(encoding="utf-8") != table or (
+            schema.read(kept / "study.json") != results):
+        faults.append("results of other settings are lost")
+    if "earlier_1" not in done.stdout or "'Study/Seed = 2'" not in done.stdout:
+        faults.append(f"not said that results are moved: {done.stdout}")
+    again, results = study(keyblock, scene, kept, *higher)
+    if again != table or results["resumed_samples"] != 60:
+        faults.append("results that were moved do not go on")
+    return faults
+
+
 def main():
     """Exit with 1 and a sentence for what is wrong."""
     keyblock, scene, folder = sys.argv[1:]
@@ -151,6 +200,7 @@ def main():
     factor = math.tan(math.radians(30)) / math.tan(math.radians(28))
     if "factor_1" in drawn[1] or abs(float(drawn[2].split(",")[2]) / factor - 1) > 1e-6:
         faults.append(f"a dip that varies has '{drawn[1]}' and '{drawn[2]}'")
+    faults += faults_of_going_on(keyblock, scene, folder)
     faults += faults_of_runs(keyblock, scene, folder)
     faults += faults_of_groups(keyblock, scene, folder)
     if faults:

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Makes the report of a run: reads first, writes last.
+"""Makes the report of a run or a study: reads first, writes last.
 
 A part that fails is left out, and the report says so: the rest is still worth
 reading."""
 import warnings
 
-from . import page, pictures, plots, style, tables, view
+from . import page, page_study, pictures, plots, style, tables, view
 from .geometry import Geometry
 from .reading import ReportError, Run
+from .study import Study, is_study
 
 
 class Attempts:
@@ -65,8 +66,36 @@ def make_parts(run, geometry, rows, why, attempt):
     return parts
 
 
+def write_files(files):
+    """Write texts by path; lines that say so."""
+    lines = []
+    for file, content in files.items():
+        try:
+            file.write_bytes(content.encode("utf-8"))
+        except OSError as error:
+            raise ReportError(f"'{file}' cannot be written: "
+                              f"{error.strerror}.") from None
+        lines.append(f"{file}  {file.stat().st_size / 1000:.0f} kB")
+    return lines
+
+
 def report(folder, path):
     """Write the report of a folder; lines that say what was written."""
+    if is_study(folder):
+        return report_of_study(folder, path)
+    return report_of_run(folder, path)
+
+
+def report_of_study(folder, path):
+    """Write the page of a study."""
+    study, attempt = Study(folder), Attempts()
+    text = page_study.write_page(study, attempt)
+    lines = [] if style.pyplot else [style.WHY_NOT]
+    return lines + write_files({path: text}) + attempt.lost
+
+
+def report_of_run(folder, path):
+    """Write the page of a run, and tables beside it."""
     run, attempt = Run(folder), Attempts()
     geometry, why = attempt("pictures", (None, ""), read_geometry, run)
     rows = attempt("blocks", [], tables.block_rows, run, geometry)
@@ -82,11 +111,4 @@ def report(folder, path):
     lines = [parts["why"]] if parts["why"] else []
     files = {path: text, **{path.parent / name: table
                             for name, table in csvs.items()}}
-    for file, content in files.items():
-        try:
-            file.write_bytes(content.encode("utf-8"))
-        except OSError as error:
-            raise ReportError(f"'{file}' cannot be written: "
-                              f"{error.strerror}.") from None
-        lines.append(f"{file}  {file.stat().st_size / 1000:.0f} kB")
-    return lines + attempt.lost
+    return lines + write_files(files) + attempt.lost

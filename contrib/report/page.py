@@ -4,7 +4,7 @@ import pathlib
 import time
 
 from .html import download, escape, facts, seconds, source
-from .page_blocks import blocks_section, factors_section
+from .page_blocks import blocks_section, factors_section, why_no_factors
 from .page_stages import energy_section, joints_section, stages_section
 from .page_support import bolts_section, shotcrete_section
 from .page_view import view_section
@@ -57,7 +57,7 @@ def head(run, rows):
     elif any(row["factor"] for row in rows):
         verdict += "None has failed or has a factor below 1."
     elif rows:
-        verdict += "No safety factors were looked for."
+        verdict += why_no_factors(run, rows)
     verdict += further_verdict(rows)
     versions = f"keyblock {program.get('version', '')}".strip()
     if program.get("commit"):
@@ -148,6 +148,19 @@ def settings_section(run):
     return "\n".join(text)
 
 
+def assemble(title, top, sections):
+    """The page of its top, links, and sections: key, name and text of each."""
+    links = "".join(f'<a href="#{key}">{name}</a>' for key, name, text in
+                    sections if text)
+    body = "\n".join([*top, f"<nav>{links}</nav>",
+                      *(text for *_, text in sections if text)])
+    page = source("page.html")
+    for name, text in (("title", escape(title)),
+                       ("style", source("page.css")), ("body", body)):
+        page = page.replace(f"@{name}@", text, 1)
+    return page
+
+
 def write_page(run, rows, parts, csvs, attempt):
     """The whole page as text; sections that fail are left out."""
     links = {name: download(name, text) for name, text in csvs.items()}
@@ -169,15 +182,6 @@ def write_page(run, rows, parts, csvs, attempt):
             for key, name, make, *arguments in sections]
     top = attempt("head", f"<h1>{escape(title_of(run))}</h1>", head, run, rows)
     warned = attempt("list of warnings", [], warnings_of, run)
-    links = "".join(f'<a href="#{key}">{name}</a>' for key, name, text in
-                    made if text)
-    body = "\n".join([top, warnings_box("What this report lacks",
-                                        attempt.lost),
-                      warnings_box("What the run warns of", warned),
-                      f"<nav>{links}</nav>",
-                      *(text for *_, text in made if text)])
-    page = source("page.html")
-    for name, text in (("title", escape(title_of(run))),
-                       ("style", source("page.css")), ("body", body)):
-        page = page.replace(f"@{name}@", text, 1)
-    return page
+    return assemble(title_of(run), [
+        top, warnings_box("What this report lacks", attempt.lost),
+        warnings_box("What the run warns of", warned)], made)

@@ -154,11 +154,30 @@ def blocks_section(run, rows, has_view, files):
     return "\n".join(text)
 
 
+def why_no_factors(run, rows):
+    """A sentence on why there are no factors by strength reduction."""
+    if not run.entries:
+        return "There are no safety factors."
+    asked = run.entries.get("Safety factor/Blocks", "none")
+    if asked == "none":
+        return "No safety factors were looked for (Safety factor/Blocks)."
+    if not rows:
+        why = "there is no finite block"
+    elif not any(row["exposed"] for row in rows):
+        why = "no block was exposed"
+    elif asked == "critical":
+        why = "no block was critical"
+    else:
+        why = "none of these blocks was judged"
+    return ("There are no safety factors: they were asked for (Safety "
+            f"factor/Blocks = {asked}), but {why}.")
+
+
 def factors_section(run, rows, figure, sentence):
     """Curves of factors by stage, and all of them as a table."""
     if not any(row["factor"] for row in rows):
-        return ("<h2 id=factors>Factors by stage</h2><p>No safety factors were "
-                "looked for (Safety factor/Blocks).</p>")
+        return ("<h2 id=factors>Factors by stage</h2><p>"
+                f"{escape(why_no_factors(run, rows))}</p>")
     text = ["<h2 id=factors>Factors by stage</h2>"]
     if figure:
         text.append(f"<figure>{figure}</figure>")

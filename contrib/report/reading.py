@@ -23,13 +23,14 @@ def read_summary(folder):
     path = folder / "summary.json"
     if not folder.is_dir():
         raise ReportError(f"There is no folder '{folder}'; name the output "
-                          "folder of a run.")
+                          "folder of a run or a study.")
     try:
         with open(path, encoding="utf-8") as file:
             summary = json.load(file)
     except OSError as error:
         raise ReportError(f"'{path}' cannot be read ({error.strerror}); name "
-                          "the output folder of a run that has ended."
+                          "the output folder of a run or a study that has "
+                          "ended."
                           ) from None
     except ValueError as error:
         raise ReportError(f"'{path}' is damaged ({error}); run the scene "

@@ -7,6 +7,7 @@
 #include <keyblock/scene/check_parts.h>
 #include <keyblock/scene/entries.h>
 #include <keyblock/scene/solid.h>
+#include <keyblock/scene/study_entries.h>
 #include <keyblock/scene/text.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -52,6 +53,7 @@ namespace Keyblock
          : "output-" + std::filesystem::path(scene_file).stem().string()) +
       "/";
     draw();
+    check_study_values(scene, values);
     find_joints();
   }
 
@@ -85,6 +87,8 @@ namespace Keyblock
     // all of them, or nothing is gained
     if (joints.size() < scene.study_variables.size())
       joints.clear();
+    for (const Joint<dim> *joint : joints)
+      strengths.push_back(*joint);
   }
 
 
@@ -106,6 +110,16 @@ namespace Keyblock
       }
     for (const Joint<dim> *joint : joints)
       check_joint(*joint);
+  }
+
+
+
+  template <int dim>
+  void
+  ProbabilityStudy<dim>::reset_strengths() const
+  {
+    for (unsigned int j = 0; j < joints.size(); ++j)
+      static_cast<JointStrength &>(*joints[j]) = strengths[j];
   }
 
 
@@ -151,21 +165,10 @@ namespace Keyblock
       if (i % communicator.size() == communicator.rank())
         try
           {
-            const SampleResult r = judge_named(i, true);
-            double *const row    = &figures[std::size_t(n) * (i - begin)];
-            const std::array<double, n_sample_figures> head = {
-              {r.factor,
-               double(r.block),
-               double(r.stage),
-               double(r.n_exposed),
-               double(r.n_failed),
-               r.failed_volume,
-               r.rigid_factor,
-               double(r.is_coarse)}};
-            std::copy(head.begin(), head.end(), row);
-            std::copy(r.factors.begin(),
-                      r.factors.end(),
-                      row + n_sample_figures);
+            const std::vector<double> row = figures_of(judge_named(i, true));
+            std::copy(row.begin(),
+                      row.end(),
+                      &figures[std::size_t(n) * (i - begin)]);
           }
         catch (const InputError &error)
           {
@@ -180,19 +183,7 @@ namespace Keyblock
     AssertThrow(message.empty(), InputError(message));
     communicator.sum_lists(figures);
     for (unsigned int i = begin; i < end; ++i)
-      {
-        const double *const row = &figures[std::size_t(n) * (i - begin)];
-        results.push_back(
-          {row[0],
-           static_cast<unsigned int>(row[1]),
-           static_cast<unsigned int>(row[2]),
-           static_cast<unsigned int>(row[3]),
-           static_cast<unsigned int>(row[4]),
-           row[5],
-           row[6],
-           row[7] > 0.,
-           std::vector<double>(row + n_sample_figures, row + n)});
-      }
+      results.push_back(result_of(&figures[std::size_t(n) * (i - begin)], n));
   }
 
 
@@ -236,6 +227,8 @@ namespace Keyblock
     // what no sample can be made of is said before anything is written
     if (results.empty())
       judge_named(0, false);
+    reset_strengths();
+    n_resumed = results.size();
     communicator.on_root([&]() {
       std::error_code error;
       std::filesystem::create_directories(folder, error);
@@ -243,14 +236,9 @@ namespace Keyblock
                   InputError("The output folder '" + folder +
                              "' cannot be made; check its path and "
                              "permissions."));
+      begin_table();
       scene.write_used(folder + "used.prm");
     });
-    n_resumed = results.size();
-    if (communicator.is_root() && n_resumed > 0)
-      std::cout << "Study   goes on after " << n_resumed << " samples"
-                << std::endl;
-    // what cannot be used of the file is written anew
-    write_samples(0);
     const unsigned int per_rank = scene.study.level == StudyLevel::full
                                     ? runs_per_batch
                                     : samples_per_batch;

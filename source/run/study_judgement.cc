@@ -135,15 +135,8 @@ namespace Keyblock
         result.stage  = found.stage[least()];
       }
     for (unsigned int b = 0; b < all.size(); ++b)
-      {
-        result.n_exposed += found.is_exposed[b];
-        if (found.factor[b] < scene.study.threshold)
-          {
-            ++result.n_failed;
-            result.failed_volume +=
-              all[b].exact.is_known ? all[b].exact.volume : all[b].volume;
-          }
-      }
+      result.n_exposed += found.is_exposed[b];
+    count_failed(g.blocks, found.factor, scene.study.threshold, result);
     result.factors = found.factor;
     if (!geometry)
       result.factors.clear();

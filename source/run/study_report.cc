@@ -68,6 +68,60 @@ namespace Keyblock
 
 
 
+  std::vector<double>
+  figures_of(const SampleResult &r)
+  {
+    std::vector<double> figures = {r.factor,
+                                   double(r.block),
+                                   double(r.stage),
+                                   double(r.n_exposed),
+                                   double(r.n_failed),
+                                   r.failed_volume,
+                                   r.rigid_factor,
+                                   double(r.is_coarse)};
+    figures.insert(figures.end(), r.factors.begin(), r.factors.end());
+    return figures;
+  }
+
+
+
+  SampleResult
+  result_of(const double *figures, const unsigned int n)
+  {
+    return {figures[0],
+            static_cast<unsigned int>(figures[1]),
+            static_cast<unsigned int>(figures[2]),
+            static_cast<unsigned int>(figures[3]),
+            static_cast<unsigned int>(figures[4]),
+            figures[5],
+            figures[6],
+            figures[7] > 0.,
+            std::vector<double>(figures + n_sample_figures, figures + n)};
+  }
+
+
+
+  template <int dim>
+  void
+  count_failed(const Blocks<dim> &blocks,
+               const std::vector<double> &factors,
+               const double threshold,
+               SampleResult &result)
+  {
+    result.n_failed      = 0;
+    result.failed_volume = 0.;
+    for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+      if (factors[b] < threshold)
+        {
+          const auto &block = blocks.blocks[b];
+          ++result.n_failed;
+          result.failed_volume +=
+            block.exact.is_known ? block.exact.volume : block.volume;
+        }
+  }
+
+
+
   template <int dim>
   StudyReport<dim>::StudyReport(const Scene<dim> &scene,
                                 const Blocks<dim> *blocks,
@@ -314,6 +368,14 @@ namespace Keyblock
     return static_cast<bool>(out.flush());
   }
 
+  template void count_failed(const Blocks<2> &,
+                             const std::vector<double> &,
+                             const double,
+                             SampleResult &);
+  template void count_failed(const Blocks<3> &,
+                             const std::vector<double> &,
+                             const double,
+                             SampleResult &);
   template class StudyReport<2>;
   template class StudyReport<3>;
 } // namespace Keyblock

@@ -161,8 +161,6 @@ namespace Keyblock
     check_initial_state(*this);
     check_expressions(*this);
     check_supports(*this);
-    for (const auto &variable : study_variables)
-      check_study_variable(*variable);
     check_monitors(*this);
     check_closed_form(*this);
     for (const auto &joint : joints)

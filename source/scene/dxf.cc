@@ -64,10 +64,17 @@ namespace Keyblock
         return number;
       }
 
+      /** Whether one of the bits @p mask of the flags is set. */
+      bool
+      has_flag(const unsigned int mask) const
+      {
+        return (static_cast<unsigned int>(number(70, 0.)) & mask) != 0;
+      }
+
       bool
       is_closed() const
       {
-        return static_cast<int>(number(70, 0.)) % 2 == 1;
+        return has_flag(1);
       }
     };
 
@@ -179,6 +186,35 @@ namespace Keyblock
       return path_of(corners, entity.is_closed(), n_chords);
     }
 
+    /** A polyline whose corners are the entities after it; @p e becomes the
+     * number of the last one. Corners of the frame of a spline lie beside the
+     * curve. */
+    Path
+    path_of_polyline(const std::vector<Entity> &entities,
+                     const unsigned int n_chords,
+                     unsigned int &e)
+    {
+      const Entity &polyline   = entities[e];
+      const bool is_fitted     = polyline.has_flag(4);
+      constexpr unsigned frame = 16, mesh = 16 | 64;
+      if (polyline.has_flag(mesh))
+        throw std::runtime_error("it has a POLYLINE that is a mesh, not a "
+                                 "line; draw the outline as a polyline");
+      std::vector<Corner> corners;
+      while (e + 1 < entities.size() && entities[e + 1].type == "VERTEX")
+        {
+          const Entity &vertex = entities[++e];
+          if (!vertex.has_flag(frame))
+            corners.push_back(
+              {Point<2>(vertex.required(10), vertex.required(20)),
+               vertex.number(42, 0.)});
+        }
+      if (is_fitted && corners.size() < 2)
+        throw std::runtime_error("it has the frame of a spline as POLYLINE, "
+                                 "but no points of its curve; draw them");
+      return path_of(corners, polyline.is_closed(), n_chords);
+    }
+
     Path
     path_of_arc(const Entity &entity, const unsigned int n_chords)
     {
@@ -216,18 +252,7 @@ namespace Keyblock
           else if (entity.type == "ARC" || entity.type == "CIRCLE")
             path = path_of_arc(entity, n_chords);
           else if (entity.type == "POLYLINE")
-            {
-              std::vector<Corner> corners;
-              while (e + 1 < entities.size() &&
-                     entities[e + 1].type == "VERTEX")
-                {
-                  const Entity &vertex = entities[++e];
-                  corners.push_back(
-                    {Point<2>(vertex.required(10), vertex.required(20)),
-                     vertex.number(42, 0.)});
-                }
-              path = path_of(corners, entity.is_closed(), n_chords);
-            }
+            path = path_of_polyline(entities, n_chords, e);
           else if (other_curves.count(entity.type) > 0)
             throw std::runtime_error("it has a " + entity.type +
                                      ", which is not read; draw the outline "

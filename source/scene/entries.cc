@@ -4,6 +4,9 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/law/joint_strength.h>
+#include <keyblock/scene/old_names.h>
+
+#include <boost/algorithm/string.hpp>
 
 #include <set>
 #include <sstream>
@@ -24,7 +27,7 @@ namespace Keyblock
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
       {
-        line             = trimmed(line);
+        line             = trimmed(line.substr(0, line.find('#')));
         const auto equal = line.find('=');
         if (line.compare(0, 11, "subsection ") == 0)
           sections.push_back(line.substr(11) + '/');
@@ -53,6 +56,27 @@ namespace Keyblock
     for (const auto &[entry, value] : entries)
       prm.set(entry, value);
     prm.leave_subsection();
+  }
+
+
+
+  std::string
+  lines_setting(const std::string &entry,
+                const std::string &value,
+                std::vector<std::string> *warnings)
+  {
+    std::vector<std::string> parts;
+    boost::split(parts, entry, boost::is_any_of("/"));
+    std::string text;
+    for (unsigned int i = 0; i + 1 < parts.size(); ++i)
+      text += "subsection " + parts[i] + "\n";
+    text += "set " + parts.back() + " = " + value + "\n";
+    for (unsigned int i = 0; i + 1 < parts.size(); ++i)
+      text += "end\n";
+    const std::vector<std::string> sentences = replace_old_names(text);
+    if (warnings)
+      warnings->insert(warnings->end(), sentences.begin(), sentences.end());
+    return text;
   }
 
 

@@ -80,7 +80,15 @@ namespace Keyblock
         for (const std::string &rival : rivals)
           if (has(rival))
             latest = std::max(latest, order_of_entry.at(rival));
-        require(entry->second < latest,
+        if (entry->second >= latest)
+          refuse(name, why);
+      }
+
+      /** Throw InputError for an entry that has no effect. */
+      void
+      refuse(const std::string &name, const std::string &why) const
+      {
+        require(false,
                 (joint.origin.empty() ? "The" : joint.origin + ": the") +
                   std::string(" entry 'Joints/") + joint.name + "/" + name +
                   "' is given, but it has no effect, since " + why);
@@ -122,11 +130,10 @@ namespace Keyblock
                                      why + "set 'Extent' to disc, or leave the "
                                            "radius out.");
       if (joint.extent != JointShape::polygon && !joint.vertices.empty())
-        given.require_idle_not_given("Vertices",
-                                     {"Extent", "Radius"},
-                                     why +
-                                       "set 'Extent' to polygon, or leave the "
-                                       "vertices out.");
+        // whichever is given later: nothing else says where the joint is
+        given.refuse("Vertices",
+                     why + "set 'Extent' to polygon, or leave the vertices "
+                           "out and say where the joint is.");
     }
 
     /** Places and directions where others say how the joint lies. */

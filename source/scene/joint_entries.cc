@@ -176,8 +176,11 @@ namespace Keyblock
       dim == 2 ? "P21" : "P32",
       intensity,
       "Mean area of joints per volume, P32 [m2/m3], in 2D length per area, P21 "
-      "[m/m2]; it may stand instead of Spacing.",
+      "[m/m2], which may be called P32 there, too; it may stand instead of "
+      "Spacing.",
       not_negative);
+    if (dim == 2)
+      prm.declare_alias("P21", "P32");
     prm.add_parameter("P10",
                       frequency,
                       "Mean number of joints per length along the mean normal "

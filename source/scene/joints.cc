@@ -18,6 +18,14 @@
 
 namespace Keyblock
 {
+  bool
+  matches_name(const std::string &pattern, const std::string &name)
+  {
+    return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  }
+
+
+
   namespace
   {
     template <int dim>
@@ -61,13 +69,6 @@ namespace Keyblock
       Joint<dim> present;
       ParameterHandler prm;
     };
-
-    /** Whether an override's pattern means a name: as it is, or by * and ?. */
-    bool
-    matches(const std::string &pattern, const std::string &name)
-    {
-      return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-    }
 
     /** A list of at most five names, for messages. */
     std::string
@@ -204,9 +205,9 @@ namespace Keyblock
         {
           bool is_used = false;
           for (unsigned int j = 0; j < joints.size(); ++j)
-            if (matches(passage.joint, joints[j]->name) ||
+            if (matches_name(passage.joint, joints[j]->name) ||
                 (!joints[j]->set.empty() &&
-                 matches(passage.joint, joints[j]->set)))
+                 matches_name(passage.joint, joints[j]->set)))
               {
                 passages[j].push_back(&passage);
                 is_used = true;

@@ -7,11 +7,12 @@
 #include <keyblock/base/digest.h>
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
-#include <keyblock/scene/check.h>
+#include <keyblock/scene/check_parts.h>
 #include <keyblock/scene/idle_entries.h>
 #include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/joints.h>
 #include <keyblock/scene/shape_files.h>
+#include <keyblock/scene/study_entries.h>
 #include <keyblock/scene/text.h>
 
 #include <algorithm>
@@ -261,6 +262,10 @@ namespace Keyblock
     read_shape_files(communicator, *this);
     joints = make_joints(*this, read_names(names, "Joints"), text);
     make_facets(communicator, *this);
+    for (const auto &variable : study_variables)
+      check_study_variable(*variable);
+    // before joints count as all written out
+    check_study_entries(*this);
     note_joints(*prm, joints);
     for (const auto &stage : stages)
       stage->complete();

@@ -164,7 +164,8 @@ namespace Keyblock
     prm.add_parameter("Entry",
                       entry,
                       "Entry that takes the values, `Section/Entry` as for "
-                      "--set, with its unit.");
+                      "--set, with its unit. No two variables may set the "
+                      "same one, be it by a pattern or a set of joints.");
     prm.add_parameter(
       "Distribution",
       distribution,
@@ -193,7 +194,9 @@ namespace Keyblock
     prm.add_parameter("Samples",
                       samples,
                       "Number of samples that `keyblock SCENE.prm --study` "
-                      "judges.",
+                      "judges. Those of Sampling random go on from the samples "
+                      "that are in the output folder, whatever their number; a "
+                      "Latin hypercube of another number is another one.",
                       Integer(1, 100000000));
     prm.add_parameter("Seed",
                       seed,

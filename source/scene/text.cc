@@ -4,6 +4,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/scene/decimal_commas.h>
 #include <keyblock/scene/dropped_names.h>
+#include <keyblock/scene/entries.h>
 #include <keyblock/scene/old_names.h>
 #include <keyblock/scene/text.h>
 
@@ -307,23 +308,19 @@ namespace Keyblock
       std::vector<std::string> parts;
       const std::string path = assignment.substr(0, equal);
       boost::split(parts, path, boost::is_any_of("/"));
-      const std::string set =
-        "set " + parts.back() + " = " + assignment.substr(equal + 1) + "\n";
       if (parts.size() == 3 && parts[0] == "Joints")
         {
-          scene.joint_overrides.push_back(
-            {parts[1], set, "--set \"" + assignment + "\"", 0});
+          scene.joint_overrides.push_back({parts[1],
+                                           "set " + parts.back() + " = " +
+                                             assignment.substr(equal + 1) +
+                                             "\n",
+                                           "--set \"" + assignment + "\"",
+                                           0});
           return;
         }
-      std::string text;
-      for (unsigned int i = 0; i + 1 < parts.size(); ++i)
-        text += "subsection " + parts[i] + "\n";
-      text += set;
-      for (unsigned int i = 0; i + 1 < parts.size(); ++i)
-        text += "end\n";
-      for (const std::string &warning : replace_old_names(text))
-        scene.warnings.push_back(warning);
-      scene.overrides.push_back({assignment, text});
+      scene.overrides.push_back(
+        {assignment,
+         lines_setting(path, assignment.substr(equal + 1), &scene.warnings)});
     }
   } // namespace
 

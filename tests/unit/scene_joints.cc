@@ -317,7 +317,12 @@ BOOST_AUTO_TEST_CASE(extents_that_follow)
   BOOST_TEST((extent() == JointShape::polygon));
   BOOST_TEST((extent({"Joints/J/Normal=-1, -2, 5"}) == JointShape::polygon));
   BOOST_TEST((extent({"Joints/J/Point=5, 5, 3"}) == JointShape::polygon));
-  BOOST_TEST((extent({"Joints/J/Extent=infinite"}) == JointShape::infinite));
+  // without the corners nothing says where the joint is
+  for (const char *shape : {"infinite", "disc"})
+    check_refused({std::string("Joints/J/Extent=") + shape},
+                  "entry 'Joints/J/Vertices' is given");
+  BOOST_TEST((extent({"Joints/J/Vertices=", "Joints/J/Extent=infinite"}) ==
+              JointShape::infinite));
   BOOST_TEST(
     (extent({"Joints/J/Vertices=", "Joints/J/Dip=5"}) == JointShape::infinite));
   check_refused({"Joints/J/Radius=2"}, "both 'Vertices' and 'Radius'");

@@ -240,6 +240,21 @@ BOOST_AUTO_TEST_CASE(outlines_of_drawings)
   const auto mirrored = read_dxf_outline(
     drawing("0 LWPOLYLINE 70 1 230 -1 10 1 20 0 10 2 20 0 10 1 20 1"), n);
   BOOST_TEST(mirrored[1][0] == -2.);
+
+  // the frame of a spline is not drawn
+  const std::string fitted =
+    "0 POLYLINE 66 1 70 4 0 VERTEX 10 3 20 1 70 8 0 VERTEX 10 6 20 3 70 8 0 "
+    "VERTEX 10 9 20 5 70 8 0 VERTEX 10 9 20 5 70 16 0 VERTEX 10 6 20 9 70 16 0 "
+    "VERTEX 10 3 20 1 70 16 0 SEQEND";
+  const auto curve = read_dxf_paths(drawing(fitted), n);
+  BOOST_TEST(curve.size() == 1u);
+  BOOST_TEST(curve[0].size() == 3u);
+  BOOST_TEST(curve[0][2][1] == 5.);
+  const auto closed = read_dxf_outline(
+    drawing("0 POLYLINE 66 1 70 5 0 VERTEX 10 0 20 0 70 8 0 VERTEX 10 4 20 0 "
+            "70 8 0 VERTEX 10 0 20 3 70 8 0 VERTEX 10 9 20 9 70 16 0 SEQEND"),
+    n);
+  BOOST_TEST(area_of(closed) == 6.);
 }
 
 
@@ -255,6 +270,14 @@ BOOST_AUTO_TEST_CASE(bad_drawings)
   check(drawing("0 CIRCLE 10 5 20 6 40 2 0 CIRCLE 10 5 20 6 40 1"),
         "more than one outline");
   check(drawing("0 SPLINE 70 11"), "has a SPLINE");
+  for (const char *flags : {"16", "64"})
+    check(drawing(std::string("0 POLYLINE 66 1 70 ") + flags +
+                  " 0 VERTEX 10 0 20 0 0 VERTEX 10 4 20 0 0 VERTEX 10 0 20 3 0 "
+                  "SEQEND"),
+          "a POLYLINE that is a mesh");
+  check(drawing("0 POLYLINE 66 1 70 4 0 VERTEX 10 0 20 0 70 16 0 VERTEX 10 4 "
+                "20 0 70 16 0 SEQEND"),
+        "but no points of its curve");
   check(drawing("0 LINE 10 0 20 zero 11 4 21 0"), "'zero'");
   check(drawing("0 LINE 10 0 20 0 11 4"), "no value of code 21");
   check(drawing("0 POINT 10 0 20 0"), "no polyline");

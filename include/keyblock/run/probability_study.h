@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Keyblock
@@ -19,7 +20,8 @@ namespace Keyblock
    * Ranks share the samples. Meshes are made anew only where a
    * variable changes more than strengths and loads. samples.csv grows as the
    * study goes, and a study of the same scene in the same folder goes on from
-   * there; study.json has the results.
+   * there, also with more or fewer random samples; results of another one are
+   * moved into a folder of their own. study.json has the results.
    */
   template <int dim>
   class ProbabilityStudy
@@ -51,6 +53,9 @@ namespace Keyblock
      * Throws InputError. */
     void set_strengths(const unsigned int index) const;
 
+    /** Put those of the scene back, which used.prm has to have. */
+    void reset_strengths() const;
+
     BlockGeometry<dim> make_geometry(const Scene<dim> &sample) const;
 
     /** Overrides that make a sample of the scene. */
@@ -81,8 +86,30 @@ namespace Keyblock
     /** Judge samples [begin, end) on all ranks (collective). */
     void judge_batch(const unsigned int begin, const unsigned int end);
 
+    /** Entries that samples depend on, a line each: where they are drawn each
+     * by itself not their number, and where the factors of all blocks are known
+     * not the threshold. */
+    std::string entries_of_samples(
+      const std::vector<std::pair<std::string, std::string>> &entries) const;
+
     /** Rows of samples.csv that are there already, of this very study. */
     void read_samples();
+
+    /** The rows of @p text that can be used, with the failures of the present
+     * threshold; their numbers are appended to @p figures. */
+    std::string take_rows(const std::string &text,
+                          std::vector<double> &figures) const;
+
+    /** Numbers of a row of samples.csv, but for its drawn values. */
+    std::vector<double>
+    figures_of_row(const std::vector<std::string> &fields) const;
+
+    /** Let samples.csv have the rows that can be used, and no others; results
+     * of another study are moved away first (on one rank). */
+    void begin_table() const;
+    void move_other_study_away() const;
+
+    /** Append the samples from @p begin on. */
     void write_samples(const unsigned int begin) const;
 
     /** What samples.csv begins with: a digest of the scene, and names. */
@@ -101,11 +128,21 @@ namespace Keyblock
     /** Of the scene, by variable, where all variables are strengths of joints;
      * else empty. */
     std::vector<Joint<dim> *> joints;
+    std::vector<JointStrength> strengths; ///< those of the scene, of `joints`
     std::string header;
     std::unique_ptr<BlockGeometry<dim>> geometry; ///< null: one for each sample
     std::vector<std::vector<double>> values;
     std::vector<SampleResult> results;
     unsigned int n_resumed = 0; ///< samples that were there
+
+    /** What read_samples() has found; on the first rank alone. */
+    struct
+    {
+      std::string rows;            ///< that can be used
+      unsigned int n_rows     = 0; ///< may be more than are asked for
+      bool is_of_other_study  = false;
+      bool is_as_it_should_be = false; ///< nothing has to be written anew
+    } table;
   };
 } // namespace Keyblock
 

@@ -30,6 +30,20 @@ namespace Keyblock
   /** Numbers of a sample that do not belong to single blocks. */
   constexpr unsigned int n_sample_figures = 8;
 
+  /** A result as numbers, n_sample_figures and one for each block. */
+  std::vector<double> figures_of(const SampleResult &result);
+
+  /** The result that @p n numbers from @p figures on are. */
+  SampleResult result_of(const double *figures, const unsigned int n);
+
+  /** Note how many blocks are below the threshold, and their volume.
+   * @param factors by block */
+  template <int dim>
+  void count_failed(const Blocks<dim> &blocks,
+                    const std::vector<double> &factors,
+                    const double threshold,
+                    SampleResult &result);
+
   /** The results of a study, for people and as JSON. */
   template <int dim>
   class StudyReport

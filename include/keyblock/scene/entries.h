@@ -11,8 +11,8 @@
 // Entries of a scene by their names, as `Joints/base/Dip`.
 namespace Keyblock
 {
-  /** Entries and their values in the lines of a parameter file, in their order.
-   * The lines are as a ParameterHandler writes them. */
+  /** Entries and their values in the lines of a parameter file, in their order,
+   * without comments. The lines are as a ParameterHandler writes them. */
   std::vector<std::pair<std::string, std::string>>
   list_entries(const std::string &text);
 
@@ -22,6 +22,13 @@ namespace Keyblock
   set_entries(dealii::ParameterHandler &prm,
               const std::string &section,
               const std::vector<std::pair<std::string, std::string>> &entries);
+
+  /** Lines of a parameter file that set the entry `Section/Sub/Entry`, by its
+   * present name.
+   * @param warnings takes a sentence for each name that has changed */
+  std::string lines_setting(const std::string &entry,
+                            const std::string &value,
+                            std::vector<std::string> *warnings = nullptr);
 
   /** What follows the last slash of an entry. */
   std::string last_of(const std::string &entry);

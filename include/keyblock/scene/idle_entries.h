@@ -11,7 +11,8 @@ namespace Keyblock
    * Take the extent of a joint whose entries do not give it from its Vertices
    * or Radius, as that of a row of a table. Throws InputError for an entry that
    * another one leaves without effect, as a dip besides a normal vector; a
-   * later override may replace what the file or an earlier one gives.
+   * later override may replace what the file or an earlier one gives, but not
+   * corners by an extent: nothing else says where such a joint is.
    *
    * @param passages  what the scene says of the joint, the file first
    * @param is_resolved  whether the file has all entries of the joint, as

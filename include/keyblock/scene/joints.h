@@ -20,6 +20,10 @@ namespace Keyblock
               const std::vector<std::string> &names,
               const SceneText &text);
 
+  /** Whether the pattern of an override means a joint or a set of this name: as
+   * it is, or by * and ?. */
+  bool matches_name(const std::string &pattern, const std::string &name);
+
   /** Let the entry `Joints/Names` name all joints. */
   template <int dim>
   void note_joints(ParameterHandler &prm,
