@@ -214,9 +214,13 @@ namespace Keyblock
     /** Set forces to those at the present displacement. */
     void respond(const double *rock);
 
-    /** Displacements of the nodes in equilibrium. @p jack: pulls the head in
-     * place of the plate, unless it is negative [N] */
+    /** Displacements of the nodes in equilibrium, and what slips, yields and
+     * breaks on the way there. @p jack: pulls the head in place of the plate,
+     * unless it is negative [N] */
     void solve(const double *rock, const double jack);
+
+    /** The same with the segments that there are: Newton's method. */
+    void find_equilibrium(const double *rock, const double jack);
 
     /** Residual that counts as none [N]. */
     double negligible_residual(const double *rock, const double jack) const;
@@ -234,6 +238,10 @@ namespace Keyblock
 
     /** Slip and yield for good. */
     void commit(const double *rock);
+
+    /** Segments that are longer than they can bear are no more. Returns whether
+     * there are any. */
+    bool break_segments();
 
     /** Grout of node @p i between two distances from the head [m]. */
     double grouted_length(const unsigned int i,
