@@ -63,8 +63,10 @@ namespace Keyblock
       "Spacing",
       spacing,
       "Distances of the bolts: along the section of the excavation, and along "
-      "its axis [m]. In 2D the second one is out of the plane: it divides all "
-      "forces, of single bolts, too.");
+      "its axis [m]. Around the whole section bolts are equally far from each "
+      "other, no more than this, from the crown on. In 2D the second one is "
+      "out "
+      "of the plane: it divides all forces, of single bolts, too.");
     prm.add_parameter("Inclination",
                       inclination,
                       "Angle of a pattern's bolts with the normal of the face, "
