@@ -215,6 +215,13 @@ namespace Keyblock
                 text_of(set.pretension) +
                 " N, more than the bar bears ('Yield force' is " +
                 text_of(set.yield_force) + " N); lower it.");
+      const double rupture_force =
+        set.young_modulus * set.area * set.rupture_strain;
+      require(set.rupture_strain == 0. || set.pretension <= rupture_force,
+              "The entry '" + section + "/Pretension' is " +
+                text_of(set.pretension) +
+                " N, at which the bar breaks ('Rupture strain' is reached at " +
+                text_of(rupture_force) + " N); lower it.");
       require(set.dowel_strength == 0. || set.dowel_stiffness > 0.,
               "The entry '" + section +
                 "/Dowel stiffness' is 0, but there is a dowel strength; give "
