@@ -232,12 +232,10 @@ BOOST_AUTO_TEST_CASE(bolt_rupture_dissipates_all_that_it_lets_go)
       BOOST_TEST(chain.is_broken());
       const double lost =
         work - chain.stored_energy() - chain.dissipated_energy();
-      BOOST_TEST_MESSAGE("broken after " << k << " steps at " << largest
-                                         << " N: stored " << stored
-                                         << " J before, "
-                                         << chain.stored_energy()
-                                         << " J behind, of " << work
-                                         << " J are lost " << lost);
+      BOOST_TEST_MESSAGE("broken after "
+                         << k << " steps at " << largest << " N: stored "
+                         << stored << " J before, " << chain.stored_energy()
+                         << " J behind, of " << work << " J are lost " << lost);
       // the force falls somewhere in a step
       BOOST_TEST(std::abs(lost) < largest * step);
       BOOST_TEST(chain.stored_energy() < 1e-9 * stored);
