@@ -242,6 +242,51 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** Throw InputError if the grout that holds a bolt against its plate bears
+     * less than its pretension. */
+    template <int dim>
+    void
+    check_pretension(const Bolt<dim> &bolt,
+                     const BoltSet<dim> &set,
+                     const Ground<dim> &ground)
+    {
+      if (set.pretension == 0.)
+        return;
+      const BoltRemains remains = find_remains(bolt, ground);
+      AssertThrow(remains.is_held[0],
+                  InputError(words_of(bolt, set) +
+                             " has no rock at its head, against which its "
+                             "plate could bear the 'Pretension'; move its "
+                             "head."));
+      const double length = remains.grouted_length(set.free_length),
+                   most   = set.bond_strength * length;
+      AssertThrow(set.pretension <= (1. + 1e-9) * most,
+                  InputError(
+                    words_of(bolt, set) + " has a 'Pretension' of " +
+                    text_of(set.pretension) + " N, more than its grout of " +
+                    text_of(length, 4) + " m in the rock bears (" +
+                    text_of(most) +
+                    " N); lower it, or raise 'Bond strength' or the length "
+                    "that is grouted."));
+    }
+  } // namespace
+
+
+
+  double
+  BoltRemains::grouted_length(const double free_length) const
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < grout.size(); ++i)
+      if (is_held[i])
+        sum += std::max(0., grout[i][1] - std::max(grout[i][0], free_length));
+    return sum;
+  }
+
+
+
   template <int dim>
   std::vector<Bolt<dim>>
   lay_out_bolts(const Scene<dim> &scene, const SplitMesh<dim> &split)
@@ -267,6 +312,7 @@ namespace Keyblock
             bolt.passed    = list_passed(bolt, rock);
             bolt.crossings = list_crossings(bolt, rock, split);
             add_nodes_between_joints(rock, bolt);
+            check_pretension(bolt, set, ground);
             bolts.push_back(bolt);
           }
       }

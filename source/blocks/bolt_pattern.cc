@@ -7,12 +7,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace Keyblock
 {
   namespace
   {
+    /** Distances around a closed row are larger than the spacing by no more
+     * than this, so that chords of a circle count as the circle [-]. */
+    constexpr double spacing_tolerance = 1e-3;
+
     /** A straight piece of the outline of an excavation's section, and the
      * normal there, into the rock. */
     template <int dim>
@@ -99,7 +104,7 @@ namespace Keyblock
               return;
           }
       };
-      // open rows from their ends, then closed ones from anywhere
+      // open rows from their ends, then closed ones
       for (unsigned int i = 0; i < pieces.size(); ++i)
         for (const Point<dim> &p : {pieces[i].begin, pieces[i].end})
           if (!is_used[i] && at[key(p)].size() == 1)
@@ -110,7 +115,105 @@ namespace Keyblock
       return rows;
     }
 
-    /** Bolts along a row, the first and the last as far from its ends. */
+    /** Across the outline and up in its plane, that of @p axis: unit vectors.
+     * Around a shaft the direction of y is up. */
+    template <int dim>
+    std::array<Tensor<1, dim>, 2>
+    across_and_up(const Tensor<1, dim> &axis)
+    {
+      Tensor<1, dim> across, up;
+      up[dim - 1] = 1.;
+      across[0]   = 1.;
+      if constexpr (dim == 3)
+        {
+          up -= (up * axis) * axis;
+          if (up.norm() < 0.1)
+            {
+              up    = Tensor<1, dim>();
+              up[1] = 1.;
+              up -= (up * axis) * axis;
+            }
+          up /= up.norm();
+          across = cross_product_3d(axis, up);
+        }
+      return {{across, up}};
+    }
+
+    /** Where the top of a closed row is, that above the middle between its
+     * sides: distance along it [m]. */
+    template <int dim>
+    double
+    place_of_crown(const Outline<dim> &row, const Tensor<1, dim> &axis)
+    {
+      const auto [across, up] = across_and_up<dim>(axis);
+      double left             = std::numeric_limits<double>::max(),
+             right            = std::numeric_limits<double>::lowest();
+      for (const Piece<dim> &piece : row)
+        {
+          left  = std::min(left, piece.begin * across);
+          right = std::max(right, piece.begin * across);
+        }
+      const double middle = 0.5 * (left + right);
+      double place = 0., passed = 0.,
+             highest = std::numeric_limits<double>::lowest();
+      for (const Piece<dim> &piece : row)
+        {
+          const double here = piece.begin.distance(piece.end),
+                       a    = piece.begin * across - middle,
+                       b    = piece.end * across - middle;
+          if ((a > 0.) != (b > 0.))
+            {
+              const double share = a / (a - b);
+              const double height =
+                (piece.begin + share * (piece.end - piece.begin)) * up;
+              if (height > highest)
+                {
+                  highest = height;
+                  place   = passed + share * here;
+                }
+            }
+          passed += here;
+        }
+      return place;
+    }
+
+    /**
+     * Where the bolts of a row are: distances along it, ascending [m]. In a
+     * closed one they are equally far from each other, no more than the
+     * @p spacing, from the crown on; in an open one at the spacing, the first
+     * and the last as far from its ends.
+     */
+    template <int dim>
+    std::vector<double>
+    places_along(const Outline<dim> &row,
+                 const double spacing,
+                 const Tensor<1, dim> &axis)
+    {
+      double length = 0.;
+      for (const Piece<dim> &piece : row)
+        length += piece.begin.distance(piece.end);
+      const bool is_closed =
+        row.front().begin.distance(row.back().end) < 1e-6 * length;
+      std::vector<double> places(
+        std::max(1.,
+                 is_closed
+                   ? std::ceil((1. - spacing_tolerance) * length / spacing)
+                   : std::floor(length / spacing + 1e-9)));
+      const unsigned int n  = places.size();
+      const double distance = is_closed ? length / n : spacing,
+                   first    = is_closed ? place_of_crown<dim>(row, axis)
+                                        : 0.5 * (length - (n - 1) * spacing);
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          places[k] = first + k * distance;
+          if (is_closed && places[k] >= length)
+            places[k] -= length;
+        }
+      std::sort(places.begin(), places.end());
+      return places;
+    }
+
+    /** Bolts along a row. */
     template <int dim>
     void
     add_along(const Outline<dim> &row,
@@ -119,22 +222,20 @@ namespace Keyblock
               const Tensor<1, dim> &axis,
               std::vector<Bolt<dim>> &bolts)
     {
-      double length = 0.;
-      for (const Piece<dim> &piece : row)
-        length += piece.begin.distance(piece.end);
-      const unsigned int n =
-        std::max(1., std::floor(length / set.spacing[0] + 1e-9));
-      double next    = 0.5 * (length - (n - 1) * set.spacing[0]);
-      double passed  = 0.;
-      unsigned int k = 0;
+      const std::vector<double> places =
+        places_along<dim>(row, set.spacing[0], axis);
+      double passed = 0.;
+      auto place    = places.begin();
       for (const Piece<dim> &piece : row)
         {
           const double here = piece.begin.distance(piece.end);
-          for (; k < n && next <= passed + here + 1e-9 * length;
-               next += set.spacing[0], ++k)
+          for (;
+               place != places.end() &&
+               (*place <= passed + (1. + 1e-9) * here || &piece == &row.back());
+               ++place)
             {
               const double share =
-                std::min(1., std::max(0., (next - passed) / here));
+                std::min(1., std::max(0., (*place - passed) / here));
               const Point<dim> head =
                 piece.begin + share * (piece.end - piece.begin);
               const double angle = set.inclination * dealii::numbers::PI / 180.;

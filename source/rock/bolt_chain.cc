@@ -72,8 +72,7 @@ namespace Keyblock
   BoltChain::set_segments()
   {
     for (unsigned int j = 0; j + 1 < n; ++j)
-      row(segment_stiffness)[j] =
-        is_cut[j] || row(broken)[j] != 0. ? 0. : whole_stiffness(j);
+      row(segment_stiffness)[j] = is_parted_at(j) ? 0. : whole_stiffness(j);
     is_factorised = false;
   }
 
@@ -145,14 +144,14 @@ namespace Keyblock
   BoltChain::Capacity
   BoltChain::capacity(const double s) const
   {
-    // of the piece between cuts that s is on
+    // of the piece between cuts and breaks that s is on
     const unsigned int at = segment_at(s);
-    if (is_cut[at])
+    if (is_parted_at(at))
       return {0., Capacity::Limit::yield};
     unsigned int first = at, last = at + 1;
-    while (first > 0 && !is_cut[first - 1])
+    while (first > 0 && !is_parted_at(first - 1))
       --first;
-    while (last + 1 < n && !is_cut[last])
+    while (last + 1 < n && !is_parted_at(last))
       ++last;
     double head = is_plate_held && first == 0 ? properties.plate_strength : 0.,
            anchor = 0.;

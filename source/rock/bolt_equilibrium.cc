@@ -152,7 +152,7 @@ namespace Keyblock
 
 
   void
-  BoltChain::solve(const double *rock, const double jack)
+  BoltChain::find_equilibrium(const double *rock, const double jack)
   {
     double *w = row(displacement), *c = row(change), *start = row(before);
     respond(rock);
@@ -188,7 +188,26 @@ namespace Keyblock
             slope_at(least.first > 0. ? least.first : least.second);
           }
       }
+  }
+
+
+
+  void
+  BoltChain::solve(const double *rock, const double jack)
+  {
+    find_equilibrium(rock, jack);
     commit(rock);
+    // at the same place of the rock, so that all that is let go, in the grout
+    // and in other segments, too, stays here
+    while (true)
+      {
+        const double energy = stored_energy() + dissipated;
+        if (!break_segments())
+          break;
+        find_equilibrium(rock, jack);
+        commit(rock);
+        dissipated = energy - stored_energy();
+      }
     const auto all = [&](const std::vector<char> &is_elastic) {
       return std::find(is_elastic.begin(), is_elastic.end(), false) ==
              is_elastic.end();
@@ -280,8 +299,8 @@ namespace Keyblock
   void
   BoltChain::commit(const double *rock)
   {
-    const double *w = row(displacement), *b = row(bond_force);
-    double *axial = row(axial_force);
+    const double *w = row(displacement), *b = row(bond_force),
+                 *axial = row(axial_force), *stiffness = row(segment_stiffness);
     for (unsigned int i = 0; i < n; ++i)
       if (!bond_is_elastic[i])
         {
@@ -290,22 +309,12 @@ namespace Keyblock
           row(slip)[i] = slipped;
         }
     for (unsigned int j = 0; j + 1 < n; ++j)
-      {
-        double &stiffness = row(segment_stiffness)[j];
-        if (!segment_is_elastic[j])
-          {
-            const double longer = w[j + 1] - w[j] - axial[j] / stiffness;
-            dissipated += axial[j] * (longer - row(elongation)[j]);
-            row(elongation)[j] = longer;
-          }
-        // what it had stored goes with it
-        if (properties.rupture_strain > 0. && is_over_rupture(j))
-          {
-            row(broken)[j] = 1.;
-            dissipated += 0.5 * axial[j] * axial[j] / stiffness;
-            axial[j] = stiffness = 0.;
-          }
-      }
+      if (!segment_is_elastic[j])
+        {
+          const double longer = w[j + 1] - w[j] - axial[j] / stiffness[j];
+          dissipated += axial[j] * (longer - row(elongation)[j]);
+          row(elongation)[j] = longer;
+        }
     if (is_plate_held && !is_plate_elastic && plate_on_rock > 0.)
       {
         const double shift =
@@ -313,6 +322,23 @@ namespace Keyblock
         dissipated += plate_on_rock * (shift - plate_shift);
         plate_shift = shift;
       }
+  }
+
+
+
+  bool
+  BoltChain::break_segments()
+  {
+    bool is_any = false;
+    if (properties.rupture_strain > 0.)
+      for (unsigned int j = 0; j + 1 < n; ++j)
+        if (is_over_rupture(j))
+          {
+            row(broken)[j]            = 1.;
+            row(segment_stiffness)[j] = 0.;
+            is_any                    = true;
+          }
+    return is_any;
   }
 
 

@@ -81,8 +81,9 @@ namespace Keyblock
                              record.present.number(),
                              &is_removed};
     const FreeFaces<dim> free(ground);
-    const auto judged =
-      judge_exposed_blocks(ground, free, model.blocks, model.step->time);
+    const BrokenSegments broken = model.conditions->broken_segments();
+    const auto judged           = judge_exposed_blocks(
+      ground, free, model.blocks, model.step->time, broken);
     std::vector<unsigned int> critical;
     for (const unsigned int b : blocks)
       {
@@ -93,7 +94,8 @@ namespace Keyblock
         const double factor =
           known != judged.end()
             ? known->least_factor
-            : judge_block(ground, free, model.blocks, b, model.step->time)
+            : judge_block(
+                ground, free, model.blocks, b, model.step->time, broken)
                 .limit.factor;
         if (factor < model.scene.safety.critical_factor)
           critical.push_back(b);

@@ -53,7 +53,8 @@ namespace Keyblock
   judge_exposed_blocks(const Ground<dim> &ground,
                        const FreeFaces<dim> &free,
                        const Blocks<dim> &blocks,
-                       const double time)
+                       const double time,
+                       const BrokenSegments &broken)
   {
     std::vector<JudgedBlock<dim>> judged;
     std::vector<bool> is_gone = removed_from(ground, blocks.blocks.size());
@@ -65,7 +66,7 @@ namespace Keyblock
                              BlockClass::exposed)
           {
             judged.push_back(
-              {b, judge_block(ground, free, blocks, b, time), 0.});
+              {b, judge_block(ground, free, blocks, b, time, broken), 0.});
             judged.back().least_factor = judged.back().statics.limit.factor;
           }
       }
@@ -93,7 +94,7 @@ namespace Keyblock
             if (!free_later)
               free_later = std::make_unique<FreeFaces<dim>>(later);
             const BlockStatics<dim> then =
-              judge_block(later, *free_later, blocks, one.block, time);
+              judge_block(later, *free_later, blocks, one.block, time, broken);
             if (!(then.limit.factor < (1. - least_decrease) * one.least_factor))
               continue;
             one.least_factor = then.limit.factor;
@@ -148,6 +149,60 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<Tensor<1, dim>>
+  find_ways_without_support(const Ground<dim> &ground,
+                            const FreeFaces<dim> &free,
+                            const Blocks<dim> &blocks,
+                            const std::vector<bool> &is_wanted,
+                            const double time)
+  {
+    const unsigned int n = blocks.blocks.size();
+    std::vector<Tensor<1, dim>> ways(n);
+    std::vector<unsigned int> closed_in;
+    for (unsigned int b = 0; b < n; ++b)
+      if (is_wanted[b])
+        {
+          ways[b] = way_without_support(ground, free, blocks, b, time);
+          if (ways[b].norm() == 0. &&
+              find_support_of_block(ground, b, time, {}).holds())
+            closed_in.push_back(b);
+        }
+    std::vector<bool> is_gone = removed_from(ground, n);
+    const Ground<dim> later{ground.scene,
+                            ground.split,
+                            ground.stage_number,
+                            &is_gone};
+    std::unique_ptr<FreeFaces<dim>> free_later;
+    while (!closed_in.empty())
+      {
+        const FreeFaces<dim> &free_now = free_later ? *free_later : free;
+        std::vector<unsigned int> going;
+        for (unsigned int b = 0; b < n; ++b)
+          if (const Block<dim> &block = blocks.blocks[b];
+              !block.is_infinite && !block.is_rigid && !is_gone[b] &&
+              !free_now.of_block(b).empty() &&
+              way_without_support(later, free_now, blocks, b, time).norm() > 0.)
+            going.push_back(b);
+        if (going.empty())
+          break;
+        for (const unsigned int b : going)
+          is_gone[b] = true;
+        free_later         = std::make_unique<FreeFaces<dim>>(later);
+        const auto has_way = [&](const unsigned int b) {
+          ways[b] = way_without_support(later, *free_later, blocks, b, time);
+          return ways[b].norm() > 0.;
+        };
+        closed_in.erase(std::remove_if(closed_in.begin(),
+                                       closed_in.end(),
+                                       has_way),
+                        closed_in.end());
+      }
+    return ways;
+  }
+
+
+
+  template <int dim>
   void
   for_each_changed_ground(const Scene<dim> &scene,
                           const SplitMesh<dim> &split,
@@ -171,6 +226,13 @@ namespace Keyblock
     const Ground<dim> &,                                                       \
     const FreeFaces<dim> &,                                                    \
     const Blocks<dim> &,                                                       \
+    const double,                                                              \
+    const BrokenSegments &);                                                   \
+  template std::vector<Tensor<1, dim>> find_ways_without_support(              \
+    const Ground<dim> &,                                                       \
+    const FreeFaces<dim> &,                                                    \
+    const Blocks<dim> &,                                                       \
+    const std::vector<bool> &,                                                 \
     const double);                                                             \
   template void for_each_changed_ground(const Scene<dim> &,                    \
                                         const SplitMesh<dim> &,                \

@@ -29,8 +29,8 @@ namespace Keyblock
     std::vector<PointForce<dim>> forces = around.loads.all();
     for (const auto &pull : support.pulls)
       forces.push_back({pull.place, pull.force * pull.along});
-    if (support.shotcrete_weight.norm() > 0.)
-      forces.push_back({support.shotcrete_center, support.shotcrete_weight});
+    if (support.shotcrete_load.norm() > 0.)
+      forces.push_back({support.shotcrete_center, support.shotcrete_load});
     BlockSupport<dim> all = support;
     if (pressure > 0.)
       {

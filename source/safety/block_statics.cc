@@ -67,10 +67,28 @@ namespace Keyblock
       void
       add_support()
       {
-        if (!support.is_empty())
+        if (support.shotcrete_load.norm() > 0.)
+          add() << "with " << 1e-3 * support.shotcrete_load.norm() << " kN"
+                << (dim == 2 ? "/m" : "") << " of shotcrete on it";
+        if (support.holds())
           add() << "with " << support.describe() << ", "
                 << name_of(scene.safety.bolt_convention)
                 << (limit.is_borne ? ", which bears all that drives it" : "");
+        std::vector<unsigned int> carried;
+        for (const unsigned int b : support.shared_with)
+          if (!blocks.blocks[b].is_infinite && !blocks.blocks[b].is_rigid)
+            carried.push_back(blocks.blocks[b].id);
+        if (!carried.empty())
+          {
+            add() << "its bolts also go through block";
+            for (const unsigned int id : carried)
+              last << (id == carried.front() ? " " : ", ") << id;
+            last << ", whose load on them is left out";
+          }
+        if (support.n_broken > 0)
+          add() << support.n_broken
+                << (support.n_broken == 1 ? " bolt has" : " bolts have")
+                << " broken";
         if (demand.force == 0.)
           return;
         add() << "a factor of " << demand.factor;
@@ -340,11 +358,12 @@ namespace Keyblock
               const FreeFaces<dim> &free,
               const Blocks<dim> &blocks,
               const unsigned int block,
-              const double time)
+              const double time,
+              const BrokenSegments &broken)
   {
     BlockStatics<dim> statics;
     statics.around  = look_around(ground, free, blocks.blocks[block], time);
-    statics.support = find_support_of_block(ground, block, time);
+    statics.support = find_support_of_block(ground, block, time, broken);
     const SupportedMotion<dim> motion =
       find_motion<dim>(statics.around,
                        statics.support,
@@ -384,12 +403,14 @@ namespace Keyblock
                                        const FreeFaces<2> &,
                                        const Blocks<2> &,
                                        const unsigned int,
-                                       const double);
+                                       const double,
+                                       const BrokenSegments &);
   template BlockStatics<3> judge_block(const Ground<3> &,
                                        const FreeFaces<3> &,
                                        const Blocks<3> &,
                                        const unsigned int,
-                                       const double);
+                                       const double,
+                                       const BrokenSegments &);
   template bool has_initial_stress(const Scene<2> &);
   template bool has_initial_stress(const Scene<3> &);
 } // namespace Keyblock

@@ -4,13 +4,26 @@
 #include <keyblock/base/expression.h>
 #include <keyblock/blocks/bolt_layout.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <sstream>
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** By how much a reaction is changed to see what it does, over itself,
+     * halvings by which its share is found, and changes that are none. */
+    constexpr double share_step             = 1e-4;
+    constexpr unsigned int n_share_halvings = 40;
+    constexpr double round_off              = 1e-12;
+  } // namespace
+
+
+
   template <int dim>
   Tensor<1, dim>
   BlockSupport<dim>::force() const
@@ -24,10 +37,10 @@ namespace Keyblock
 
 
   template <int dim>
-  std::vector<Tensor<1, dim>>
+  std::vector<typename BlockSupport<dim>::Force>
   BlockSupport<dim>::forces_against(const Tensor<1, dim> &direction) const
   {
-    std::vector<Tensor<1, dim>> forces;
+    std::vector<Force> forces;
     const auto against = [&](const Tensor<1, dim> &part,
                              const double strength) {
       return part.norm() > 1e-12 ? -strength / part.norm() * part
@@ -35,11 +48,11 @@ namespace Keyblock
     };
     for (const Pull &pull : pulls)
       forces.push_back(
-        pull.force * pull.along +
-        against(direction - (direction * pull.along) * pull.along,
-                pull.dowel_strength));
+        {pull.force * pull.along,
+         against(direction - (direction * pull.along) * pull.along,
+                 pull.dowel_strength)});
     for (const auto &[trace, strength] : sections)
-      forces.push_back(against(trace.in_section(direction), strength));
+      forces.push_back({{}, against(trace.in_section(direction), strength)});
     return forces;
   }
 
@@ -120,14 +133,16 @@ namespace Keyblock
                   m * Tensor<1, dim>(ground.split.mesh.vertices[part.vertex]);
               }
         }
-      if (mass == 0. || scene.initial_state.gravity.empty())
+      if (mass == 0.)
         return;
       support.shotcrete_center /= mass;
-      support.shotcrete_weight =
-        mass * Expression<dim>(scene.initial_state.gravity,
-                               dim,
-                               "Initial state/Gravity")
-                 .vector(support.shotcrete_center, time);
+      support.shotcrete_load = mass * seismic_acceleration(ground);
+      if (!scene.initial_state.gravity.empty())
+        support.shotcrete_load +=
+          mass * Expression<dim>(scene.initial_state.gravity,
+                                 dim,
+                                 "Initial state/Gravity")
+                   .vector(support.shotcrete_center, time);
     }
   } // namespace
 
@@ -137,27 +152,42 @@ namespace Keyblock
   BlockSupport<dim>
   find_support_of_block(const Ground<dim> &ground,
                         const unsigned int block,
-                        const double time)
+                        const double time,
+                        const BrokenSegments &broken)
   {
     BlockSupport<dim> result;
     add_shotcrete(ground, block, time, result);
-    for (const Bolt<dim> &bolt : ground.split.bolts)
+    for (unsigned int b = 0; b < ground.split.bolts.size(); ++b)
       {
+        const Bolt<dim> &bolt   = ground.split.bolts[b];
         const BoltSet<dim> &set = *ground.scene.bolts[bolt.set];
         if (bolt.crossings.empty() ||
             ground.scene.stage_number(set.stage) > ground.stage_number)
           continue;
-        const BoltRemains remains = find_remains(bolt, ground);
+        const BoltRemains remains   = find_remains(bolt, ground);
+        std::vector<bool> is_parted = remains.is_cut;
+        if (!broken.empty())
+          std::transform(is_parted.begin(),
+                         is_parted.end(),
+                         broken[b].begin(),
+                         is_parted.begin(),
+                         std::logical_or<>());
+        BoltChain chain(properties_of(set), bolt.places);
+        chain.set_ground(remains.is_held, is_parted, remains.grout);
         for (const BoltCrossing<dim> &crossing : bolt.crossings)
           {
             const bool is_near = crossing.block[0] == block,
                        is_far  = crossing.block[1] == block;
             if (is_near == is_far)
               continue;
-            BoltChain chain(properties_of(set), bolt.places);
-            chain.set_ground(remains.is_held, remains.is_cut, remains.grout);
-            if (chain.is_cut_at(chain.segment_at(crossing.place)))
-              continue;
+            const unsigned int segment = chain.segment_at(crossing.place);
+            if (chain.is_parted_at(segment))
+              {
+                result.n_broken += !remains.is_cut[segment];
+                continue;
+              }
+            for (const BoltCrossing<dim> &other : bolt.crossings)
+              result.shared_with.insert(other.block.begin(), other.block.end());
             const BoltChain::Capacity capacity = chain.capacity(crossing.place);
             typename BlockSupport<dim>::Pull pull;
             pull.place          = bolt.at(crossing.place);
@@ -168,6 +198,7 @@ namespace Keyblock
             result.pulls.push_back(pull);
           }
       }
+    result.shared_with.erase(block);
     return result;
   }
 
@@ -187,9 +218,9 @@ namespace Keyblock
       const Tensor<1, dim> way = unsheared.direction;
       if (way.norm() == 0.)
         return unsheared;
-      Tensor<1, dim> reaction = -support.force();
-      for (const Tensor<1, dim> &force : support.forces_against(way))
-        reaction += force;
+      Tensor<1, dim> reaction;
+      for (const auto &force : support.forces_against(way))
+        reaction += force.reaction;
       if (reaction.norm() == 0.)
         return unsheared;
       // what is sheared resists, and never by more than drives
@@ -201,6 +232,51 @@ namespace Keyblock
       return result;
     }
 
+    /**
+     * Set the @p share of a reaction's strength that is there by what
+     * @p solve gives with it: a reaction does not drive, so it grows no further
+     * than what drives gets less, or stays, with the block on its planes, and
+     * no further than it raises the factor.
+     */
+    template <int dim, typename Solve>
+    void
+    mobilize(const Solve &solve, double &share)
+    {
+      const auto with = [&](const double trial) {
+        share = trial;
+        return solve();
+      };
+      const LimitEquilibrium<dim> without = with(0.);
+      if (!std::isfinite(without.factor))
+        return;
+      // the greatest share at which something is no worse than just below,
+      // as it gets better with less to begin with or never
+      const auto greatest = [&](const double most, const auto &is_no_worse) {
+        const auto grows = [&](const double trial) {
+          return is_no_worse(with((1. - share_step) * trial), with(trial));
+        };
+        if (grows(most))
+          return most;
+        double low = 0., high = most;
+        for (unsigned int i = 0; i < n_share_halvings; ++i)
+          {
+            const double middle          = 0.5 * (low + high);
+            (grows(middle) ? low : high) = middle;
+          }
+        return low;
+      };
+      using Limit = LimitEquilibrium<dim>;
+      const double driving_least =
+        greatest(1., [&](const Limit &less, const Limit &more) {
+          return std::isfinite(more.factor) &&
+                 (more.n_pressed > 0 || without.n_pressed == 0) &&
+                 more.driving_force <= (1. + round_off) * less.driving_force;
+        });
+      share = greatest(driving_least, [](const Limit &less, const Limit &more) {
+        return more.factor >= (1. - round_off) * less.factor;
+      });
+    }
+
     template <int dim>
     LimitEquilibrium<dim>
     solve_with_passive(std::vector<BlockFace<dim>> &faces,
@@ -208,21 +284,31 @@ namespace Keyblock
                        const BlockSupport<dim> &support)
     {
       LimitEquilibrium<dim> bare = solve_with_laws<dim>(faces, load);
-      if (support.is_empty() || bare.direction.norm() == 0.)
+      if (!support.holds() || bare.direction.norm() == 0.)
         return bare;
       const Tensor<1, dim> way = bare.direction;
-      Tensor<1, dim> loading   = load;
-      double resisting         = 0.;
-      for (const Tensor<1, dim> &force : support.forces_against(way))
-        {
-          const double against = std::max(0., -(force * way));
-          loading += force + against * way;
-          resisting += against;
-        }
-      LimitEquilibrium<dim> held = solve_with_laws<dim>(faces, loading);
-      if (held.driving_force > 0. && std::isfinite(held.factor))
-        held.factor += resisting / held.driving_force;
-      return held;
+      const auto forces        = support.forces_against(way);
+      std::vector<double> shares(forces.size(), 0.);
+      const auto solve = [&]() {
+        Tensor<1, dim> loading = load;
+        double resisting       = 0.;
+        for (unsigned int i = 0; i < forces.size(); ++i)
+          {
+            const Tensor<1, dim> force =
+              forces[i].pull + shares[i] * forces[i].reaction;
+            const double against = std::max(0., -(force * way));
+            loading += force + against * way;
+            resisting += against;
+          }
+        LimitEquilibrium<dim> held = solve_with_laws<dim>(faces, loading);
+        if (held.driving_force > 0. && std::isfinite(held.factor))
+          held.factor += resisting / held.driving_force;
+        return held;
+      };
+      for (unsigned int i = 0; i < forces.size(); ++i)
+        if (forces[i].reaction.norm() > 0.)
+          mobilize<dim>(solve, shares[i]);
+      return solve();
     }
   } // namespace
 
@@ -235,7 +321,7 @@ namespace Keyblock
                      const BlockSupport<dim> &support,
                      const bool is_passive)
   {
-    const Tensor<1, dim> all_load = load + support.shotcrete_weight;
+    const Tensor<1, dim> all_load = load + support.shotcrete_load;
     return is_passive ? solve_with_passive(faces, all_load, support)
                       : solve_with_active(faces, all_load, support);
   }
@@ -256,7 +342,7 @@ namespace Keyblock
     add_shotcrete(ground, block, time, weight);
     return solve_with_laws<dim>(around.faces,
                                 around.loads.without_water() +
-                                  weight.shotcrete_weight)
+                                  weight.shotcrete_load)
       .direction;
   }
 
@@ -264,7 +350,8 @@ namespace Keyblock
   template struct BlockSupport<dim>;                                           \
   template BlockSupport<dim> find_support_of_block(const Ground<dim> &,        \
                                                    const unsigned int,         \
-                                                   const double);              \
+                                                   const double,               \
+                                                   const BrokenSegments &);    \
   template Tensor<1, dim> way_without_support(const Ground<dim> &,             \
                                               const FreeFaces<dim> &,          \
                                               const Blocks<dim> &,             \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What the search for a factor does once for a block: cheap answers, and the
 // rock that its trials need not move.
-#include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/block_cascade.h>
 #include <keyblock/safety/safety_factor.h>
 #include <keyblock/safety/stress_ratio.h>
 
@@ -55,9 +55,14 @@ namespace Keyblock
   StrengthReductionSearch<dim>::add_cheap_answers(const unsigned int block,
                                                   SafetyFactor &result) const
   {
-    const Ground<dim> ground        = run.conditions.active_cells.ground();
-    const BlockStatics<dim> statics = judge_block<dim>(
-      ground, FreeFaces<dim>(ground), blocks, block, run.step.time);
+    const Ground<dim> ground = run.conditions.active_cells.ground();
+    const BlockStatics<dim> statics =
+      judge_block<dim>(ground,
+                       FreeFaces<dim>(ground),
+                       blocks,
+                       block,
+                       run.step.time,
+                       run.conditions.broken_segments());
     result.limit_mode     = statics.mode();
     result.limit_remark   = statics.remark();
     result.limit_factor   = statics.limit.factor;
@@ -77,14 +82,15 @@ namespace Keyblock
   {
     const Ground<dim> ground = run.conditions.active_cells.ground();
     const FreeFaces<dim> free(ground);
-    std::vector<Tensor<1, dim>> ways(blocks.blocks.size());
-    for (unsigned int b = 0; b < ways.size(); ++b)
-      if (b == block ||
-          std::count(trials.companions.begin(), trials.companions.end(), b) >
-            0 ||
-          (scene.safety.reduced_joints == ReducedJoints::all &&
-           !blocks.blocks[b].is_infinite && !blocks.blocks[b].is_rigid))
-        ways[b] = way_without_support(ground, free, blocks, b, run.step.time);
+    std::vector<bool> is_wanted(blocks.blocks.size());
+    for (unsigned int b = 0; b < is_wanted.size(); ++b)
+      is_wanted[b] =
+        b == block ||
+        std::count(trials.companions.begin(), trials.companions.end(), b) > 0 ||
+        (scene.safety.reduced_joints == ReducedJoints::all &&
+         !blocks.blocks[b].is_infinite && !blocks.blocks[b].is_rigid);
+    const std::vector<Tensor<1, dim>> ways =
+      find_ways_without_support(ground, free, blocks, is_wanted, run.step.time);
     run.conditions.take_ways(ways);
     return ways[block];
   }

@@ -57,8 +57,10 @@ namespace Keyblock
       "Spacing",
       spacing,
       "Distances of the bolts: along the section of the excavation, and along "
-      "its axis [m]. In 2D the second one is out of the plane: it divides all "
-      "forces, of single bolts, too.");
+      "its axis [m]. Around the whole section bolts are equally far from each "
+      "other, no more than this, from the crown on. In 2D the second one is "
+      "out "
+      "of the plane: it divides all forces, of single bolts, too.");
     prm.add_parameter("Inclination",
                       inclination,
                       "Angle of a pattern's bolts with the normal of the face, "
@@ -207,6 +209,13 @@ namespace Keyblock
                 text_of(set.pretension) +
                 " N, more than the bar bears ('Yield force' is " +
                 text_of(set.yield_force) + " N); lower it.");
+      const double rupture_force =
+        set.young_modulus * set.area * set.rupture_strain;
+      require(set.rupture_strain == 0. || set.pretension <= rupture_force,
+              "The entry '" + section + "/Pretension' is " +
+                text_of(set.pretension) +
+                " N, at which the bar breaks ('Rupture strain' is reached at " +
+                text_of(rupture_force) + " N); lower it.");
       require(set.dowel_strength == 0. || set.dowel_stiffness > 0.,
               "The entry '" + section +
                 "/Dowel stiffness' is 0, but there is a dowel strength; give "

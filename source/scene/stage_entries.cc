@@ -135,7 +135,8 @@ namespace Keyblock
       "Seismic coefficient",
       seismic_coefficient,
       "Seismic (pseudo-static) acceleration per axis over 9.81 m/s2 from this "
-      "stage on [-]: a body force on all rock, in steps, trials and limit "
+      "stage on [-]: a body force on all rock and shotcrete, in steps, trials "
+      "and limit "
       "equilibrium, ramped as excavation is. Empty: as before; zeros end it.");
     prm.add_parameter(
       "Kind",

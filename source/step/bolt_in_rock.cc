@@ -135,10 +135,25 @@ namespace Keyblock
     for (unsigned int i = 0; i < n_nodes(); ++i)
       along[i] = share * chain.force_on_rock(i);
     for (unsigned int k = 0; k < n_jumps(); ++k)
-      if (dowels[k].is_there)
-        follow(dowels[k], vector_at<dim>(jump + dim * k));
-      else
-        dowels[k].force = Tensor<1, dim>();
+      follow_at_joint(k, vector_at<dim>(jump + dim * k));
+  }
+
+
+
+  template <int dim>
+  void
+  BoltInRock<dim>::follow_at_joint(const unsigned int k,
+                                   const Tensor<1, dim> &jump)
+  {
+    if (is_whole_at_joint(k))
+      {
+        follow(dowels[k], jump);
+        return;
+      }
+    // what breaks dissipates what it has stored, what is dug takes it along
+    if (dowels[k].is_there)
+      dowels[k].dissipated += stored_energy_of(dowels[k]);
+    dowels[k].force = Tensor<1, dim>();
   }
 
 
@@ -150,7 +165,7 @@ namespace Keyblock
   {
     for (unsigned int k = 0; k < dowels.size(); ++k)
       {
-        if (!dowels[k].is_there)
+        if (!is_whole_at_joint(k))
           continue;
         Tensor<1, dim> on_rock            = dowels[k].force;
         const BoltCrossing<dim> &crossing = bolt.crossings[k];
@@ -191,7 +206,7 @@ namespace Keyblock
     for (unsigned int i = 0; i < n_nodes(); ++i)
       along[i] *= share;
     for (unsigned int k = 0; k < n_jumps(); ++k)
-      if (dowels[k].is_there)
+      if (is_whole_at_joint(k))
         {
           Tensor<1, dim> across = vector_at<dim>(jump + dim * k);
           across -= (across * way) * way;
@@ -220,13 +235,23 @@ namespace Keyblock
 
   template <int dim>
   double
+  BoltInRock<dim>::stored_energy_of(const Dowel &dowel) const
+  {
+    return chain.material().dowel_strength > 0.
+             ? 0.5 * dowel.force.norm_square() /
+                 chain.material().dowel_stiffness
+             : 0.;
+  }
+
+
+
+  template <int dim>
+  double
   BoltInRock<dim>::stored_energy() const
   {
     double energy = chain.stored_energy();
-    if (chain.material().dowel_strength > 0.)
-      for (const Dowel &dowel : dowels)
-        energy +=
-          0.5 * dowel.force.norm_square() / chain.material().dowel_stiffness;
+    for (const Dowel &dowel : dowels)
+      energy += stored_energy_of(dowel);
     return share * energy;
   }
 
@@ -240,6 +265,18 @@ namespace Keyblock
     for (const Dowel &dowel : dowels)
       energy += dowel.dissipated;
     return share * energy;
+  }
+
+
+
+  template <int dim>
+  std::vector<bool>
+  BoltInRock<dim>::broken_segments() const
+  {
+    std::vector<bool> broken;
+    for (unsigned int j = 0; j + 1 < n_nodes(); ++j)
+      broken.push_back(chain.is_broken_at(j));
+    return broken;
   }
 
 
@@ -301,7 +338,7 @@ namespace Keyblock
     double least = std::numeric_limits<double>::max();
     for (const BoltCrossing<dim> &crossing : bolt.crossings)
       {
-        if (chain.is_cut_at(chain.segment_at(crossing.place)))
+        if (chain.is_parted_at(chain.segment_at(crossing.place)))
           continue;
         const auto capacity = chain.capacity(crossing.place);
         if (capacity.force < least)

@@ -223,6 +223,16 @@ namespace Keyblock
     return reports;
   }
 
+  template <int dim>
+  BrokenSegments
+  Bolts<dim>::broken_segments() const
+  {
+    BrokenSegments broken;
+    for (const BoltInRock<dim> &bolt : bolts)
+      broken.push_back(bolt.broken_segments());
+    return broken;
+  }
+
   template class Bolts<2>;
   template class Bolts<3>;
 } // namespace Keyblock

@@ -56,6 +56,8 @@ namespace Keyblock
       section.is_present = is_there(section.liner) &&
                            !ground.is_excavated(section.trace.cell[0]) &&
                            !ground.is_excavated(section.trace.cell[1]);
+    seismic_acceleration =
+      standard_gravity * scene.seismic_coefficient(ground.stage_number);
     std::fill(weighed_mass.begin(), weighed_mass.end(), 0.);
     std::fill(inert_mass.begin(), inert_mass.end(), 0.);
     reports.clear();
@@ -194,9 +196,9 @@ namespace Keyblock
   void
   Shotcrete<dim>::add_load(const double time, std::vector<double> &load) const
   {
-    if (!gravity)
-      return;
-    const Tensor<1, dim> g = gravity->vector(Point<dim>(), time);
+    Tensor<1, dim> g = seismic_acceleration;
+    if (gravity)
+      g += gravity->vector(Point<dim>(), time);
     for (unsigned int node = 0; node < weighed_mass.size(); ++node)
       for (unsigned int d = 0; d < dim; ++d)
         load[dim * node + d] += weighed_mass[node] * g[d];

@@ -302,6 +302,9 @@ keyblock_scene(verification/lined_roof REFERENCES lined_roof_twice RANKS 1 2
   "Shotcrete/more/Stage=again" "Shotcrete/more/Excavations=room"
   "Shotcrete/more/Thickness=0.05" "Shotcrete/more/Shear strength=0.4e6"
   "Shotcrete/more/Shear modulus=1e8" "Shotcrete/more/Density=0")
+# seismic forces act on its mass, too
+keyblock_scene(verification/lined_roof REFERENCES lined_roof_shaken RANKS 1 2
+  SET "Shotcrete/shell/Density=2400" "Stages/dig/Seismic coefficient=0, -0.5")
 keyblock_scene(verification/lined_roof_3d RANKS 1 2)
 # thrust and moment of structural liners
 # a structural liner of which the next stage takes a wall
@@ -315,6 +318,15 @@ keyblock_scene(verification/lined_tunnel RANKS 1 2)
 keyblock_scene(verification/lined_tunnel_3d RANKS 1 2)
 # a pattern of bolts in 3D that a gallery cuts, or passes above
 keyblock_scene(verification/bolted_roof_3d RANKS 1 2)
+# slabs one under the other on the same bolts
+keyblock_scene(verification/hanging_slabs RANKS 1 2)
+keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_all RANKS 1
+  SET "Safety factor/Reduced joints=all")
+# a bolt that breaks counts no more, and lets nothing go without a trace
+keyblock_scene(verification/broken_bolt RANKS 1 2)
+keyblock_scene(verification/broken_bolt REFERENCES broken_bolt_energy RANKS 1
+  SET "Stages/Names=shake" "Safety factor/Stages=shake" "Safety factor/Blocks=none"
+  "Time stepping/Safety=0.1")
 keyblock_scene(verification/bolted_roof_3d REFERENCES bolted_roof_3d_above
   RANKS 1 2 SET "Excavations/gallery/Corner=-3, -5, 7"
   "Excavations/gallery/Size=6, 10, 1" "Safety factor/Stages=gallery")

@@ -199,6 +199,51 @@ BOOST_AUTO_TEST_CASE(bolt_pretension_and_rupture)
   BOOST_TEST(std::abs(chain.plate_force()) < 1.);
 }
 
+BOOST_AUTO_TEST_CASE(bolt_rupture_dissipates_all_that_it_lets_go)
+{
+  // soft grout and the other segments store more than the one that breaks
+  for (const double yield : {1e9, 45e3})
+    {
+      BoltProperties p  = properties();
+      p.yield_force     = yield;
+      p.bond_stiffness  = 1e6;
+      p.plate_stiffness = 10. * bar;
+      p.rupture_strain  = 0.003;
+      std::vector<double> places, rock(41, 0.);
+      for (unsigned int i = 0; i <= 40; ++i)
+        places.push_back(0.1 * i);
+      BoltChain chain(p, places);
+      double work = 0., largest = 0., stored = 0.;
+      const auto force = [&]() {
+        double sum = 0.;
+        for (unsigned int i = 20; i <= 40; ++i)
+          sum -= chain.force_on_rock(i);
+        return sum;
+      };
+      const double step = 1e-6;
+      unsigned int k    = 1;
+      for (; k < 200000 && !chain.is_broken(); ++k)
+        {
+          const double before = force();
+          stored              = chain.stored_energy();
+          std::fill(rock.begin() + 20, rock.end(), k * step);
+          chain.follow(rock.data());
+          work += 0.5 * (before + force()) * step;
+          largest = std::max(largest, before);
+        }
+      BOOST_TEST(chain.is_broken());
+      const double lost =
+        work - chain.stored_energy() - chain.dissipated_energy();
+      BOOST_TEST_MESSAGE("broken after "
+                         << k << " steps at " << largest << " N: stored "
+                         << stored << " J before, " << chain.stored_energy()
+                         << " J behind, of " << work << " J are lost " << lost);
+      // the force falls somewhere in a step
+      BOOST_TEST(std::abs(lost) < largest * step);
+      BOOST_TEST(chain.stored_energy() < 1e-9 * stored);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(bolt_moves_with_its_rock)
 {
   // far, without a force beyond round-off, and without a search for it

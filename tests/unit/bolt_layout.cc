@@ -6,6 +6,7 @@
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/bolt_layout.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -119,6 +120,45 @@ BOOST_AUTO_TEST_CASE(bolt_pattern_in_the_plane)
       BOOST_TEST(bolt.crossings.empty());
     }
   BOOST_TEST(n_up == 4u);
+}
+
+// Around the whole section they are equally far from each other, no more than
+// the spacing, from the middle of the roof on.
+BOOST_AUTO_TEST_CASE(bolt_pattern_around_the_section)
+{
+  const auto places = [](const auto &bolts, const unsigned int up) {
+    // clockwise from the middle of the roof, on an outline of 14 m
+    std::vector<double> list;
+    for (const auto &bolt : bolts)
+      {
+        const double x = bolt.head[0] - 5., y = bolt.head[up] - 4.;
+        double place = x;
+        if (std::abs(y) < 1e-9)
+          place = 7. - x;
+        else if (std::abs(y - 3.) > 1e-9)
+          place = x > 0. ? 5. - y : 9. + y;
+        list.push_back(place < -1e-9 ? place + 14. : place);
+      }
+    std::sort(list.begin(), list.end());
+    return list;
+  };
+  const std::string around = "  set Excavations = cavern\n  set Length = 2\n"
+                             "  set Parts = roof, walls, floor\n";
+  for (const auto &[spacing, n] :
+       {std::make_pair("1.3", 11u), {"1.4", 10u}, {"1.3999", 10u}, {"20", 1u}})
+    {
+      const std::string entries =
+        around + "  set Spacing = " + spacing + ", 20\n";
+      const auto plane = places(bolts_of<2>(entries), 1),
+                 ring  = places(bolts_of<3>(entries), 2);
+      BOOST_REQUIRE(plane.size() == n);
+      BOOST_REQUIRE(ring.size() == n);
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          BOOST_TEST(std::abs(plane[k] - 14. * k / n) < 1e-9);
+          BOOST_TEST(std::abs(ring[k] - 14. * k / n) < 1e-9);
+        }
+    }
 }
 
 BOOST_AUTO_TEST_CASE(bolt_pattern_in_rings)

@@ -9,8 +9,8 @@ namespace Keyblock
   /**
    * All bolts of the scene, those of patterns set out on the faces that their
    * stage has laid bare, with the rock around them then. Throws InputError if a
-   * bolt does not end in the rock, or a pattern has no face. The same on every
-   * rank.
+   * bolt does not end in the rock or cannot bear its pretension there, or a
+   * pattern has no face. The same on every rank.
    */
   template <int dim>
   std::vector<Bolt<dim>> lay_out_bolts(const Scene<dim> &scene,
@@ -35,6 +35,10 @@ namespace Keyblock
      * between two blocks, to where the rock ends, else to the middle between
      * two nodes [m]. */
     std::vector<std::array<double, 2>> grout;
+
+    /** Of the whole bolt in the rock, with nothing before @p free_length [m].
+     */
+    double grouted_length(const double free_length) const;
   };
 
   /**

@@ -31,6 +31,10 @@ namespace Keyblock
    * its bolt [m]. */
   using GroutRange = std::array<double, 2>;
 
+  /** Of each bolt (SplitMesh::bolts) which of its segments have broken in a
+   * run; empty: none of any. */
+  using BrokenSegments = std::vector<std::vector<bool>>;
+
   /**
    * One bolt without mass: axial springs in a row from the head into the rock,
    * each node tied to the rock by grout, and the head by a plate that can only
@@ -100,8 +104,22 @@ namespace Keyblock
       return is_cut[j];
     }
 
-    /** Whether a segment has broken. */
+    /** Whether segment @p j has broken. */
+    bool
+    is_broken_at(const unsigned int j) const
+    {
+      return row(broken)[j] != 0.;
+    }
+
+    /** Whether any has. */
     bool is_broken() const;
+
+    /** Whether segment @p j was cut or has broken: it bears nothing. */
+    bool
+    is_parted_at(const unsigned int j) const
+    {
+      return is_cut[j] || is_broken_at(j);
+    }
 
     /** Of the plate on the rock [N]. */
     double
@@ -129,8 +147,8 @@ namespace Keyblock
     /** No more than this stiffness acts on the rock at each node [N/m]. */
     std::vector<double> stiffness_bound() const;
 
-    /** Greatest tension it can bear at the distance @p s from the head, and
-     * what limits it. */
+    /** Greatest tension it can bear at the distance @p s from the head, as
+     * far as it is in one piece, and what limits it. */
     struct Capacity
     {
       enum class Limit
@@ -214,9 +232,13 @@ namespace Keyblock
     /** Set forces to those at the present displacement. */
     void respond(const double *rock);
 
-    /** Displacements of the nodes in equilibrium. @p jack: pulls the head in
-     * place of the plate, unless it is negative [N] */
+    /** Displacements of the nodes in equilibrium, and what slips, yields and
+     * breaks on the way there. @p jack: pulls the head in place of the plate,
+     * unless it is negative [N] */
     void solve(const double *rock, const double jack);
+
+    /** The same with the segments that there are: Newton's method. */
+    void find_equilibrium(const double *rock, const double jack);
 
     /** Residual that counts as none [N]. */
     double negligible_residual(const double *rock, const double jack) const;
@@ -234,6 +256,10 @@ namespace Keyblock
 
     /** Slip and yield for good. */
     void commit(const double *rock);
+
+    /** Segments that are longer than they can bear are no more. Returns whether
+     * there are any. */
+    bool break_segments();
 
     /** Grout of node @p i between two distances from the head [m]. */
     double grouted_length(const unsigned int i,

@@ -24,10 +24,12 @@ namespace Keyblock
    * again without them, until no more fall. The remarks say what that changes.
    */
   template <int dim>
-  std::vector<JudgedBlock<dim>> judge_exposed_blocks(const Ground<dim> &ground,
-                                                     const FreeFaces<dim> &free,
-                                                     const Blocks<dim> &blocks,
-                                                     const double time);
+  std::vector<JudgedBlock<dim>>
+  judge_exposed_blocks(const Ground<dim> &ground,
+                       const FreeFaces<dim> &free,
+                       const Blocks<dim> &blocks,
+                       const double time,
+                       const BrokenSegments &broken = {});
 
   /** Add remarks to blocks that can move: which others would if it had gone, so
    * that they may lean on it. */
@@ -36,6 +38,20 @@ namespace Keyblock
                            const Blocks<dim> &blocks,
                            const double time,
                            std::vector<JudgedBlock<dim>> &judged);
+
+  /**
+   * Ways (unit vectors, by index) that the blocks which are wanted would take
+   * without support by limit equilibrium; zero: none. One with support that
+   * others close in, as what hangs below it on the same bolts does, takes the
+   * way that it has once those have gone that can move.
+   */
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  find_ways_without_support(const Ground<dim> &ground,
+                            const FreeFaces<dim> &free,
+                            const Blocks<dim> &blocks,
+                            const std::vector<bool> &is_wanted,
+                            const double time);
 
   /** Something to be done for the ground of a stage. */
   template <int dim>

@@ -41,6 +41,19 @@ namespace Keyblock
     std::vector<PointForce<dim>> all() const;
   };
 
+  /** That of limit equilibrium at the stage of @p ground [m/s2]. */
+  template <int dim>
+  Tensor<1, dim>
+  seismic_acceleration(const Ground<dim> &ground)
+  {
+    Tensor<1, dim> coefficient =
+      ground.scene.seismic_coefficient(ground.stage_number);
+    const auto &more = ground.scene.safety.seismic_coefficient;
+    for (unsigned int d = 0; d < more.size(); ++d)
+      coefficient[d] += more[d];
+    return standard_gravity * coefficient;
+  }
+
   /** Weight and seismic load of a block at @p time, at its centroid. */
   template <int dim>
   BlockLoads<dim> body_forces_on(const Ground<dim> &ground,

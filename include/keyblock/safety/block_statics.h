@@ -69,15 +69,17 @@ namespace Keyblock
    * Mode and factor of a block (by index) by limit equilibrium at @p time [s]:
    * rigid, between neighbours that stay where they are, without the in-situ
    * stress, under its weight, tractions, water and the seismic coefficient.
-   * Needs no run, only the scene and its mesh. What bears on the block and is
-   * left out is said in the remarks.
+   * Needs no run, only the scene and its mesh, and of a run what bolts have
+   * @p broken there. What bears on the block and is left out is said in the
+   * remarks.
    */
   template <int dim>
   BlockStatics<dim> judge_block(const Ground<dim> &ground,
                                 const FreeFaces<dim> &free,
                                 const Blocks<dim> &blocks,
                                 const unsigned int block,
-                                const double time);
+                                const double time,
+                                const BrokenSegments &broken = {});
 
   /** Whether the rock is under stress before anything is excavated, which limit
    * equilibrium leaves out. */

@@ -5,6 +5,8 @@
 #include <keyblock/rock/bolt_chain.h>
 #include <keyblock/safety/block_faces.h>
 
+#include <set>
+
 namespace Keyblock
 {
   /** What bolts and shotcrete can do for a block: each bolt that goes from it
@@ -23,40 +25,54 @@ namespace Keyblock
     };
     std::vector<Pull> pulls;
 
+    /** Bolts that would hold it, but have broken. */
+    unsigned int n_broken = 0;
+
+    /** Other blocks (by index) that these bolts go through. */
+    std::set<unsigned int> shared_with;
+
     double shotcrete_length   = 0.; ///< of traces under it [m]
     double shotcrete_strength = 0.; ///< of its sections along them [N]
 
     /** Sections by their normals, and the strength of each [N]. */
     std::vector<std::pair<LinerTrace<dim>, double>> sections;
 
-    Tensor<1, dim> shotcrete_weight; ///< of that on the block [N]
-    Point<dim> shotcrete_center;     ///< where that acts [m]
+    Tensor<1, dim> shotcrete_load; ///< of that on the block: weight, and
+                                   ///< seismic [N]
+    Point<dim> shotcrete_center;   ///< where that acts [m]
 
+    /** Whether there is something that holds the block. */
     bool
-    is_empty() const
+    holds() const
     {
-      return pulls.empty() && shotcrete_strength == 0. &&
-             shotcrete_weight.norm() == 0.;
+      return !pulls.empty() || shotcrete_strength > 0.;
     }
 
     /** Sum of the forces along the bolts [N]. */
     Tensor<1, dim> force() const;
 
-    /** All forces on the block as it moves along @p direction (unit vector):
-     * of each bolt, with its dowel, and of each section [N]. */
-    std::vector<Tensor<1, dim>>
-    forces_against(const Tensor<1, dim> &direction) const;
+    /** Force of one bolt or section on the block. */
+    struct Force
+    {
+      Tensor<1, dim> pull;     ///< along a bolt [N]
+      Tensor<1, dim> reaction; ///< across it, or in a section, at most [N]
+    };
 
-    /** Number, capacity and what limits them, in words. */
+    /** Those of all as the block moves along @p direction (unit vector). */
+    std::vector<Force> forces_against(const Tensor<1, dim> &direction) const;
+
+    /** Number, capacity and what limits what holds it, in words. */
     std::string describe() const;
   };
 
   /** Bolts and shotcrete of @p block (index) that are there at the stage of
-   * @p ground, the weight of shotcrete at a @p time. */
+   * @p ground, bolts without what has @p broken, the weight of shotcrete at a
+   * @p time. */
   template <int dim>
   BlockSupport<dim> find_support_of_block(const Ground<dim> &ground,
                                           const unsigned int block,
-                                          const double time);
+                                          const double time,
+                                          const BrokenSegments &broken);
 
   /**
    * Limit equilibrium of a block on @p faces under @p load with its support.
@@ -64,7 +80,9 @@ namespace Keyblock
    * shotcrete do against the way that the block takes then; where these bear
    * all that drives it, nothing does. Passive: of each force its part against
    * the way that the block would take without them is added to what resists
-   * (Hoek and Bray 1981); the rest of it is load.
+   * (Hoek and Bray 1981); the rest of it is load. What dowels and shotcrete do
+   * there is up to their strength as little as drives the block least, or
+   * less if the factor is greater then.
    */
   template <int dim>
   LimitEquilibrium<dim> solve_with_support(std::vector<BlockFace<dim>> &faces,

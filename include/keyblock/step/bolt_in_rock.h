@@ -23,7 +23,7 @@ namespace Keyblock
     std::vector<bool> is_cut;        ///< its segments: the same
     bool is_broken = false;
     std::string limit; ///< describe(BoltChain::Capacity::Limit) where it is
-                       ///< weakest; empty: it crosses no joint between blocks
+                       ///< weakest; empty: it holds no joint between blocks
   };
 
   /**
@@ -125,6 +125,9 @@ namespace Keyblock
     double stored_energy() const;     ///< [J]
     double dissipated_energy() const; ///< so far [J]
 
+    /** Which of its segments have broken. */
+    std::vector<bool> broken_segments() const;
+
     /** Append all that it remembers, and take it from @p at on again. */
     void remember(std::vector<double> &numbers) const;
     void recall(const std::vector<double> &numbers, std::size_t &at);
@@ -153,6 +156,17 @@ namespace Keyblock
 
     void install(const double *along, const double *jump);
 
+    /** Whether there is a bar between the sides of joint @p k. */
+    bool
+    is_whole_at_joint(const unsigned int k) const
+    {
+      return dowels[k].is_there &&
+             !chain.is_broken_at(chain.segment_at(bolt.crossings[k].place));
+    }
+
+    /** Follow the @p jump of the rock across joint @p k [m]. */
+    void follow_at_joint(const unsigned int k, const Tensor<1, dim> &jump);
+
     /** Subtract @p on_first, a force of a dowel on the rock before joint @p k,
      * and what is on the rock behind it, from forces on this rank's nodes [N].
      */
@@ -162,6 +176,8 @@ namespace Keyblock
 
     /** Follow the jump of the rock across a joint [m]. */
     void follow(Dowel &dowel, Tensor<1, dim> jump) const;
+
+    double stored_energy_of(const Dowel &dowel) const; ///< of one bolt [J]
 
     const Bolt<dim> &bolt;
     Tensor<1, dim> way;

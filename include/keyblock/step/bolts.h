@@ -56,6 +56,9 @@ namespace Keyblock
     /** Those that are installed (the same on every rank). */
     std::vector<BoltReport<dim>> report() const;
 
+    /** Of all bolts of the mesh (the same on every rank). */
+    BrokenSegments broken_segments() const;
+
   private:
     /** Call @p action with those of the present stage. */
     template <typename List, typename Action>

@@ -120,6 +120,13 @@ namespace Keyblock
       return bolts ? bolts->report() : std::vector<BoltReport<dim>>();
     }
 
+    /** Segments of bolts that have broken. */
+    BrokenSegments
+    broken_segments() const
+    {
+      return bolts ? bolts->broken_segments() : BrokenSegments();
+    }
+
     /** What shotcrete bears. */
     std::vector<LinerReport>
     report_liners() const

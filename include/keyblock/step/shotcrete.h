@@ -24,9 +24,9 @@ namespace Keyblock
    * shears its section. A piece of length L joins the two sides of the joint by
    * a spring of stiffness G L (a band as wide as it is thick) against shear in
    * the section, out of the face and along the trace, that yields at strength
-   * times thickness times L; it is free of force when it is sprayed. The weight
-   * acts on the nodes of the face. Tension across the section, bending and
-   * arching are left out.
+   * times thickness times L; it is free of force when it is sprayed. Its weight
+   * and the stage's seismic force act on the nodes of the face. Tension across
+   * the section, bending and arching are left out.
    *
    * Every rank follows all traces, from displacements that all ranks add up,
    * and puts forces on its own nodes.
@@ -110,6 +110,7 @@ namespace Keyblock
     double frequency = 0.;            ///< highest of the cells [rad/s]
     std::vector<LinerReport> reports; ///< but for loads
     std::unique_ptr<Expression<dim>> gravity;
+    Tensor<1, dim> seismic_acceleration; ///< of the stage [m/s2]
     PassiveSupport<dim> trial;
   };
 } // namespace Keyblock
