@@ -72,11 +72,7 @@ namespace Keyblock
                                             dim,
                                             "Initial state/Gravity")
                               .vector(Point<dim>(), time);
-    loads.seismic =
-      mass * standard_gravity * scene.seismic_coefficient(ground.stage_number);
-    for (unsigned int d = 0; d < scene.safety.seismic_coefficient.size(); ++d)
-      loads.seismic[d] +=
-        mass * standard_gravity * scene.safety.seismic_coefficient[d];
+    loads.seismic = mass * seismic_acceleration(ground);
     return loads;
   }
 

@@ -256,7 +256,7 @@ namespace Keyblock
         if (limit.mode != LimitEquilibrium<dim>::Mode::stable)
           return {limit.faces.begin(), limit.faces.begin() + limit.n_pressed};
         Tensor<1, dim> drive =
-          around.loads.without_water() + support.shotcrete_weight;
+          around.loads.without_water() + support.shotcrete_load;
         for (const BlockFace<dim> &face : around.faces)
           drive += face.water_force * face.inward;
         const double least = least_pressed * drive.norm();
