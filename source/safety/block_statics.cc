@@ -14,9 +14,6 @@ namespace Keyblock
     /** Faces bent by less are not worth a remark [deg]. */
     constexpr double least_bend = 1.;
 
-    /** Share of all that acts from which on it presses on a face [-]. */
-    constexpr double least_pressed = 1e-6;
-
     /** Adds what is to be said about one block. */
     template <int dim>
     class Remarks
@@ -173,7 +170,8 @@ namespace Keyblock
       {
         std::set<unsigned int> moving;
         std::set<std::string> moved;
-        const std::set<unsigned int> pressed = pressed_faces();
+        const std::set<unsigned int> pressed = limit.pressed_faces(
+          around.faces, around.loads.without_water() + support.shotcrete_load);
         for (unsigned int i = 0; i < around.faces.size(); ++i)
           for (const unsigned int other : around.others[i])
             {
@@ -247,46 +245,6 @@ namespace Keyblock
       }
 
     private:
-      /** Faces that the block presses on. If it is stable those that keep it
-       * where it is: all that acts closes them, or its part along those does
-       * that it has closed. */
-      std::set<unsigned int>
-      pressed_faces() const
-      {
-        if (limit.mode != LimitEquilibrium<dim>::Mode::stable)
-          return {limit.faces.begin(), limit.faces.begin() + limit.n_pressed};
-        Tensor<1, dim> drive =
-          around.loads.without_water() + support.shotcrete_load;
-        for (const BlockFace<dim> &face : around.faces)
-          drive += face.water_force * face.inward;
-        const double least = least_pressed * drive.norm();
-        std::set<unsigned int> pressed;
-        std::vector<Tensor<1, dim>> closed; // orthonormal
-        while (closed.size() < dim)
-          {
-            double most = -least;
-            Tensor<1, dim> normal;
-            for (unsigned int i = 0; i < around.faces.size(); ++i)
-              if (const double along = drive * around.faces[i].inward;
-                  along < -least)
-                {
-                  pressed.insert(i);
-                  if (along < most)
-                    {
-                      most   = along;
-                      normal = around.faces[i].inward;
-                    }
-                }
-            for (const Tensor<1, dim> &n : closed)
-              normal -= (normal * n) * n;
-            if (normal.norm() < least_pressed)
-              break;
-            closed.push_back(normal / normal.norm());
-            drive -= (drive * closed.back()) * closed.back();
-          }
-        return pressed;
-      }
-
       /** Begin a remark. */
       std::ostringstream &
       add()

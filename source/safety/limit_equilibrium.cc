@@ -18,6 +18,9 @@ namespace Keyblock
     /** Difference of unit normals up to which faces count as parallel. */
     constexpr double parallel_normals = 1e-6;
 
+    /** Share of all that acts from which on it presses on a face [-]. */
+    constexpr double least_pressed = 1e-6;
+
     template <int dim>
     bool
     closes_none(const std::vector<BlockFace<dim>> &faces,
@@ -36,7 +39,7 @@ namespace Keyblock
     {
       const Tensor<1, dim> t = force - (force * face.inward) * face.inward;
       return t.norm() > rounding * force.norm() ? t / t.norm()
-                                                 : Tensor<1, dim>();
+                                                : Tensor<1, dim>();
     }
 
     /** Add to @p result the faces that it moves along without pressing on
@@ -74,7 +77,8 @@ namespace Keyblock
           std::vector<unsigned int> group;
           double area = 0.;
           for (unsigned int i = 0; i < faces.size(); ++i)
-            if ((faces[i].inward - faces[planes[p]].inward).norm() < parallel_normals)
+            if ((faces[i].inward - faces[planes[p]].inward).norm() <
+                parallel_normals)
               {
                 group.push_back(i);
                 area += faces[i].area;
@@ -208,6 +212,45 @@ namespace Keyblock
   {
     if ((mode == Mode::falling || mode == Mode::lifting) && weight.norm() > 0.)
       mode = direction * weight < 0. ? Mode::lifting : Mode::falling;
+  }
+
+
+
+  template <int dim>
+  std::set<unsigned int>
+  LimitEquilibrium<dim>::pressed_faces(const std::vector<BlockFace<dim>> &all,
+                                       const dealii::Tensor<1, dim> &load) const
+  {
+    if (mode != Mode::stable)
+      return {faces.begin(), faces.begin() + n_pressed};
+    dealii::Tensor<1, dim> drive = load;
+    for (const BlockFace<dim> &face : all)
+      drive += face.water_force * face.inward;
+    const double least = least_pressed * drive.norm();
+    std::set<unsigned int> pressed;
+    std::vector<dealii::Tensor<1, dim>> closed; // orthonormal
+    while (closed.size() < dim)
+      {
+        double most = -least;
+        dealii::Tensor<1, dim> normal;
+        for (unsigned int i = 0; i < all.size(); ++i)
+          if (const double along = drive * all[i].inward; along < -least)
+            {
+              pressed.insert(i);
+              if (along < most)
+                {
+                  most   = along;
+                  normal = all[i].inward;
+                }
+            }
+        for (const auto &n : closed)
+          normal -= (normal * n) * n;
+        if (normal.norm() < least_pressed)
+          break;
+        closed.push_back(normal / normal.norm());
+        drive -= (drive * closed.back()) * closed.back();
+      }
+    return pressed;
   }
 
 

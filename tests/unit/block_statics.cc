@@ -268,27 +268,34 @@ BOOST_AUTO_TEST_CASE(water_is_summed_as_the_step_does)
     "subsection Materials\n set Names = rock\n subsection rock\n  set Density "
     "= 2000\n end\nend\n" +
     stage;
-  compare(Site<2>(
-    "subsection Domain\n set Size = 4, 4\n set Truncated boundaries = "
-    "bottom\nend\nsubsection Mesh\n set Generator = gmsh\n set Size = "
-    "0.6\n set Snap = 0\nend\nsubsection Joints\n set Names = a, b\n "
-    "subsection a\n  set "
-    "Point = 2, 1.5\n  set Dip = 35\n  set Water pressure = max(0, 9000*(2.1 - "
-    "y))\n end\n subsection b\n  set Point = 2, 1.5\n  set Dip = 70\n  set Dip "
-    "direction = 270\n  set Water pressure = 3000*x^2\n end\nend\nsubsection "
-    "Initial state\n set Gravity = 0; -9.81\nend\n" +
-    rest), 1e-7);
-  compare(Site<3>(
-    "subsection Domain\n set Size = 4, 4, 4\n set Truncated boundaries = "
-    "bottom\nend\nsubsection Mesh\n set Generator = gmsh\n set Size = "
-    "1.5\n set Snap = 0\nend\nsubsection Joints\n set Names = a, b\n "
-    "subsection a\n  set "
-    "Point = 2, 2, 2\n  set Dip = 45\n  set Dip direction = 105\n  set Water "
-    "pressure = max(0, 9000*(2.1 - z))\n end\n subsection b\n  set Point = 2, "
-    "2, 2\n  set Dip = 70\n  set Dip direction = 235\n  set Water pressure = "
-    "3000*x*y\n end\nend\nsubsection Initial state\n set Gravity = 0; 0; "
-    "-9.81\nend\n" +
-    rest), 1e-5);
+  compare(
+    Site<2>(
+      "subsection Domain\n set Size = 4, 4\n set Truncated boundaries = "
+      "bottom\nend\nsubsection Mesh\n set Generator = gmsh\n set Size = "
+      "0.6\n set Snap = 0\nend\nsubsection Joints\n set Names = a, b\n "
+      "subsection a\n  set "
+      "Point = 2, 1.5\n  set Dip = 35\n  set Water pressure = max(0, 9000*(2.1 "
+      "- "
+      "y))\n end\n subsection b\n  set Point = 2, 1.5\n  set Dip = 70\n  set "
+      "Dip "
+      "direction = 270\n  set Water pressure = 3000*x^2\n end\nend\nsubsection "
+      "Initial state\n set Gravity = 0; -9.81\nend\n" +
+      rest),
+    1e-7);
+  compare(
+    Site<3>(
+      "subsection Domain\n set Size = 4, 4, 4\n set Truncated boundaries = "
+      "bottom\nend\nsubsection Mesh\n set Generator = gmsh\n set Size = "
+      "1.5\n set Snap = 0\nend\nsubsection Joints\n set Names = a, b\n "
+      "subsection a\n  set "
+      "Point = 2, 2, 2\n  set Dip = 45\n  set Dip direction = 105\n  set Water "
+      "pressure = max(0, 9000*(2.1 - z))\n end\n subsection b\n  set Point = "
+      "2, "
+      "2, 2\n  set Dip = 70\n  set Dip direction = 235\n  set Water pressure = "
+      "3000*x*y\n end\nend\nsubsection Initial state\n set Gravity = 0; 0; "
+      "-9.81\nend\n" +
+      rest),
+    1e-5);
 }
 
 BOOST_AUTO_TEST_CASE(slender_blocks_rotate)

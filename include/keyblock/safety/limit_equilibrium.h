@@ -6,6 +6,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,14 @@ namespace Keyblock
     /** Tell falling from lifting by the block's @p weight [N], which need not
      * be along an axis; nothing changes if there is none. */
     void orient(const dealii::Tensor<1, dim> &weight);
+
+    /** Faces that the block presses on, by index. If it is stable those that
+     * keep it where it is: all that acts closes them, or its part along those
+     * does that it has closed.
+     * @param load as for solve_limit_equilibrium() [N] */
+    std::set<unsigned int>
+    pressed_faces(const std::vector<BlockFace<dim>> &all,
+                  const dealii::Tensor<1, dim> &load) const;
 
     /** The mode in words: falling, sliding on J1, sliding on J1/J2. */
     std::string describe(const std::vector<BlockFace<dim>> &all) const;
