@@ -6,6 +6,15 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** What is lent over what is missing [-]: rounding must not decide whether a
+     * point bears what it bore. */
+    constexpr double margin = 1.001;
+  } // namespace
+
+
+
   template <int dim>
   StrengthLoans<dim>::StrengthLoans(const PairTopology<dim> &topology,
                                     const ContactStrength<dim> &strength,
@@ -36,8 +45,8 @@ namespace Keyblock
         memory.state[p].is_intact =
           strength.is_bonded(interface.pairs[p].joint);
         const auto [tension, shear]  = strength.beyond(p, all[p]);
-        memory.state[p].weld_tension = tension;
-        memory.state[p].weld_shear   = shear;
+        memory.state[p].weld_tension = margin * tension;
+        memory.state[p].weld_shear   = margin * shear;
       }
   }
 
@@ -60,7 +69,7 @@ namespace Keyblock
   StrengthLoans<dim>::doubt_about(const unsigned int group) const
   {
     // bends are measured to rounding and to what the mesh's cells make of them
-    constexpr double margin = 2.;
+    constexpr double factor = 2.;
     const double kick       = memory.present_kick();
     const auto [begin, end] = topology.pairs_of_group(group);
     double bend = 0., largest = 0.;
@@ -72,7 +81,7 @@ namespace Keyblock
         bend    = std::max(bend, (direction - pair.normal).norm());
         largest = std::max(largest, norm<dim>(memory.state[p].impulse) / kick);
       }
-    return margin * bend * largest;
+    return factor * bend * largest;
   }
 
 
@@ -96,8 +105,8 @@ namespace Keyblock
             if (std::max(tension, shear) <= 0. || tension > unsure ||
                 shear > unsure)
               continue;
-            state[p].bend_tension = 1.001 * tension;
-            state[p].bend_shear   = 1.001 * shear;
+            state[p].bend_tension = margin * tension;
+            state[p].bend_shear   = margin * shear;
             n_held += topology.is_primary(g);
           }
         // how they share it is not unique, and changes when they are released
