@@ -12,8 +12,8 @@ namespace Keyblock
     template <typename Springs>
     auto
     place_of_spring(Springs &springs,
-             const unsigned int node,
-             const unsigned int joint)
+                    const unsigned int node,
+                    const unsigned int joint)
     {
       return std::lower_bound(springs.begin(),
                               springs.end(),

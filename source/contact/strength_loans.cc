@@ -8,8 +8,8 @@ namespace Keyblock
 {
   namespace
   {
-    /** What is lent over what is missing [-]: rounding must not decide whether a
-     * point bears what it bore. */
+    /** What is lent over what is missing [-]: rounding must not decide whether
+     * a point bears what it bore. */
     constexpr double margin = 1.001;
   } // namespace
 

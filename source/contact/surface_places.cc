@@ -247,11 +247,11 @@ namespace Keyblock
             const bool is_first = joint == joints.front();
             if (is_first)
               kept = kept_free_ways(node, joint);
-            const auto shift =
-              shift_onto(joint,
-                         result,
-                         kept,
-                         is_first ? least_sine_to_normal : least_sine_of_joints);
+            const auto shift = shift_onto(joint,
+                                          result,
+                                          kept,
+                                          is_first ? least_sine_to_normal
+                                                   : least_sine_of_joints);
             // planes that meet far away do not meet here
             if (!shift || (!is_first && shift->norm() > farthest_along * size))
               continue;

@@ -65,7 +65,8 @@ namespace Keyblock
     };
 
     std::shared_ptr<const JointLaw>
-    make_slip_weakening(const JointStrength &entries, const std::string &section)
+    make_slip_weakening(const JointStrength &entries,
+                        const std::string &section)
     {
       AssertThrow(entries.value_of("Slip distance") > 0.,
                   InputError("'" + section +

@@ -12,9 +12,9 @@ namespace Keyblock::Python
 
     RunPointer
     run_of_scene(const std::shared_ptr<AnyScene> &scene,
-              const py::object &output,
-              const py::object &restart,
-              const bool is_verbose)
+                 const py::object &output,
+                 const py::object &restart,
+                 const bool is_verbose)
     {
       const auto path = [](const py::object &name) {
         return name.is_none() ? std::string()

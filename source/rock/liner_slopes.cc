@@ -101,8 +101,9 @@ namespace Keyblock
     for (unsigned int f = 0; f < faces.size(); ++f)
       {
         const auto &q = faces[f].points;
-        normals.push_back(unit_vector(cross_product_3d(places[q[2]] - places[q[0]],
-                                                places[q[3]] - places[q[1]])));
+        normals.push_back(
+          unit_vector(cross_product_3d(places[q[2]] - places[q[0]],
+                                       places[q[3]] - places[q[1]])));
         for (unsigned int k = 0; k < 4; ++k)
           {
             triangles.emplace_back(places,
@@ -166,7 +167,8 @@ namespace Keyblock
                             const Vector &direction,
                             const std::vector<unsigned int> &points) const
   {
-    const Vector normal = unit_vector(direction - (direction * edge.way) * edge.way);
+    const Vector normal =
+      unit_vector(direction - (direction * edge.way) * edge.way);
     const QuadraticFit fit =
       fit_around(places[edge.begin] + 0.5 * edge.length * edge.way,
                  edge.way,

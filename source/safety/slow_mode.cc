@@ -12,7 +12,7 @@ namespace Keyblock
     /** Checks in a row that must agree: joints that slip in fits and starts
      * show a different frequency at each. */
     constexpr unsigned int n_checks = 3;
-    constexpr double same_frequency      = 0.2; ///< of two frequencies [-]
+    constexpr double same_frequency = 0.2; ///< of two frequencies [-]
   }                                        // namespace
 
 

@@ -221,8 +221,9 @@ namespace Keyblock
     const std::string none_across = dim == 2 ? "0; " : "0; 0; ";
     if (initial_state.gravity.empty())
       set_entries(*prm,
-           "Initial state",
-           {{"Gravity", none_across + "-" + exact_text(standard_gravity)}});
+                  "Initial state",
+                  {{"Gravity",
+                    none_across + "-" + exact_text(standard_gravity)}});
     double pressure = standard_gravity * density * (ground.depth - top);
     if (initial_state.stress.empty() && initial_state.measured_points.empty())
       {

@@ -196,9 +196,9 @@ namespace Keyblock
       {
         surround(domain, profiles);
         set_entries(*prm,
-             "Domain",
-             {{"Corner", exact_list(domain.corner, dim)},
-              {"Size", exact_list(domain.size, dim)}});
+                    "Domain",
+                    {{"Corner", exact_list(domain.corner, dim)},
+                     {"Size", exact_list(domain.size, dim)}});
       }
     std::vector<std::unique_ptr<Excavation<dim>>> expanded;
     for (auto &e : excavations)
