@@ -164,38 +164,70 @@ namespace Keyblock
              "); limit equilibrium takes the blocks without them.";
     }
 
-    /** Blocks that the mesh has bent, nobody knows how much. */
+    /** What blocks have too much, as far as the mesh has their faces off their
+     * joints, to first order: the integral of the distance [m^dim]. */
+    template <int dim>
+    std::vector<double>
+    volumes_of_shifts(const SplitMesh<dim> &split,
+                      const Scene<dim> &scene,
+                      const Blocks<dim> &blocks)
+    {
+      const Mesh<dim> &mesh = split.mesh;
+      std::vector<double> volumes(blocks.blocks.size(), 0.);
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        if (const unsigned int b = split.block_of_cell[c]; b != none)
+          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+            if (const unsigned int j = mesh.joint[c][f]; j != none)
+              {
+                const double area =
+                  scene.joints[j]->normal() * mesh.face_area_vector(c, f);
+                for (const unsigned int v : mesh.face_vertices(c, f))
+                  volumes[b] += area / Mesh<dim>::n_face_vertices *
+                                scene.joints[j]->distance(mesh.vertices[v]);
+              }
+      return volumes;
+    }
+
+    /** Blocks whose exact volume is not known, and of which the mesh makes more
+     * or less than their joints do. */
     template <int dim>
     std::string
-    warning_of_unknown_volumes(const SplitMesh<dim> &split,
+    warning_of_shifted_volumes(const SplitMesh<dim> &split,
                                const Scene<dim> &scene,
                                const Blocks<dim> &blocks)
     {
-      const Mesh<dim> &mesh = split.mesh;
-      std::vector<bool> is_bent(blocks.blocks.size());
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        if (const unsigned int b = split.block_of_cell[c];
-            b != none && !blocks.blocks[b].is_infinite &&
-            !blocks.blocks[b].exact.is_known && !is_bent[b])
-          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-            if (const unsigned int j = mesh.joint[c][f]; j != none)
-              for (const unsigned int v : mesh.face_vertices(c, f))
-                if (std::abs(scene.joints[j]->distance(mesh.vertices[v])) >
-                    largest_shift * std::pow(mesh.cell_volume(c), 1. / dim))
-                  is_bent[b] = true;
+      const std::vector<double> surplus =
+        volumes_of_shifts(split, scene, blocks);
+      const auto difference = [&](const unsigned int b) {
+        const Block<dim> &block = blocks.blocks[b];
+        const double volume     = block.volume - surplus[b];
+        return std::abs(surplus[b]) / std::max(volume, 1e-3 * block.volume);
+      };
+      unsigned int most = none;
       std::vector<std::string> ids;
-      for (unsigned int b = 0; b < is_bent.size(); ++b)
-        if (is_bent[b])
-          ids.push_back(std::to_string(blocks.blocks[b].id));
-      if (ids.empty())
+      for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+        if (!blocks.blocks[b].is_infinite && !blocks.blocks[b].exact.is_known &&
+            difference(b) > largest_difference)
+          {
+            ids.push_back(std::to_string(blocks.blocks[b].id));
+            if (most == none || difference(b) > difference(most))
+              most = b;
+          }
+      if (most == none)
         return "";
-      return (ids.size() > 1 ? "The exact volumes of blocks "
-                             : "The exact volume of block ") +
-             list_some(ids) + (ids.size() > 1 ? " are" : " is") +
-             " not known (a block that is not convex, or that joints bound "
-             "which end there, or that the mesh has split, on faces that it "
-             "moved); limit equilibrium takes the volume of the mesh: lower "
-             "'Mesh/Size' or 'Mesh/Size at excavation'.";
+      const Block<dim> &block = blocks.blocks[most];
+      const std::string unit  = dim == 2 ? " m2" : " m3";
+      return "The mesh has moved faces off their joints and gives block " +
+             std::to_string(block.id) + " " + text_of(block.volume, 4) + unit +
+             " instead of about " +
+             text_of(std::max(0., block.volume - surplus[most]), 2) + unit +
+             (ids.size() > 1
+                ? " (more than 5 % off are blocks " + list_some(ids) + ")"
+                : "") +
+             ", and its factors are found with that, by limit equilibrium, too "
+             "(a block that is not convex, or that joints bound which end "
+             "there, or that the mesh has split); lower 'Mesh/Size' or "
+             "'Mesh/Size at excavation', or set 'Mesh/Cells across blocks'.";
     }
   } // namespace
 
@@ -214,7 +246,7 @@ namespace Keyblock
                             digits_of_place(split.mesh, 3)),
           warning_of_volumes(blocks),
           warning_of_lost_corners(scene, blocks),
-          warning_of_unknown_volumes(split, scene, blocks)})
+          warning_of_shifted_volumes(split, scene, blocks)})
       if (!warning.empty())
         warnings.push_back(warning);
     return warnings;

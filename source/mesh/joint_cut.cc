@@ -277,7 +277,7 @@ namespace Keyblock
                                    sheet->facets[f].normal,
                                    0.,
                                    sheet->joints[f]});
-        insert_joint(mesh, surface, *sheet, snap);
+        insert_joint(mesh, surface, *sheet, snap, report);
         improvement.improve(wanted_between, 1, first_cell);
       }
     trim_joints(mesh, sheets);

@@ -17,6 +17,15 @@ namespace Keyblock
     /** A vertex is not moved onto a joint if a cell falls below this. */
     constexpr double least_quality_of_snap = 0.2;
 
+    /** A vertex that stays so far off the joint that it is said to lie on,
+     * over the target size, loses rock there; fewer of them are the tip of a
+     * wedge. */
+    constexpr double least_loss         = 0.02;
+    constexpr unsigned int least_losses = 2;
+
+    /** Sine up to which a joint and an outline are nearly parallel. */
+    constexpr double nearly_parallel = 0.1;
+
 
 
     /** Cuts one joint into the mesh. */
@@ -27,11 +36,13 @@ namespace Keyblock
       Insertion(SimplexMesh<dim> &mesh,
                 const unsigned int surface,
                 const JointSheet<dim> &sheet,
-                const double snap)
+                const double snap,
+                MeshReport<dim> &report)
         : mesh(mesh)
         , surface(surface)
         , sheet(sheet)
         , snap(snap)
+        , report(report)
       {
         distance.reserve(mesh.vertices.size());
         for (const Point<dim> &p : mesh.vertices)
@@ -135,6 +146,32 @@ namespace Keyblock
             {
               side[v] = 0;
               move_onto_joint(v);
+              note_loss(v);
+            }
+        if (n_losses >= least_losses)
+          report.thin_rock.push_back(thinnest);
+      }
+
+      /** Note that the rock between the joint and an outline is lost at a
+       * vertex, if it is. */
+      void
+      note_loss(const unsigned int v)
+      {
+        const double thickness = std::abs(distance[v]);
+        if (thickness < least_loss * mesh.target_size[v] ||
+            sheet.depth_inside(mesh.vertices[v]) < 0.)
+          return;
+        const Tensor<1, dim> normal = sheet.normal_at(mesh.vertices[v]);
+        for (const unsigned int s : mesh.bound_to[v])
+          if (!mesh.surfaces[s].is_joint() &&
+              std::abs(normal * mesh.surfaces[s].normal_at(mesh.vertices[v])) >
+                std::sqrt(1. - nearly_parallel * nearly_parallel))
+            {
+              ++n_losses;
+              report.lost_rock.push_back({mesh.vertices[v], thickness});
+              if (thickness < thinnest.thickness)
+                thinnest = {sheet.joints[0], mesh.vertices[v], thickness};
+              return;
             }
       }
 
@@ -254,6 +291,9 @@ namespace Keyblock
       const unsigned int surface;
       const JointSheet<dim> &sheet;
       const double snap;
+      MeshReport<dim> &report;
+      unsigned int n_losses = 0;
+      typename MeshReport<dim>::ThinRock thinnest{no_index, {}, 1e300};
       std::vector<double> distance;
       std::vector<signed char> side; ///< of each vertex: -1, +1; 0: on it
     };
@@ -266,17 +306,20 @@ namespace Keyblock
   insert_joint(SimplexMesh<dim> &mesh,
                const unsigned int surface,
                const JointSheet<dim> &sheet,
-               const double snap)
+               const double snap,
+               MeshReport<dim> &report)
   {
-    Insertion<dim>(mesh, surface, sheet, snap).run();
+    Insertion<dim>(mesh, surface, sheet, snap, report).run();
   }
 
   template void insert_joint(SimplexMesh<2> &,
                              const unsigned int,
                              const JointSheet<2> &,
-                             const double);
+                             const double,
+                             MeshReport<2> &);
   template void insert_joint(SimplexMesh<3> &,
                              const unsigned int,
                              const JointSheet<3> &,
-                             const double);
+                             const double,
+                             MeshReport<3> &);
 } // namespace Keyblock

@@ -92,6 +92,44 @@ namespace Keyblock
             << " more pairs of joints: summary.json lists them\n";
     }
 
+    /** Warn of rock between joints and outlines that the cells are too large
+     * for. */
+    template <int dim>
+    void
+    print_thin_rock(std::ostream &out,
+                    const MeshReport<dim> &report,
+                    const Scene<dim> &scene)
+    {
+      constexpr unsigned int most_joints = 5;
+      auto thin                          = report.thin_rock;
+      std::stable_sort(thin.begin(),
+                       thin.end(),
+                       [](const auto &a, const auto &b) {
+                         return a.thickness < b.thickness;
+                       });
+      for (unsigned int i = 0; i < thin.size() && i < most_joints; ++i)
+        {
+          out << "Warning: The rock between the joint '"
+              << scene.joints[thin[i].joint]->name
+              << "' and an outline beside it is too thin for the cells, about "
+              << thin[i].thickness << " m at (";
+          for (unsigned int d = 0; d < dim; ++d)
+            out << (d ? ", " : "") << thin[i].place[d];
+          out << "), and lost there; ";
+          const double cells_across = scene.meshing.cells_across;
+          if (cells_across > 0.)
+            out << "lower 'Mesh/Least size' to about "
+                << thin[i].thickness / cells_across;
+          else
+            out << "lower the size there to about " << thin[i].thickness
+                << ", or set 'Mesh/Cells across blocks'";
+          out << " to keep it, or leave the joint out.\n";
+        }
+      if (thin.size() > most_joints)
+        out << "Warning: So is it beside " << thin.size() - most_joints
+            << " more joints.\n";
+    }
+
     template <int dim>
     void
     print_lost_parts(std::ostream &out,
@@ -136,6 +174,7 @@ namespace Keyblock
           out << (d ? ", " : "") << report.largest_lost_place[d];
         out << ") m; lower 'Mesh/Size' there to keep them.\n";
       }
+    print_thin_rock(out, report, scene);
     if (!report.gaps.empty())
       {
         const auto &gap = *report.gaps.begin();

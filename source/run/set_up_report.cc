@@ -27,7 +27,8 @@ namespace Keyblock
     template <int dim>
     std::string
     warning_of_welded_joints(const Scene<dim> &scene,
-                             const SplitMesh<dim> &split)
+                             const SplitMesh<dim> &split,
+                             const MeshReport<dim> &report)
     {
       if (scene.joints.empty() || scene.contact.method == ContactMethod::none ||
           !split.interface.pairs.empty())
@@ -44,10 +45,14 @@ namespace Keyblock
           names += (names.empty() ? "" : ", ") + scene.joints[j]->name;
       if (n == 0)
         return "";
+      const bool has_lost_rock =
+        report.n_lost_blocks > 0 || !report.thin_rock.empty();
       return "All joints stay welded, with 0 pairs, because the blocks beside "
-             "them "
-             "are infinite or not closed: " +
-             names + (n > 8 ? ", ..." : "") +
+             "them are " +
+             std::string(has_lost_rock
+                           ? "infinite, not closed, or too small for the cells"
+                           : "infinite or not closed") +
+             ": " + names + (n > 8 ? ", ..." : "") +
              "; let joints and outer boundaries enclose blocks, name fewer of "
              "them in "
              "'Domain/Truncated boundaries', or set 'Contact/Weld infinite "
@@ -238,7 +243,7 @@ namespace Keyblock
     for (const std::string &warning :
          {warning_of_tension(
             model.communicator, model.scene, model.split, model.cells),
-          warning_of_welded_joints(model.scene, model.split),
+          warning_of_welded_joints(model.scene, model.split, model.mesh_report),
           warning_of_compliant_joints(model.scene),
           warning_of_dilation(model.scene)})
       if (!warning.empty())

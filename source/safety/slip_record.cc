@@ -27,17 +27,17 @@ namespace Keyblock
 
   bool
   SlipRecord::offer(const std::uint64_t n_steps,
-                    const std::vector<double> &slip)
+                    const std::vector<double> &ways)
   {
     const std::uint64_t n = n_steps - begin;
     if (n < (steps.empty() ? first_record : 2 * steps[0]))
       return false;
     steps.insert(steps.begin(), n);
-    slips.insert(slips.begin(), slip.begin(), slip.end());
+    slips.insert(slips.begin(), ways.begin(), ways.end());
     if (steps.size() > most_records)
       {
         steps.resize(most_records);
-        slips.resize(most_records * slip.size());
+        slips.resize(most_records * ways.size());
       }
     return true;
   }
@@ -61,11 +61,11 @@ namespace Keyblock
   SlipRecord::Motion
   SlipRecord::motion_since(const unsigned int block,
                            const std::uint64_t n_steps,
-                           const double slip) const
+                           const double way) const
   {
     const unsigned int record = steps.size() > 1 ? 1 : 0;
     if (steps.empty() || n_steps - begin <= steps[record])
       return {0., 0};
-    return {slip - slip_at(record, block), n_steps - begin - steps[record]};
+    return {way - slip_at(record, block), n_steps - begin - steps[record]};
   }
 } // namespace Keyblock

@@ -75,7 +75,13 @@ namespace Keyblock
         const std::vector<CellFace> loaded =
           list_loaded_faces(ground, free, traction);
         for (const CellFace &face : loaded)
-          add_traction(face, t);
+          add_load(
+            face,
+            t,
+            depends_on_time(traction.expression),
+            [&](const Point<dim> &p) { return tractions[t]->vector(p, 0.); },
+            [](const FacePoint<dim> &point) { return point.area.norm(); },
+            varying_tractions);
         AssertThrow(!loaded.empty() || ground.stage_number > 1,
                     InputError("The traction '" + traction.name +
                                "' loads no face; check 'Tractions/" +
@@ -131,37 +137,41 @@ namespace Keyblock
 
 
   template <int dim>
+  template <typename Value, typename AreaOf, typename Area>
   void
-  Loads<dim>::add_traction(const CellFace &face, const unsigned int traction)
+  Loads<dim>::add_load(const CellFace &face,
+                       const unsigned int formula,
+                       const bool is_varying,
+                       const Value &value_at,
+                       const AreaOf &area_of,
+                       std::vector<LoadPoint<dim, Area>> &varying)
   {
     if (!has_owned_node(face))
       return;
     const auto corners = face_corners(split.mesh, face.cell, face.face);
-    const bool is_varying =
-      depends_on_time(scene.tractions[traction]->expression);
-    const auto value_at = [&](const Point<dim> &place) {
-      return tractions[traction]->vector(place, 0.);
-    };
-    for (const FacePoint<dim> &point :
-         is_varying ? gauss_points<dim>(corners)
-                    : adapted_points<dim>(corners, value_at))
+    auto points        = is_varying ? gauss_points<dim>(corners)
+                                    : adapted_points<dim>(corners, value_at);
+    turn_outward(points, split.mesh.face_area_vector(face.cell, face.face));
+    for (const FacePoint<dim> &point : points)
       {
-        LoadPoint<dim, double> entry{traction, point.place, {}};
-        const double area = point.area.norm();
+        const Area area = area_of(point);
+        if (is_varying)
+          {
+            varying.push_back({formula, point.place, {}});
+            for_each_share(
+              face, point, [&](const unsigned int node, const double share) {
+                varying.back().areas.emplace_back(node, share * area);
+              });
+            continue;
+          }
+        const auto value = value_at(point.place);
         for_each_share(face,
                        point,
                        [&](const unsigned int node, const double share) {
-                         entry.areas.emplace_back(node, share * area);
+                         const Tensor<1, dim> force = value * (share * area);
+                         for (unsigned int d = 0; d < dim; ++d)
+                           steady_forces.emplace_back(dim * node + d, force[d]);
                        });
-        if (is_varying)
-          varying_tractions.push_back(entry);
-        else
-          {
-            const Tensor<1, dim> value = value_at(point.place);
-            for (const auto &[node, share] : entry.areas)
-              for (unsigned int d = 0; d < dim; ++d)
-                steady_forces.emplace_back(dim * node + d, share * value[d]);
-          }
       }
   }
 
@@ -191,47 +201,18 @@ namespace Keyblock
             ground.is_excavated(face.minus_cell) ||
             ground.is_excavated(face.plus_cell))
           continue;
+        const Expression<dim> &pressure = *water_pressures[face.joint];
         for (const CellFace &side : {CellFace{face.minus_cell, face.minus_face},
                                      CellFace{face.plus_cell, face.plus_face}})
-          add_water(side, face.joint, is_varying[face.joint]);
-      }
-  }
-
-
-
-  template <int dim>
-  void
-  Loads<dim>::add_water(const CellFace &side,
-                        const unsigned int joint,
-                        const bool is_varying)
-  {
-    if (!has_owned_node(side))
-      return;
-    const auto corners = face_corners(split.mesh, side.cell, side.face);
-    const Expression<dim> &pressure = *water_pressures[joint];
-    const auto value_at             = [&pressure](const Point<dim> &place) {
-      return pressure.value(place, 0., 0);
-    };
-    auto points = is_varying ? gauss_points<dim>(corners)
-                             : adapted_points<dim>(corners, value_at);
-    turn_outward(points, split.mesh.face_area_vector(side.cell, side.face));
-    for (const FacePoint<dim> &point : points)
-      {
-        LoadPoint<dim, Tensor<1, dim>> entry{joint, point.place, {}};
-        for_each_share(side,
-                       point,
-                       [&](const unsigned int node, const double share) {
-                         entry.areas.emplace_back(node, -share * point.area);
-                       });
-        if (is_varying)
-          varying_water.push_back(entry);
-        else
-          {
-            const double p = value_at(point.place);
-            for (const auto &[node, area] : entry.areas)
-              for (unsigned int d = 0; d < dim; ++d)
-                steady_forces.emplace_back(dim * node + d, p * area[d]);
-          }
+          add_load(
+            side,
+            face.joint,
+            is_varying[face.joint],
+            [&pressure](const Point<dim> &p) {
+              return pressure.value(p, 0., 0);
+            },
+            [](const FacePoint<dim> &point) { return -point.area; },
+            varying_water);
       }
   }
 
@@ -254,22 +235,24 @@ namespace Keyblock
         fields.load[dim * node + d] = fields.weighing_mass[node] * g[d];
     for (const auto &[dof, force] : steady_forces)
       fields.load[dof] += force;
-    for (const auto &point : varying_water)
-      {
-        const double p =
-          water_pressures[point.formula]->value(point.place, time, 0);
-        for (const auto &[node, area] : point.areas)
-          for (int d = 0; d < dim; ++d)
-            fields.load[dim * node + d] += p * area[d];
-      }
-    for (const auto &point : varying_tractions)
-      {
-        const Tensor<1, dim> t =
-          tractions[point.formula]->vector(point.place, time);
-        for (const auto &[node, area] : point.areas)
-          for (int d = 0; d < dim; ++d)
-            fields.load[dim * node + d] += area * t[d];
-      }
+    const auto add_varying = [&](const auto &points, const auto &value_at) {
+      for (const auto &point : points)
+        {
+          const auto value = value_at(point);
+          for (const auto &[node, area] : point.areas)
+            {
+              const Tensor<1, dim> force = value * area;
+              for (int d = 0; d < dim; ++d)
+                fields.load[dim * node + d] += force[d];
+            }
+        }
+    };
+    add_varying(varying_water, [&](const auto &point) {
+      return water_pressures[point.formula]->value(point.place, time, 0);
+    });
+    add_varying(varying_tractions, [&](const auto &point) {
+      return tractions[point.formula]->vector(point.place, time);
+    });
     for (unsigned int i = 0; i < out_of_balance_force.size(); ++i)
       fields.load[i] += left * out_of_balance_force[i];
     return true;

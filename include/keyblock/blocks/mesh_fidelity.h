@@ -14,8 +14,8 @@ namespace Keyblock
    * each: faces that lie farther from their joint's plane than half the size of
    * their cell, volumes that differ by more than 5 % from those between the
    * planes, where these are known (Block::exact), corners that a joint cuts off
-   * and the mesh does not, and faces moved so far of blocks where nothing is
-   * known. Empty: none of them.
+   * and the mesh does not, and volumes that differ as much where they are not
+   * known, by the distances of the faces from their joints. Empty: none.
    */
   template <int dim>
   std::vector<std::string> warnings_of_coarse_mesh(const Scene<dim> &scene,

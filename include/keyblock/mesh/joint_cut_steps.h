@@ -33,12 +33,14 @@ namespace Keyblock
   /** Cut one joint, plane or bent, into @p mesh: move vertices nearer than
    * @p snap onto it, bisect the edges that it crosses, mark the facets between
    * its two sides. The surface of its facet i is @p surface + i of
-   * SimplexMesh::surfaces. */
+   * SimplexMesh::surfaces. Rock that is lost beside an outline is added to
+   * @p report. */
   template <int dim>
   void insert_joint(SimplexMesh<dim> &mesh,
                     const unsigned int surface,
                     const JointSheet<dim> &sheet,
-                    const double snap);
+                    const double snap,
+                    MeshReport<dim> &report);
 
   /**
    * Drop what cuts beyond the joints' rims. A joint falls into patches between

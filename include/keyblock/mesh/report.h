@@ -75,6 +75,16 @@ namespace Keyblock
     };
     std::vector<LostRock> lost_rock;
 
+    /** Rock between a joint and an outline nearly parallel to it, so thin for
+     * the cells that the joint was led onto the outline. */
+    struct ThinRock
+    {
+      unsigned int joint;
+      Point<dim> place;
+      double thickness; ///< the least there is [m]
+    };
+    std::vector<ThinRock> thin_rock; ///< one at most for each joint
+
     /** A joint whose rim ends less than half an edge of the simplices before
      * another joint and does not close against it. */
     struct Gap

@@ -21,7 +21,7 @@ namespace Keyblock
 
     /** Offer the way [m] of all blocks after @p n_steps; whether it is taken.
      */
-    bool offer(const std::uint64_t n_steps, const std::vector<double> &slip);
+    bool offer(const std::uint64_t n_steps, const std::vector<double> &ways);
 
     /** Whether a block went on, in the half of the time that ended with the
      * last record, by at least @p way [m] and three quarters as fast as in the
@@ -37,12 +37,12 @@ namespace Keyblock
     };
     Motion motion_since(const unsigned int block,
                         const std::uint64_t n_steps,
-                        const double slip) const;
+                        const double way) const;
 
     /** For checkpoints: the records, newest first. */
     std::uint64_t begin = 0; ///< step from which steps are counted
     std::vector<std::uint64_t> steps;
-    std::vector<double> slips; ///< of all blocks, record by record [m]
+    std::vector<double> slips; ///< ways of all blocks, record by record [m]
 
   private:
     double

@@ -145,14 +145,21 @@ namespace Keyblock
     void set_up_tractions(const Ground<dim> &ground);
     void set_up_water(const Ground<dim> &ground);
 
-    /** Add a traction to the nodes of a face. */
-    void add_traction(const CellFace &face, const unsigned int traction);
-
-    /** Add the water in a joint, of which a formula in time is varying, to the
-     * nodes of one of its sides. */
-    void add_water(const CellFace &side,
-                   const unsigned int joint,
-                   const bool is_varying);
+    /**
+     * Let a load act on the nodes of a face: one that is steady as forces, one
+     * that is @p is_varying by points that are added to @p varying.
+     * @param formula index into Scene::tractions or Scene::joints
+     * @param value_at of a place, at time zero [Pa]
+     * @param area_of of a FacePoint, outward: times the value it is the force
+     *        [m^(dim-1)]
+     */
+    template <typename Value, typename AreaOf, typename Area>
+    void add_load(const CellFace &face,
+                  const unsigned int formula,
+                  const bool is_varying,
+                  const Value &value_at,
+                  const AreaOf &area_of,
+                  std::vector<LoadPoint<dim, Area>> &varying);
 
     bool has_owned_node(const CellFace &face) const;
 
