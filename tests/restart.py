@@ -4,7 +4,7 @@
 usage: restart.py KEYBLOCK SCENE FOLDER [options]
 
   --breaks N       how many runs that had saved themselves are broken off, at
-                   random moments (3)
+                   random moments (2)
   --by HOW         kill: SIGKILL; stop: SIGTERM, or SIGUSR1 on several ranks,
                    after which the exit code must be 143 or 138; full: no room
                    for files (kill)
@@ -36,7 +36,7 @@ parser = argparse.ArgumentParser()
 parser.add_argument("keyblock")
 parser.add_argument("scene")
 parser.add_argument("folder")
-parser.add_argument("--breaks", type=int, default=3)
+parser.add_argument("--breaks", type=int, default=2)
 parser.add_argument("--by", choices=["kill", "stop", "full"], default="kill")
 parser.add_argument("--ranks", type=int, nargs="+", default=[1])
 parser.add_argument("--tolerance", type=float, default=0.)

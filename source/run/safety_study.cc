@@ -197,8 +197,6 @@ namespace Keyblock
         model.step->excavate(record.present.number());
         search.add_cheap_answers(block, result);
       }
-    model.contact->reduce_strength(StrengthReduction());
-    model.conditions->reduce_strength(StrengthReduction());
     return result;
   }
 

@@ -19,6 +19,10 @@ namespace Keyblock
      * it is on its way, however slow [-]. */
     constexpr double least_creep = 1e-5;
 
+    /** Way over the size of a block from which on it moves off, if it goes on,
+     * and from which on it is told wherever it ended [-]. */
+    constexpr double notable_way = 1e-3, long_way = 0.05;
+
     /** Overlaps from this share of the largest displacement on are told [-]. */
     constexpr double notable_overlap = 0.02;
 
@@ -44,11 +48,28 @@ namespace Keyblock
 
 
 
-    template <int dim>
-    std::string
-    name_what_moves(const Model<dim> &model, const StageProgress<dim> &progress)
+    /** How far a block has moved in a stage. */
+    struct Mover
     {
-      // mean displacement and velocity of each block in this stage
+      unsigned int block;
+      double way; ///< mean [m]
+      bool is_moving;
+      double speed; ///< of a steady motion [m/s]; 0: not measured
+    };
+
+    /** Mean displacement in the stage and velocity of a block. */
+    template <int dim>
+    struct MeanMotion
+    {
+      bool is_there = false;        ///< or all of it is excavated
+      Tensor<1, dim> way, velocity; ///< [m], [m/s]
+    };
+
+    /** Of each block, over the corners of its cells. */
+    template <int dim>
+    std::vector<MeanMotion<dim>>
+    measure_motions(const Model<dim> &model, const StageProgress<dim> &progress)
+    {
       const unsigned int n_blocks = model.blocks.blocks.size();
       std::vector<double> sums(n_blocks * (1 + 2 * dim), 0.);
       for (unsigned int c = 0; c < model.cells.nodes.size(); ++c)
@@ -71,54 +92,71 @@ namespace Keyblock
             }
         }
       model.communicator.sum_lists(sums);
-      struct Mover
-      {
-        double way;
-        unsigned int id;
-        bool is_moving;
-        double speed; ///< of a steady motion [m/s]; 0: not measured
-      };
-      std::vector<Mover> movers;
-      const auto motions = model.contact == nullptr
-                             ? std::vector<BlockMotion<dim>>(n_blocks)
-                             : model.contact->motions().measure();
+      std::vector<MeanMotion<dim>> motions(n_blocks);
       for (unsigned int b = 0; b < n_blocks; ++b)
+        if (const double *const sum = sums.data() + b * (1 + 2 * dim);
+            sum[0] > 0.)
+          {
+            motions[b].is_there = true;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                motions[b].way[d]      = sum[1 + d] / sum[0];
+                motions[b].velocity[d] = sum[1 + dim + d] / sum[0];
+              }
+          }
+      return motions;
+    }
+
+    /** Finite blocks that have gone far, or are going on; those that went
+     * farthest first. */
+    template <int dim>
+    std::vector<Mover>
+    choose_movers(const Model<dim> &model, const StageProgress<dim> &progress)
+    {
+      const auto means = measure_motions(model, progress);
+      const auto own   = model.contact == nullptr
+                           ? std::vector<BlockMotion<dim>>(means.size())
+                           : model.contact->motions().measure();
+      std::vector<Mover> movers;
+      for (unsigned int b = 0; b < means.size(); ++b)
         {
-          const double *const sum = sums.data() + b * (1 + 2 * dim);
-          if (sum[0] == 0. || model.blocks.blocks[b].is_infinite)
+          const Block<dim> &block = model.blocks.blocks[b];
+          if (block.is_infinite || !means[b].is_there)
             continue;
-          double way = 0., along = 0.;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              way += sum[1 + d] * sum[1 + d];
-              along += sum[1 + d] * sum[1 + dim + d];
-            }
-          way = std::sqrt(way) / sum[0];
-          // a thousandth of its size and still going, or far, and come to rest
-          const double size = model.blocks.blocks[b].size;
-          const bool is_moving =
-            way > 1e-3 * size && along > 0. && !progress.is_converged;
+          const double way    = means[b].way.norm();
+          const bool goes_off = way > notable_way * block.size &&
+                                means[b].way * means[b].velocity > 0. &&
+                                !progress.is_converged;
           // or slowly, but as fast as ever
           const auto motion =
-            progress.slips.motion_since(b, progress.n_done, motions[b].way());
+            progress.slips.motion_since(b, progress.n_done, own[b].way());
           const bool creeps =
-            !progress.is_converged && motion.way > least_creep * size;
-          const double speed =
-            creeps ? motion.way / (motion.n_steps * model.step->dt) : 0.;
-          if (is_moving || creeps || way > 0.05 * size)
+            !progress.is_converged && motion.way > least_creep * block.size;
+          if (goes_off || creeps || way > long_way * block.size)
             movers.push_back(
-              {way, model.blocks.blocks[b].id, is_moving || creeps, speed});
+              {b,
+               way,
+               goes_off || creeps,
+               creeps ? motion.way / (motion.n_steps * model.step->dt) : 0.});
         }
-      // those that went farthest
       std::stable_sort(movers.begin(),
                        movers.end(),
                        [](const Mover &a, const Mover &b) {
                          return a.way > b.way;
                        });
-      constexpr unsigned int n_named = 8;
+      return movers;
+    }
+
+    template <int dim>
+    std::string
+    name_what_moves(const Model<dim> &model, const StageProgress<dim> &progress)
+    {
+      constexpr unsigned int n_named  = 8;
+      const std::vector<Mover> movers = choose_movers(model, progress);
       std::ostringstream text;
       for (unsigned int i = 0; i < movers.size() && i < n_named; ++i)
-        text << (i == 0 ? "" : "; ") << "block " << movers[i].id
+        text << (i == 0 ? "" : "; ") << "block "
+             << model.blocks.blocks[movers[i].block].id
              << (movers[i].is_moving ? " is moving off (" : " moved off (")
              << std::setprecision(3) << movers[i].way << " m"
              << (movers[i].speed > 0.

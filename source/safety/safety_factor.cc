@@ -56,7 +56,6 @@ namespace Keyblock
     if (result.outcome == SafetyFactor::Outcome::bracketed &&
         scene.safety.reduced_joints != ReducedJoints::all)
       find_group(number, known, result);
-    trials.reduce(block, 1.);
     return result;
   }
 

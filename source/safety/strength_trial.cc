@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace Keyblock
 {
@@ -59,6 +60,29 @@ namespace Keyblock
 
     /** Times that a block which neither rests nor speeds up is looked at. */
     constexpr unsigned int n_rounds = 5;
+
+    /** While it lives, forces are measured at any step, and no ledger is kept.
+     */
+    template <int dim>
+    class MeasuredSteps
+    {
+    public:
+      explicit MeasuredSteps(ExplicitStep<dim> &step)
+        : step(step)
+        , keeps_ledger(std::exchange(step.keeps_ledger, false))
+        , skips_resting(std::exchange(step.skips_resting, false))
+      {}
+
+      ~MeasuredSteps()
+      {
+        step.keeps_ledger  = keeps_ledger;
+        step.skips_resting = skips_resting;
+      }
+
+    private:
+      ExplicitStep<dim> &step;
+      const bool keeps_ledger, skips_resting;
+    };
   } // namespace
 
 
@@ -345,11 +369,7 @@ namespace Keyblock
     reduce(block, start);
     run.conditions.scale_density(false);
     const double true_mass = mass_in_use(block);
-    // forces on the block are measured at any step
-    const bool keeps_ledger    = run.step.keeps_ledger;
-    const bool skips_resting   = run.step.skips_resting;
-    run.step.keeps_ledger      = false;
-    run.step.skips_resting     = false;
+    const MeasuredSteps<dim> guard(run.step);
     const unsigned int n_bonds = n_intact(block);
     const Verdict verdict      = decide(block, number, first, trial);
     trial.is_stable            = verdict == Verdict::holds;
@@ -357,8 +377,6 @@ namespace Keyblock
     trial.n_broken             = n_bonds - std::min(n_bonds, n_intact(block));
     for (; trial.n_steps < scene.safety.trial_steps; ++trial.n_steps)
       run.step.advance(false);
-    run.step.keeps_ledger  = keeps_ledger;
-    run.step.skips_resting = skips_resting;
     if (verdict == Verdict::fails)
       {
         last_failure = name_failure(block);

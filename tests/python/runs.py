@@ -205,6 +205,25 @@ def stop():
     except KeyboardInterrupt:
         pass
     check_that("the state is as before", all(map(numpy.array_equal, state, end_of(run))))
+    # and a stage after it has the strength of any other
+    ends = []
+    for is_stopped in (False, True):
+        run = keyblock.Run(keyblock.Scene(INCLINE, overrides={
+            "Safety factor/Blocks": "none", "Safety factor/Bracket": 1e-5,
+            "Mesh/Cells": (80, 16), "Stages/Names": "rest, slide",
+            "Stages/slide/Kind": "dynamic", "Stages/slide/Duration": 0.02}))
+        run.run_stage()
+        if is_stopped:
+            timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            try:
+                run.find_factor(1)
+                check_that("Ctrl-C stops a search between stages", False)
+            except KeyboardInterrupt:
+                pass
+        run.run_stage()
+        ends.append(end_of(run))
+    check_that("the next stage is the same", all(map(numpy.array_equal, *ends)))
     # where nothing looks for it Python does, afterwards
     timer = threading.Timer(0.01, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()

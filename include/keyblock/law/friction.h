@@ -31,8 +31,7 @@ namespace Keyblock
   {
     const double r_n = dot<dim>(impulse, normal);
     const double r_t = norm<dim>(add<dim>(impulse, -r_n, normal));
-    return {-r_n - strength.tension,
-            r_t - strength.cohesion - strength.static_friction * r_n};
+    return {-r_n - strength.tension, r_t - strength.sticking_limit(r_n)};
   }
 
   /** The larger of the two: positive when an intact point breaks. */

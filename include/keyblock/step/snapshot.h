@@ -39,7 +39,8 @@ namespace Keyblock
             run.contact ? run.contact->remember() : ContactMemory<dim>()};
   }
 
-  /** Go back; the next thing must be ExplicitStep::begin_stage. */
+  /** Go back, to strengths that are not reduced; the next thing must be
+   * ExplicitStep::begin_stage, or a trial. */
   template <int dim>
   void
   recall(const Snapshot<dim> &snapshot, const RunParts<dim> &run)
@@ -47,8 +48,12 @@ namespace Keyblock
     run.conditions.recall(snapshot.stage); // makes cells of another stage anew
     run.cells  = snapshot.cells;
     run.fields = snapshot.fields;
+    run.conditions.reduce_strength(StrengthReduction());
     if (run.contact)
-      run.contact->recall(snapshot.contact);
+      {
+        run.contact->recall(snapshot.contact);
+        run.contact->reduce_strength(StrengthReduction());
+      }
     run.step.recall(snapshot.step);
   }
 } // namespace Keyblock
