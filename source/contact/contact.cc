@@ -2,6 +2,8 @@
 // Contact: its parts, and the order of the step.
 #include <keyblock/contact/contact.h>
 
+#include <algorithm>
+
 namespace Keyblock
 {
   namespace
@@ -186,9 +188,12 @@ namespace Keyblock
         memory.state[p].impulse    = Vector<dim>{};
         memory.state[p].status     = ContactStatus::open;
       }
+    const auto is_of_block = [&](const SurfaceContact<dim> &contact) {
+      return contact.master_block == block ||
+             surface.block_of_node[contact.slave] == block;
+    };
     for (const SurfaceContact<dim> &contact : memory.contacts)
-      if (contact.master_block == block ||
-          surface.block_of_node[contact.slave] == block)
+      if (is_of_block(contact))
         for (int k = 0; k < contact.point.n_nodes; ++k)
           if (nodes.local_node[contact.point.node[k]] != none)
             for (int d = 0; d < dim; ++d)
@@ -196,7 +201,11 @@ namespace Keyblock
                 .contact_force[dim * nodes.local_node[contact.point.node[k]] +
                                d] -=
                 contact.point.weight[k] * contact.point.impulse[d] / kick;
-    memory.contacts.clear();
+    // another block may be taken away at the same time
+    memory.contacts.erase(std::remove_if(memory.contacts.begin(),
+                                         memory.contacts.end(),
+                                         is_of_block),
+                          memory.contacts.end());
     multi_pairs.list_nodes();
     memory.is_search_due = true;
   }

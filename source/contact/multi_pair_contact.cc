@@ -194,7 +194,8 @@ namespace Keyblock
   bool
   MultiPairContact<dim>::may_be_cluster(const Group &group) const
   {
-    if (group.is_oblique || scene.contact.is_published_variant())
+    if (group.is_oblique || !group.is_connected ||
+        scene.contact.is_published_variant())
       return false;
     const auto [begin, end] = topology.pairs_of_group(group.group);
     for (unsigned int p = begin; p < end; ++p)

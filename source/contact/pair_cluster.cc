@@ -2,6 +2,8 @@
 #include <keyblock/contact/pair_cluster.h>
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 namespace Keyblock
 {
@@ -46,6 +48,33 @@ namespace Keyblock
 
 
   template <int dim>
+  template <typename Index>
+  bool
+  PairCluster<dim>::joins_all_nodes(const PairTopology<dim> &topology,
+                                    const std::vector<PairState<dim>> &state,
+                                    const Index &index_of) const
+  {
+    std::vector<unsigned int> part(surface_nodes.size());
+    std::iota(part.begin(), part.end(), 0u);
+    for (unsigned int p = topology.interface.group_pairs_begin[group];
+         p < topology.interface.group_pairs_begin[group + 1];
+         ++p)
+      if (!state[p].is_removed)
+        {
+          const unsigned int one =
+            part[index_of(topology.interface.pairs[p].plus)];
+          const unsigned int other =
+            part[index_of(topology.interface.pairs[p].minus)];
+          std::replace(part.begin(), part.end(), other, one);
+        }
+    return std::adjacent_find(part.begin(),
+                              part.end(),
+                              std::not_equal_to<unsigned int>()) == part.end();
+  }
+
+
+
+  template <int dim>
   void
   PairCluster<dim>::set_up(const PairTopology<dim> &topology,
                            const SurfaceNodes<dim> &nodes,
@@ -59,7 +88,8 @@ namespace Keyblock
                        topology.surface.node_of_vertex[vertex]) -
              surface_nodes.begin();
     };
-    is_oblique = false;
+    is_connected = joins_all_nodes(topology, state, index_of);
+    is_oblique   = false;
     for (int d = 0; d < dim; ++d)
       {
         unsigned int n_free = 0;

@@ -67,6 +67,9 @@ namespace Keyblock
     if (factor.outcome == SafetyFactor::Outcome::bracketed)
       out << factor.value() << " [" << factor.lower << ", " << factor.upper
           << "]";
+    else if (factor.outcome == SafetyFactor::Outcome::falls_freely &&
+             factor.failure_mode != "falling")
+      out << "below " << factor.upper;
     else
       out << describe_outcome(factor);
     if (factor.undecided_upper > 0.)

@@ -189,13 +189,15 @@ namespace Keyblock
       }
     else
       {
-        result.block        = block;
-        result.outcome      = SafetyFactor::Outcome::falls_freely;
-        result.upper        = lowest;
-        result.failure_mode = "falling";
+        result.block   = block;
+        result.outcome = SafetyFactor::Outcome::falls_freely;
+        result.upper   = lowest;
         recall(record.before, model.parts());
         model.step->excavate(record.present.number());
         search.add_cheap_answers(block, result);
+        // it moved too far for trials to tell
+        result.failure_mode =
+          result.limit_factor < lowest ? result.limit_mode : "falling";
       }
     return result;
   }

@@ -55,6 +55,11 @@ namespace Keyblock
      * may be no more than strength that is not yet mobilised [-]. */
     constexpr double mobilising_slip = 0.02;
 
+    /** Resultant over the load of a block that fails at once; a smaller one may
+     * be that of rock which still relaxes, and is damped once more before a
+     * motion counts as failure [-]. */
+    constexpr double plain_unbalanced = 0.02;
+
     /** Windows over which such an acceleration must stay. */
     constexpr unsigned int n_steady = 6;
 
@@ -332,6 +337,7 @@ namespace Keyblock
 
     run.step.begin_stage(quiet, number);
     change_strength(block, trial);
+    unsigned int n_failures = 0;
     for (unsigned int round = 0; round < n_rounds; ++round)
       {
         const double begin = MPI_Wtime();
@@ -346,7 +352,10 @@ namespace Keyblock
         run.step.begin_stage(moving, number);
         const Verdict verdict =
           watch(block, (round + 1) * watch_periods, first, trial);
-        if (verdict != Verdict::open)
+        if (verdict == Verdict::holds)
+          return verdict;
+        if (verdict == Verdict::fails &&
+            (++n_failures > 1 || trial.unbalanced > plain_unbalanced))
           return verdict;
       }
     return Verdict::open;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a trial measures of a block, and the stage that its measures ask for.
+#include <keyblock/rock/nodal_force.h>
 #include <keyblock/safety/strength_trial.h>
 
 #include <algorithm>
@@ -24,21 +25,29 @@ namespace Keyblock
   typename StrengthTrials<dim>::Motion
   StrengthTrials<dim>::measure(const unsigned int block) const
   {
-    // resultant of everything but damping, loads, and size of contact forces
+    // resultant of everything but damping and supports, loads, and size of
+    // contact forces
     std::vector<double> sums(3 * dim + 2, 0.);
     const Fields<dim> &fields = run.fields;
     for (const unsigned int node : nodes_of_block[block])
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          sums[2 * dim + 2 + d] +=
-            fields.mass[node] * fields.velocity[dim * node + d];
-          sums[2 * dim + 1] += fields.mass[node] / dim;
-          const unsigned int i = dim * node + d;
-          sums[d] +=
-            fields.load[i] - fields.internal_force[i] + fields.contact_force[i];
-          sums[dim + d] += fields.load[i];
-          sums[2 * dim] += std::abs(fields.contact_force[i]);
-        }
+      {
+        Vector<dim> force = out_of_balance_force<dim>(fields, node);
+        take_support_reactions<dim>(fields,
+                                    node,
+                                    force,
+                                    [](double, const auto &) {});
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            sums[2 * dim + 2 + d] +=
+              fields.mass[node] * fields.velocity[dim * node + d];
+            sums[2 * dim + 1] += fields.mass[node] / dim;
+            const unsigned int i = dim * node + d;
+            if (fields.inverse_mass[node] > 0.)
+              sums[d] += force[d];
+            sums[dim + d] += fields.load[i];
+            sums[2 * dim] += std::abs(fields.contact_force[i]);
+          }
+      }
     communicator.sum_lists(sums);
     double resultant = 0., weight = 0.;
     for (unsigned int d = 0; d < dim; ++d)
@@ -64,7 +73,7 @@ namespace Keyblock
                                     const Tensor<1, dim> &way) const
   {
     const auto &elements = run.conditions.elements;
-    // resultants on the block: of loads, then of each element
+    // resultants on the block: of loads, of supports, then of each element
     std::vector<double> sums;
     const auto add_sum = [&](const std::vector<double> &force) {
       for (unsigned int d = 0; d < dim; ++d)
@@ -75,6 +84,21 @@ namespace Keyblock
         }
     };
     add_sum(run.fields.load);
+    std::vector<double> reactions(run.fields.load.size(), 0.);
+    for (const unsigned int node : nodes_of_block[block])
+      {
+        Vector<dim> force = out_of_balance_force<dim>(run.fields, node);
+        take_support_reactions<dim>(run.fields,
+                                    node,
+                                    force,
+                                    [&](const double held,
+                                        const auto &direction) {
+                                      for (unsigned int d = 0; d < dim; ++d)
+                                        reactions[dim * node + d] +=
+                                          held * direction[d];
+                                    });
+      }
+    add_sum(reactions);
     for (const auto &element : elements)
       {
         std::vector<double> force(run.fields.load.size(), 0.);
@@ -90,11 +114,14 @@ namespace Keyblock
     };
     std::vector<std::string> holders;
     const double load = along_way(0);
-    double left       = load;
+    const double held = along_way(1);
+    double left       = load - held;
+    if (held >= holding_share * load)
+      holders.push_back("supports");
     for (unsigned int i = 0; i < elements.size(); ++i)
       {
         // forces of elements count against what they do to the rock
-        const double borne = along_way(i + 1);
+        const double borne = along_way(i + 2);
         left -= borne;
         if (borne < holding_share * load)
           continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The forces of a step: of all cells or those that do not rest, and of force
 // elements, and what they leave unbalanced.
+#include <keyblock/rock/nodal_force.h>
 #include <keyblock/step/step.h>
-
 
 #include <algorithm>
 #include <cmath>
@@ -139,26 +139,17 @@ namespace Keyblock
     double loads = 0., reactions = 0., internal = 0.;
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       {
-        std::array<double, dim> force;
-        for (unsigned int d = 0; d < dim; ++d)
+        Vector<dim> force = out_of_balance_force<dim>(fields, node);
+        for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
           {
-            const unsigned int i = dim * node + d;
-            force[d]             = fields.load[i] - fields.internal_force[i] +
-                       fields.contact_force[i];
             internal += std::abs(fields.internal_force[i]);
             if (fields.inverse_mass[node] > 0.)
               loads += std::abs(fields.load[i]);
           }
-        const int s = fields.support_of_node[node];
-        if (s >= 0)
-          for (unsigned int k = 0; k < fields.supports[s].n_directions; ++k)
-            {
-              const auto &direction = fields.supports[s].directions[k];
-              const double held     = dot<dim>(direction, force);
-              reactions += std::abs(held);
-              for (unsigned int d = 0; d < dim; ++d)
-                force[d] -= held * direction[d];
-            }
+        take_support_reactions<dim>(
+          fields, node, force, [&reactions](const double held, const auto &) {
+            reactions += std::abs(held);
+          });
         if (fields.inverse_mass[node] == 0.)
           continue;
         ++n_free;

@@ -286,6 +286,10 @@ keyblock_scene(verification/cohesive_incline
   SET "Joints/base/Tensile strength=1000")
 # clamped: pressure, friction angle
 keyblock_scene(verification/roof_clamped RANKS 1 2)
+# blocks that supports hold, and blocks with an edge and nothing else in common
+keyblock_scene(verification/block_at_wall RANKS 1 2)
+keyblock_scene(verification/half_trough RANKS 1)
+keyblock_scene(verification/blocks_at_edge RANKS 1 2)
 keyblock_scene(verification/lined_roof RANKS 1 2)
 keyblock_scene(verification/lined_roof REFERENCES lined_roof_weight RANKS 1
   SET "Shotcrete/shell/Density=2400")

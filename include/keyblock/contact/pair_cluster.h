@@ -45,7 +45,17 @@ namespace Keyblock
     /** Held in directions that are no axes: it is no cluster then. */
     bool is_oblique = false;
 
+    /** Whether the pairs that are left join all of its nodes: else it is no
+     * cluster; a block between two others may have been taken away. */
+    bool is_connected = true;
+
   private:
+    /** Whether pairs join all nodes; @p index_of a vertex among the nodes. */
+    template <typename Index>
+    bool joins_all_nodes(const PairTopology<dim> &topology,
+                         const std::vector<PairState<dim>> &state,
+                         const Index &index_of) const;
+
     /** Inverse of the area-weighted Laplacian of the free nodes, one per axis
      * (they differ where nodes are held along an axis). */
     std::array<std::vector<double>, dim> inverse;
