@@ -52,17 +52,6 @@ namespace Keyblock
 
 
 
-    template <int dim>
-    double
-    pressure_wave_speed(const Material<dim> &material)
-    {
-      return std::sqrt(
-        (material.lame_lambda() + 2. * material.shear_modulus()) /
-        material.density);
-    }
-
-
-
     /** Of the rock at the foot of a side, per area [Pa s/m]. */
     template <int dim>
     Tensor<2, dim>
@@ -149,8 +138,7 @@ namespace Keyblock
         SideFace<dim> face{std::numeric_limits<double>::max(),
                            std::numeric_limits<double>::lowest(),
                            scene.materials[ground.natural_material_of(c)].get(),
-                           pressure_wave_speed(
-                             *scene.materials[mesh.material[c]])};
+                           scene.materials[mesh.material[c]]->p_wave_speed()};
         for (const unsigned int v : mesh.face_vertices(c, f))
           {
             face.bottom = std::min(face.bottom, mesh.vertices[v][dim - 1]);
@@ -160,7 +148,7 @@ namespace Keyblock
           for (const unsigned int later : mesh.later_materials[c])
             face.largest_speed =
               std::max(face.largest_speed,
-                       pressure_wave_speed(*scene.materials[later]));
+                       scene.materials[later]->p_wave_speed());
         faces.push_back(face);
       });
     return faces;

@@ -15,8 +15,7 @@ namespace Keyblock
   {
     const double shear = std::sqrt(material.density * material.shear_modulus());
     const double pressure =
-      std::sqrt(material.density *
-                (material.lame_lambda() + 2. * material.shear_modulus()));
+      std::sqrt(material.density * material.p_wave_modulus());
     Tensor<2, dim> impedance = (pressure - shear) * outer_product(n, n);
     for (unsigned int d = 0; d < dim; ++d)
       impedance[d][d] += shear;

@@ -171,7 +171,7 @@ namespace Keyblock
   check_gravity_column(const CheckInput<dim> &input)
   {
     const Material<dim> &rock = *input.scene.materials.front();
-    const double modulus      = rock.lame_lambda() + 2. * rock.shear_modulus();
+    const double modulus      = rock.p_wave_modulus();
     const Expression<dim> formula(input.scene.initial_state.gravity,
                                   dim,
                                   "Initial state/Gravity");
