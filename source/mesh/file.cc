@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A mesh from a file: .msh is read by Gmsh.
+#include <deal.II/base/bounding_box.h>
+
 #include <keyblock/base/errors.h>
 #include <keyblock/mesh/file_formats.h>
 #include <keyblock/mesh/gmsh_file.h>
@@ -138,13 +140,8 @@ namespace Keyblock
     void
     check_flat(const MixedMesh &mixed, const std::string &origin)
     {
-      Point<3> low = mixed.vertices.front(), high = low;
-      for (const Point<3> &vertex : mixed.vertices)
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            low[d]  = std::min(low[d], vertex[d]);
-            high[d] = std::max(high[d], vertex[d]);
-          }
+      const dealii::BoundingBox<3> box(mixed.vertices);
+      const auto &[low, high] = box.get_boundary_points();
       std::ostringstream text;
       text << origin << " has vertices between z = " << low[2] << " m and "
            << high[2] << " m, but 'Dimension' is 2; lay the mesh into the "

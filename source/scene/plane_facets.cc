@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Plane parts of lines with kinks, surfaces of triangles, and faces of cells.
+#include <keyblock/base/box.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/plane_faces.h>
 #include <keyblock/scene/plane_facets.h>
@@ -24,21 +25,17 @@ namespace Keyblock
     /** Sine between planes below which vertices are not put where they meet. */
     constexpr double least_sine = 1e-3;
 
+    /** Diagonal of the box around points, which have to be finite [m]. */
     template <int dim>
     double
     size_of(const std::vector<Point<dim>> &points)
     {
-      Point<dim> low = points.at(0), high = low;
       for (const Point<dim> &p : points)
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            if (!std::isfinite(p[d]))
-              throw std::runtime_error("it has a point that is no finite "
-                                       "number");
-            low[d]  = std::min(low[d], p[d]);
-            high[d] = std::max(high[d], p[d]);
-          }
-      return low.distance(high);
+          if (!std::isfinite(p[d]))
+            throw std::runtime_error("it has a point that is no finite "
+                                     "number");
+      return diagonal_of_box(points);
     }
 
     /** Unit normal to a segment (2D: to its left) or of a polygon (by its
