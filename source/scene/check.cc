@@ -64,6 +64,10 @@ namespace Keyblock
           (has_monitor(MonitorKind::support) && scene.checks.length > 0.),
         "The entry 'Check/Closed form' is footing, which needs a monitor of "
         "kind support and the loaded width in 'Check/Length'.");
+      require(form != ClosedForm::gravity_column ||
+                !scene.initial_state.gravity.empty(),
+              "The entry 'Check/Closed form' is gravity_column, which needs "
+              "'Initial state/Gravity'; set it.");
       require((form != ClosedForm::kirsch && form != ClosedForm::salencon) ||
                 (scene.excavations.size() == 1 &&
                  scene.excavations[0]->shape == ExcavationShape::circle),

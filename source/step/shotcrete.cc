@@ -26,6 +26,7 @@ namespace Keyblock
     , numbering(numbering)
     , weighed_mass(numbering.n_owned(), 0.)
     , inert_mass(numbering.n_owned(), 0.)
+    , acceleration(scene)
   {
     for (unsigned int i = 0; i < split.liners.size(); ++i)
       for (const LinerTrace<dim> &trace : split.liners[i].traces)
@@ -36,10 +37,6 @@ namespace Keyblock
           sections.back().liner = i;
           sections.back().trace = trace;
         }
-    if (!scene.initial_state.gravity.empty())
-      gravity = std::make_unique<Expression<dim>>(scene.initial_state.gravity,
-                                                  dim,
-                                                  "Initial state/Gravity");
   }
 
 
@@ -56,8 +53,7 @@ namespace Keyblock
       section.is_present = is_there(section.liner) &&
                            !ground.is_excavated(section.trace.cell[0]) &&
                            !ground.is_excavated(section.trace.cell[1]);
-    seismic_acceleration =
-      standard_gravity * scene.seismic_coefficient(ground.stage_number);
+    acceleration.take_ground(ground);
     std::fill(weighed_mass.begin(), weighed_mass.end(), 0.);
     std::fill(inert_mass.begin(), inert_mass.end(), 0.);
     reports.clear();
@@ -196,9 +192,7 @@ namespace Keyblock
   void
   Shotcrete<dim>::add_load(const double time, std::vector<double> &load) const
   {
-    Tensor<1, dim> g = seismic_acceleration;
-    if (gravity)
-      g += gravity->vector(Point<dim>(), time);
+    const Tensor<1, dim> g = acceleration.at(time);
     for (unsigned int node = 0; node < weighed_mass.size(); ++node)
       for (unsigned int d = 0; d < dim; ++d)
         load[dim * node + d] += weighed_mass[node] * g[d];

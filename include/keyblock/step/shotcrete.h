@@ -2,7 +2,7 @@
 #ifndef keyblock_step_shotcrete_h
 #define keyblock_step_shotcrete_h
 
-#include <keyblock/base/expression.h>
+#include <keyblock/step/body_acceleration.h>
 #include <keyblock/step/force_element.h>
 #include <keyblock/step/passive_support.h>
 
@@ -109,8 +109,7 @@ namespace Keyblock
     std::vector<double> own_mass;     ///< in use, by owned node [kg]
     double frequency = 0.;            ///< highest of the cells [rad/s]
     std::vector<LinerReport> reports; ///< but for loads
-    std::unique_ptr<Expression<dim>> gravity;
-    Tensor<1, dim> seismic_acceleration; ///< of the stage [m/s2]
+    BodyAcceleration<dim> acceleration;
     PassiveSupport<dim> trial;
   };
 } // namespace Keyblock
