@@ -3,6 +3,7 @@
 #include <deal.II/base/bounding_box.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/base/find_file.h>
 #include <keyblock/mesh/file_formats.h>
 #include <keyblock/mesh/gmsh_file.h>
 #include <keyblock/mesh/mark_groups.h>
@@ -178,23 +179,6 @@ namespace Keyblock
         }
       return is_pure ? mixed.cells.size() : n;
     }
-
-    /** The path as seen from the scene file if it exists, else as given. */
-    std::string
-    find_file(const std::string &scene_file, const std::string &file)
-    {
-      namespace fs = std::filesystem;
-      for (const fs::path &path :
-           {fs::path(scene_file).parent_path() / file, fs::path(file)})
-        if (fs::is_regular_file(path) && std::ifstream(path))
-          return path.string();
-      AssertThrow(false,
-                  InputError("The mesh file '" + file +
-                             "' of the entry 'Domain/File' does not exist or "
-                             "cannot be read; give a path relative to the "
-                             "scene file."));
-      return "";
-    }
   } // namespace
 
 
@@ -206,6 +190,9 @@ namespace Keyblock
     const std::string path = find_file(scene.file, scene.domain.file);
     const std::string origin =
       "The mesh file '" + scene.domain.file + "' of the entry 'Domain/File'";
+    AssertThrow(!path.empty(),
+                InputError(origin + " does not exist or cannot be read; give a "
+                                    "path relative to the scene file."));
     const std::string extension = std::filesystem::path(path).extension();
     AssertThrow(extension == ".msh" || extension == ".inp" ||
                   extension == ".vtk" || extension == ".ucd",
