@@ -3,7 +3,6 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/base/find_file.h>
 #include <keyblock/base/gmsh_session.h>
-#include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
 #include <keyblock/scene/dxf.h>
 #include <keyblock/scene/group_faces.h>

@@ -2,6 +2,7 @@
 // Plane parts of lines with kinks, surfaces of triangles, and faces of cells.
 #include <keyblock/base/box.h>
 #include <keyblock/base/number_text.h>
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/scene/plane_faces.h>
 #include <keyblock/scene/plane_facets.h>
 
@@ -197,9 +198,7 @@ namespace Keyblock
           std::vector<unsigned int> vertices;
           for (const Triangle &t : face.triangles)
             vertices.insert(vertices.end(), t.begin(), t.end());
-          std::sort(vertices.begin(), vertices.end());
-          vertices.erase(std::unique(vertices.begin(), vertices.end()),
-                         vertices.end());
+          sort_unique(vertices);
           for (const unsigned int v : vertices)
             planes_at[v].push_back(plane);
         }

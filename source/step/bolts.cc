@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/bolts.h>
 
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/step/row_bound.h>
-
-#include <algorithm>
 
 namespace Keyblock
 {
@@ -47,8 +46,7 @@ namespace Keyblock
         for (const auto &[node, weight] : point.carriers)
           list.push_back(node);
     });
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    sort_unique(list);
     return list;
   }
 

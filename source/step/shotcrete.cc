@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/shotcrete.h>
 
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/step/liner_mass.h>
 #include <keyblock/step/row_bound.h>
 
@@ -101,8 +102,7 @@ namespace Keyblock
     for (unsigned int node = 0; node < weighed_mass.size(); ++node)
       if (weighed_mass[node] > 0.)
         list.push_back(node);
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    sort_unique(list);
     return list;
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/step/liner_mass.h>
 #include <keyblock/step/structural_liner.h>
 
@@ -27,9 +28,7 @@ namespace Keyblock
             vertices.insert(vertices.end(),
                             face.vertices.begin(),
                             face.vertices.end());
-          std::sort(vertices.begin(), vertices.end());
-          vertices.erase(std::unique(vertices.begin(), vertices.end()),
-                         vertices.end());
+          sort_unique(vertices);
           for (const unsigned int v : vertices)
             {
               lining.anchors.emplace_back();
@@ -152,8 +151,7 @@ namespace Keyblock
           for_each_owned(anchor, [&](const unsigned int node, double) {
             list.push_back(node);
           });
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    sort_unique(list);
     return list;
   }
 
