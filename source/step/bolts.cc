@@ -10,8 +10,8 @@ namespace Keyblock
   Bolts<dim>::Bolts(const Scene<dim> &scene,
                     const SplitMesh<dim> &split,
                     const Numbering<dim> &numbering)
-    : scene(scene)
-    , numbering(numbering)
+    : numbering(numbering)
+    , trial(scene.safety.bolt_convention)
   {
     for (const Bolt<dim> &bolt : split.bolts)
       bolts.emplace_back(bolt, scene);
@@ -124,16 +124,6 @@ namespace Keyblock
       bolt.multiply(along, jump, force);
     });
     points.subtract(motion.data(), force);
-  }
-
-
-
-  template <int dim>
-  void
-  Bolts<dim>::reduce_strength(const StrengthReduction &reduction)
-  {
-    if (scene.safety.bolt_convention == BoltConvention::passive)
-      trial.reduce_strength(reduction);
   }
 
 

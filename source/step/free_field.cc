@@ -198,17 +198,17 @@ namespace Keyblock
             const auto vectors  = nodal_area_vectors(mesh, c, f);
             const auto vertices = mesh.face_vertices(c, f);
             for (unsigned int v = 0; v < vertices.size(); ++v)
-              split.for_each_carrier(
+              for_each_owned_carrier(
+                split,
+                numbering,
                 vertices[v],
-                [&](const unsigned int carrier, const double weight) {
-                  if (numbering.is_owned(carrier))
-                    shares.push_back(
-                      {i,
-                       entry_of_node(numbering.local_node(carrier)),
-                       mesh.vertices[vertices[v]][dim - 1],
-                       mesh.face_center(c, f)[dim - 1],
-                       weight * areas[v] * impedance,
-                       weight * vectors[v]});
+                [&](const unsigned int node, const double weight) {
+                  shares.push_back({i,
+                                    entry_of_node(node),
+                                    mesh.vertices[vertices[v]][dim - 1],
+                                    mesh.face_center(c, f)[dim - 1],
+                                    weight * areas[v] * impedance,
+                                    weight * vectors[v]});
                 });
           });
   }

@@ -94,11 +94,12 @@ namespace Keyblock
   {
     const auto vertices = split.mesh.face_vertices(face.cell, face.face);
     for (unsigned int v = 0; v < vertices.size(); ++v)
-      split.for_each_carrier(
-        vertices[v], [&](const unsigned int carrier, const double weight) {
-          if (numbering.is_owned(carrier))
-            action(numbering.local_node(carrier), weight * point.shape[v]);
-        });
+      for_each_owned_carrier(split,
+                             numbering,
+                             vertices[v],
+                             [&](const unsigned int node, const double weight) {
+                               action(node, weight * point.shape[v]);
+                             });
   }
 
 
@@ -109,8 +110,8 @@ namespace Keyblock
   {
     bool is_any = false;
     for (const unsigned int v : split.mesh.face_vertices(face.cell, face.face))
-      split.for_each_carrier(v, [&](const unsigned int carrier, double) {
-        is_any = is_any || numbering.is_owned(carrier);
+      for_each_owned_carrier(split, numbering, v, [&](unsigned int, double) {
+        is_any = true;
       });
     return is_any;
   }

@@ -117,12 +117,11 @@ namespace Keyblock
                   const auto areas    = nodal_areas(mesh, c, f);
                   const auto vertices = mesh.face_vertices(c, f);
                   for (unsigned int v = 0; v < vertices.size(); ++v)
-                    split.for_each_carrier(
+                    for_each_owned_carrier(
+                      split,
+                      numbering,
                       vertices[v],
-                      [&](const unsigned int carrier, const double weight) {
-                        if (!numbering.is_owned(carrier))
-                          return;
-                        const unsigned int node = numbering.local_node(carrier);
+                      [&](const unsigned int node, const double weight) {
                         Dashpot &dashpot =
                           found
                             .try_emplace({{node, s}}, Dashpot{node, s, {}, 0.})

@@ -28,6 +28,7 @@ namespace Keyblock
     , weighed_mass(numbering.n_owned(), 0.)
     , inert_mass(numbering.n_owned(), 0.)
     , acceleration(scene)
+    , trial(scene.safety.bolt_convention)
   {
     for (unsigned int i = 0; i < split.liners.size(); ++i)
       for (const LinerTrace<dim> &trace : split.liners[i].traces)
@@ -202,29 +203,13 @@ namespace Keyblock
 
   template <int dim>
   void
-  Shotcrete<dim>::reduce_strength(const StrengthReduction &reduction)
-  {
-    if (scene.safety.bolt_convention == BoltConvention::passive)
-      trial.reduce_strength(reduction);
-  }
-
-
-
-  template <int dim>
-  void
   Shotcrete<dim>::add_mass(const typename ForceElement<dim>::Inertia &inertia,
                            std::vector<double> &mass)
   {
     frequency = inertia.frequency;
     own_mass  = inert_mass;
-    if (inertia.has_equal_steps)
-      {
-        own_mass = row_sums();
-        for (double &m : own_mass)
-          m /= frequency * frequency;
-      }
-    for (unsigned int node = 0; node < own_mass.size(); ++node)
-      mass[node] += own_mass[node];
+    add_inertia_of_liners(
+      inertia, [this]() { return row_sums(); }, own_mass, mass);
   }
 
 
@@ -290,13 +275,9 @@ namespace Keyblock
   {
     ForceElementState state{name(), {}, {}};
     for (const Section &section : sections)
-      {
-        state.numbers.push_back(section.is_installed);
-        state.numbers.push_back(section.dissipated);
-        for (const auto *value : {&section.rest, &section.slip, &section.force})
-          for (unsigned int d = 0; d < dim; ++d)
-            state.numbers.push_back((*value)[d]);
-      }
+      for_each_number(section, [&](const double number) {
+        state.numbers.push_back(number);
+      });
     return state;
   }
 
@@ -308,13 +289,8 @@ namespace Keyblock
   {
     std::size_t at = 0;
     for (Section &section : sections)
-      {
-        section.is_installed = state.numbers.at(at++) != 0.;
-        section.dissipated   = state.numbers.at(at++);
-        for (auto *value : {&section.rest, &section.slip, &section.force})
-          for (unsigned int d = 0; d < dim; ++d)
-            (*value)[d] = state.numbers.at(at++);
-      }
+      for_each_number(section,
+                      [&](auto &number) { number = state.numbers.at(at++); });
   }
 
 

@@ -33,11 +33,12 @@ namespace Keyblock
             {
               lining.anchors.emplace_back();
               lining.anchors.back().vertex = v;
-              split.for_each_carrier(
-                v, [&](const unsigned int carrier, const double weight) {
-                  if (numbering.is_owned(carrier))
-                    lining.anchors.back().carriers.emplace_back(
-                      numbering.local_node(carrier), weight);
+              for_each_owned_carrier(
+                split,
+                numbering,
+                v,
+                [&](const unsigned int node, const double weight) {
+                  lining.anchors.back().carriers.emplace_back(node, weight);
                 });
             }
           linings.push_back(std::move(lining));
@@ -263,13 +264,9 @@ namespace Keyblock
   {
     ForceElementState state{name(), {}, {}};
     for (const Lining &lining : linings)
-      {
-        state.numbers.push_back(lining.is_installed);
-        for (const Anchor &anchor : lining.anchors)
-          for (const auto *value : {&anchor.rest, &anchor.displacement})
-            for (unsigned int d = 0; d < dim; ++d)
-              state.numbers.push_back((*value)[d]);
-      }
+      for_each_number(lining, [&](const double number) {
+        state.numbers.push_back(number);
+      });
     return state;
   }
 
@@ -281,13 +278,8 @@ namespace Keyblock
   {
     std::size_t at = 0;
     for (Lining &lining : linings)
-      {
-        lining.is_installed = state.numbers.at(at++) != 0.;
-        for (Anchor &anchor : lining.anchors)
-          for (auto *value : {&anchor.rest, &anchor.displacement})
-            for (unsigned int d = 0; d < dim; ++d)
-              (*value)[d] = state.numbers.at(at++);
-      }
+      for_each_number(lining,
+                      [&](auto &number) { number = state.numbers.at(at++); });
   }
 
 
