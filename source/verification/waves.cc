@@ -171,10 +171,6 @@ namespace Keyblock
     for (const auto &monitor : input.scene.monitors)
       if (monitor->kind == MonitorKind::point)
         points.push_back(monitor.get());
-    AssertThrow(base && !joints.empty() && points.size() == 2,
-                InputError("The closed form joint_wave needs a quiet support "
-                           "with a 'Velocity', 'Check/Joint', and two monitors "
-                           "of kind point: before and behind the joint."));
     const Material<dim> &rock = *input.scene.materials.front();
     const double speed        = rock.s_wave_speed();
     const double impedance    = rock.density * speed;
