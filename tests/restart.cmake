@@ -63,19 +63,19 @@ keyblock_restart(factor_incline_stopped verification/factor_incline
   ARGUMENTS --by stop --breaks 2 --set "Safety factor/Bracket=0.003"
   --set "Mesh/Cells=80, 16")
 # factors by rank groups, each of a block, after two stages
-set(two_teams --ranks 2 --set "Safety factor/Rank groups=2" --set "Mesh/Cells=80, 16"
+set(two_rank_groups --ranks 2 --set "Safety factor/Rank groups=2" --set "Mesh/Cells=80, 16"
   --set "Excavations/Names=uphill, downhill, slot"
   --set "Excavations/slot/Shape=box" --set "Excavations/slot/Corner=-0.05, 0"
   --set "Excavations/slot/Size=0.1, 0.1" --set "Stages/Names=rest, again"
   --set "Stages/again/Kind=quasi-static"
   --set "Stages/again/Friction angle override=84.2894"
   --set "Stages/again/Unbalanced ratio=1e-7")
-keyblock_restart(teams verification/factor_incline RANKS 2
-  ARGUMENTS ${two_teams})
-keyblock_restart(teams_stopped verification/factor_incline SLOW RANKS 2
-  ARGUMENTS --by stop --breaks 2 ${two_teams})
-keyblock_restart(teams_20 verification/factor_incline RANKS 2 SLOW
-  ARGUMENTS --breaks 20 ${two_teams})
+keyblock_restart(rank_groups verification/factor_incline RANKS 2
+  ARGUMENTS ${two_rank_groups})
+keyblock_restart(rank_groups_stopped verification/factor_incline SLOW RANKS 2
+  ARGUMENTS --by stop --breaks 2 ${two_rank_groups})
+keyblock_restart(rank_groups_20 verification/factor_incline RANKS 2 SLOW
+  ARGUMENTS --breaks 20 ${two_rank_groups})
 # cells at rest
 keyblock_restart(pulse verification/pulse RANKS 2
   ARGUMENTS --ranks 2 --set "Time stepping/Rest speed=1e-3")

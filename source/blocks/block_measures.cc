@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/blocks/block_measures.h>
 
-#include <keyblock/base/expression.h>
 #include <keyblock/blocks/face_quadrature.h>
 #include <keyblock/blocks/plane_arrangement.h>
+#include <keyblock/scene/gravity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -323,12 +323,9 @@ namespace Keyblock
   double
   weight_per_mass(const Scene<dim> &scene)
   {
-    const std::string &formula = scene.initial_state.gravity;
-    return formula.empty()
-             ? standard_gravity
-             : Expression<dim>(formula, dim, "Initial state/Gravity")
-                 .vector(Point<dim>(), 0.)
-                 .norm();
+    const Gravity<dim> gravity(scene);
+    return gravity.is_given() ? gravity.at(Point<dim>(), 0.).norm()
+                              : standard_gravity;
   }
 
   template double weight_per_mass(const Scene<2> &);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/blocks/block_resolution.h>
 
 #include <algorithm>
@@ -82,9 +83,7 @@ namespace Keyblock
     for (unsigned int b = 0; b < hulls.size(); ++b)
       {
         auto &vertices = hulls[b].vertices;
-        std::sort(vertices.begin(), vertices.end());
-        vertices.erase(std::unique(vertices.begin(), vertices.end()),
-                       vertices.end());
+        sort_unique(vertices);
         if (!vertices.empty())
           blocks.blocks[b].width = hulls[b].width(mesh);
       }

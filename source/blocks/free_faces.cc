@@ -71,17 +71,6 @@ namespace Keyblock
       return x;
     }
 
-    template <int dim>
-    dealii::BoundingBox<dim>
-    box_around(const Point<dim> &a, const Point<dim> &b)
-    {
-      std::pair<Point<dim>, Point<dim>> ends{a, b};
-      for (unsigned int d = 0; d < dim; ++d)
-        if (ends.first[d] > ends.second[d])
-          std::swap(ends.first[d], ends.second[d]);
-      return dealii::BoundingBox<dim>(ends);
-    }
-
     using ByBlock = std::vector<std::vector<unsigned int>>;
 
     void
@@ -168,8 +157,8 @@ namespace Keyblock
   {
     std::optional<Meeting> first;
     std::vector<Entry> near;
-    const auto box =
-      box_around<dim>(from - behind * direction, from + reach * direction);
+    const dealii::BoundingBox<dim> box(std::array<Point<dim>, 2>{
+      {from - behind * direction, from + reach * direction}});
     tree.query(boost::geometry::index::intersects(box),
                std::back_inserter(near));
     for (const Entry &entry : near)

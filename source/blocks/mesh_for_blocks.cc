@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/box.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/mesh/excavation_region.h>
 
@@ -26,7 +27,7 @@ namespace Keyblock
         : scene(scene)
         , mesh(mesh)
         , blocks(blocks)
-        , size(scene, longest_side(mesh), demands)
+        , size(scene, longest_side(BoundingBox<dim>(mesh.vertices)), demands)
       {
         for (const auto &excavation : scene.excavations)
           if (excavation->has_outline())
@@ -86,23 +87,6 @@ namespace Keyblock
                 return true;
             }
         return !has_outline;
-      }
-
-      static double
-      longest_side(const Mesh<dim> &mesh)
-      {
-        double longest = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const auto [low, high] =
-              std::minmax_element(mesh.vertices.begin(),
-                                  mesh.vertices.end(),
-                                  [d](const auto &a, const auto &b) {
-                                    return a[d] < b[d];
-                                  });
-            longest = std::max(longest, (*high)[d] - (*low)[d]);
-          }
-        return longest;
       }
 
       const Scene<dim> &scene;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/bounding_box.h>
+
 #include <keyblock/blocks/plane_arrangement.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 namespace Keyblock
 {
@@ -31,8 +34,6 @@ namespace Keyblock
   PlaneArrangement<dim>::PlaneArrangement(const Mesh<dim> &mesh,
                                           const Scene<dim> &scene)
     : mesh(mesh)
-    , low(mesh.vertices[0])
-    , high(mesh.vertices[0])
   {
     for (const auto &joint : scene.joints)
       {
@@ -50,12 +51,8 @@ namespace Keyblock
           }
         balls.push_back(ball);
       }
-    for (const Point<dim> &p : mesh.vertices)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          low[d]  = std::min(low[d], p[d]);
-          high[d] = std::max(high[d], p[d]);
-        }
+    std::tie(low, high) =
+      dealii::BoundingBox<dim>(mesh.vertices).get_boundary_points();
     std::set<typename Mesh<dim>::FaceVertices> is_there;
     for (const auto &face : mesh.marked_faces)
       {

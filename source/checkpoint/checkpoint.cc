@@ -319,7 +319,7 @@ namespace Keyblock
     file.exchange(group + "searched_gap", gap);
     memory.searched_gap = gap.at(0);
     file.exchange(group + "is_search_due", memory.is_search_due);
-    file.exchange(group + "next_normal_check", memory.next_normal_check);
+    file.exchange(group + "next_normal_check", memory.next_motion_check);
   }
 
   template class StateExchange<2>;

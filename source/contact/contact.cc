@@ -220,7 +220,7 @@ namespace Keyblock
     keep_histories();
     springs.allocate();
     memory.is_search_due     = true;
-    memory.next_normal_check = memory.n_steps;
+    memory.next_motion_check = memory.n_steps;
     multi_pairs.list_nodes();
     multi_pairs.activate_nodes();
   }
@@ -233,7 +233,7 @@ namespace Keyblock
   {
     recall(past);
     memory.is_search_due     = past.is_search_due;
-    memory.next_normal_check = past.next_normal_check;
+    memory.next_motion_check = past.next_motion_check;
     detection.search_again();
   }
 

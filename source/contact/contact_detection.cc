@@ -8,6 +8,20 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Way of a node from which on contacts are searched again, over the skin
+     * [-]: two of them that approach each other use it up. */
+    constexpr double used_up_way = 0.5;
+
+    /** Steps for which motion is not measured where nodes move less than a way
+     * in them, over the skin [-]. */
+    constexpr unsigned int slow_steps = 20;
+    constexpr double slow_way         = 0.125;
+  } // namespace
+
+
+
   template <int dim>
   ContactDetection<dim>::ContactDetection(ContactSearch<dim> &search,
                                           const PairTopology<dim> &topology,
@@ -105,7 +119,7 @@ namespace Keyblock
   ContactDetection<dim>::measure_motion(const double step)
   {
     if (!memory.searched_position.empty() &&
-        memory.n_steps >= memory.next_normal_check)
+        memory.n_steps >= memory.next_motion_check)
       {
         double square = 0., speed = 0.;
         for (unsigned int node = 0; node < surface.n_nodes(); ++node)
@@ -124,14 +138,14 @@ namespace Keyblock
               square = std::max(square, moved);
               speed  = std::max(speed, fast);
             }
-        square               = numbering.communicator.max(square);
-        speed                = std::sqrt(numbering.communicator.max(speed));
-        memory.is_search_due = memory.is_search_due ||
-                               square > 0.25 * surface.skin() * surface.skin();
-        const double eighth      = 0.125 * surface.skin();
-        memory.next_normal_check = memory.n_steps + 1;
-        if (speed * step * 20. < eighth)
-          memory.next_normal_check += 19;
+        square = numbering.communicator.max(square);
+        speed  = std::sqrt(numbering.communicator.max(speed));
+        memory.is_search_due =
+          memory.is_search_due ||
+          square > used_up_way * used_up_way * surface.skin() * surface.skin();
+        const bool is_slow =
+          speed * step * slow_steps < slow_way * surface.skin();
+        memory.next_motion_check = memory.n_steps + (is_slow ? slow_steps : 1);
       }
   }
 

@@ -9,6 +9,19 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Over the size of a face [-]: distance of feet that are one; distance
+     * from a plane that is none; overlap beside faces up to which a node is
+     * taken to be on them. */
+    constexpr double same_foot = 1e-9, no_distance = 1e-6, deepest_beside = 0.1;
+
+    /** Difference of cosines that are equal [-]. */
+    constexpr double equal_cosine = 1e-9;
+  } // namespace
+
+
+
   template <int dim>
   bool
   ContactSearch<dim>::is_convex(const std::vector<double> &position,
@@ -25,7 +38,7 @@ namespace Keyblock
         1. / Mesh<dim>::n_face_vertices,
         difference<dim>(at<dim>(position, surface.nodes_of_face[b.face][v]),
                         at<dim>(position, surface.nodes_of_face[a.face][v])));
-    return dot<dim>(from_a_to_b, a.normal) < -1e-6 * a.size;
+    return dot<dim>(from_a_to_b, a.normal) < -no_distance * a.size;
   }
 
 
@@ -36,7 +49,7 @@ namespace Keyblock
                             const Projection<dim> &a,
                             const Projection<dim> &b) const
   {
-    const double slack   = 1e-6 * a.size;
+    const double slack   = no_distance * a.size;
     const Vector<dim> on = at<dim>(position, surface.nodes_of_face[a.face][0]);
     if (is_coplanar(a, b) || a.gap < -slack)
       return false;
@@ -218,7 +231,7 @@ namespace Keyblock
     // slides along them
     const auto is_there = [&](const Projection<dim> &projection) {
       return norm<dim>(difference<dim>(projection.offset, nearest->offset)) <
-             1e-9 * nearest->size;
+             same_foot * nearest->size;
     };
     const auto is_on_own_joint = [&](const Projection<dim> &projection) {
       return is_there(projection) &&
@@ -238,18 +251,18 @@ namespace Keyblock
     Vector<dim> mean{};
     for (const Projection<dim> &projection : there)
       mean = add<dim>(mean, 1., projection.normal);
-    mean                     = unit<dim>(mean);
-    const double gap         = dot<dim>(nearest->offset, mean);
-    const bool is_off        = distance > 1e-6 * nearest->size && gap > 0.;
+    mean              = unit<dim>(mean);
+    const double gap  = dot<dim>(nearest->offset, mean);
+    const bool is_off = distance > no_distance * nearest->size && gap > 0.;
     const Vector<dim> normal = is_off ? unit<dim>(nearest->offset) : mean;
-    if ((!is_off && distance >= 0.1 * nearest->size) ||
+    if ((!is_off && distance >= deepest_beside * nearest->size) ||
         !surface.opposes(position, slave, normal) ||
         !surface.can_stand_on(position, slave, normal))
       return;
     const Projection<dim> *across = &there[0];
     for (const Projection<dim> &projection : there)
       if (dot<dim>(projection.normal, normal) >
-          dot<dim>(across->normal, normal) + 1e-9)
+          dot<dim>(across->normal, normal) + equal_cosine)
         across = &projection;
     add_contact(slave, *across, normal, is_off ? distance : gap, contacts);
   }

@@ -8,7 +8,8 @@ namespace Keyblock
   namespace
   {
     /** Velocity that a unit impulse on the slave gives each node of a point by
-     * (20): +1 / m on the slave, -phi_j / (sum phi^2 M') on the masters. */
+     * equation 20 of Chen, Xiao and Chen (2020): +1 / m on the slave,
+     * -phi_j / (sum phi^2 M') on the masters. */
     template <int dim>
     std::array<double, ContactPoint<dim>::max_nodes>
     published_responses(const ContactPoint<dim> &point,

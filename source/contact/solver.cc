@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/contact/impulse_extrapolation.h>
 #include <keyblock/contact/point_response.h>
 
@@ -117,8 +118,7 @@ namespace Keyblock
           list.insert(list.end(),
                       point.node.begin(),
                       point.node.begin() + point.n_nodes);
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+        sort_unique(list);
         for (unsigned int p = 0; p < points.size(); ++p)
           for (int k = 0; k < points[p].n_nodes; ++k)
             number[p][k] =

@@ -8,6 +8,14 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Share of an overlap that a step takes back [-]. */
+    constexpr double corrected_share = 0.1;
+  } // namespace
+
+
+
   template <int dim>
   SurfaceContacts<dim>::SurfaceContacts(const ContactSearch<dim> &search,
                                         const PairTopology<dim> &topology,
@@ -249,7 +257,7 @@ namespace Keyblock
   SurfaceContacts<dim>::correct_penetration(Fields<dim> &fields,
                                             ContactTally &tally) const
   {
-    // a tenth of the overlap a step, shared like an impulse: a_k / m_k
+    // shared like an impulse: a_k / m_k
     std::vector<double> shift(nodes.velocity.size(), 0.);
     bool is_needed = false;
     for (const SurfaceContact<dim> &contact : memory.contacts)
@@ -263,7 +271,7 @@ namespace Keyblock
         for (int k = 0; k < point.n_nodes; ++k)
           for (int d = 0; d < dim; ++d)
             shift[dim * point.node[k] + d] +=
-              -0.1 * point.gap * point.weight[k] *
+              -corrected_share * point.gap * point.weight[k] *
               nodes.inverse_mass[point.node[k]] / w * point.normal[d];
       }
     if (!is_needed)

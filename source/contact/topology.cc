@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/contact/topology.h>
-
-#include <algorithm>
 
 namespace Keyblock
 {
@@ -89,10 +88,7 @@ namespace Keyblock
             nodes_of_block[split.block_of_cell[c]].push_back(
               numbering.local_node(v));
     for (auto &nodes : nodes_of_block)
-      {
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-      }
+      sort_unique(nodes);
     return nodes_of_block;
   }
 

@@ -7,7 +7,7 @@
 
 #include <deal.II/numerics/rtree.h>
 
-#include <keyblock/base/expression.h>
+#include <keyblock/scene/gravity.h>
 #include <keyblock/step/equilibrium.h>
 
 #include <algorithm>
@@ -128,10 +128,7 @@ namespace Keyblock
         std::vector<double> force(fields.load.size(), 0.);
         if (is_gravity)
           {
-            const Expression<dim> gravity(scene.initial_state.gravity,
-                                          dim,
-                                          "Initial state/Gravity");
-            const Tensor<1, dim> g = gravity.vector(Point<dim>(), 0.);
+            const Tensor<1, dim> g = Gravity<dim>(scene).at(Point<dim>(), 0.);
             for (unsigned int i = 0; i < dim * numbering.n_owned(); ++i)
               force[i] = fields.weighing_mass[i / dim] * g[i % dim];
           }

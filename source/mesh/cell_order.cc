@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/bounding_box.h>
+
 #include <keyblock/mesh/cell_order.h>
 
 #include <algorithm>
@@ -14,16 +16,10 @@ namespace Keyblock
     unsigned int
     longest_axis(const std::vector<Point<dim>> &centers)
     {
-      Point<dim> low = centers.front(), high = low;
-      for (const Point<dim> &p : centers)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            low[d]  = std::min(low[d], p[d]);
-            high[d] = std::max(high[d], p[d]);
-          }
+      const dealii::BoundingBox<dim> box(centers);
       unsigned int axis = 0;
       for (unsigned int d = 1; d < dim; ++d)
-        if (high[d] - low[d] >= (1. - 1e-9) * (high[axis] - low[axis]))
+        if (box.side_length(d) >= (1. - 1e-9) * box.side_length(axis))
           axis = d;
       return axis;
     }

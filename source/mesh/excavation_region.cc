@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/bounding_box.h>
+
 #include <keyblock/mesh/excavation_region.h>
 #include <keyblock/scene/solid.h>
 
@@ -81,14 +83,8 @@ namespace Keyblock
             side = std::min(side, solid->high[d] - solid->low[d]);
         return side;
       }
-    Point<2> low = excavation.vertices[0], high = low;
-    for (const Point<2> &p : excavation.vertices)
-      for (unsigned int d = 0; d < 2; ++d)
-        {
-          low[d]  = std::min(low[d], p[d]);
-          high[d] = std::max(high[d], p[d]);
-        }
-    const double side = std::min(high[0] - low[0], high[1] - low[1]);
+    const dealii::BoundingBox<2> box(excavation.vertices);
+    const double side = std::min(box.side_length(0), box.side_length(1));
     return excavation.shape == ExcavationShape::extruded_polygon
              ? std::min(side, excavation.to - excavation.from)
              : side;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A mesh from a file: .msh is read by Gmsh.
+#include <deal.II/base/bounding_box.h>
+
 #include <keyblock/base/errors.h>
+#include <keyblock/base/find_file.h>
 #include <keyblock/mesh/file_formats.h>
 #include <keyblock/mesh/gmsh_file.h>
 #include <keyblock/mesh/mark_groups.h>
@@ -138,13 +141,8 @@ namespace Keyblock
     void
     check_flat(const MixedMesh &mixed, const std::string &origin)
     {
-      Point<3> low = mixed.vertices.front(), high = low;
-      for (const Point<3> &vertex : mixed.vertices)
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            low[d]  = std::min(low[d], vertex[d]);
-            high[d] = std::max(high[d], vertex[d]);
-          }
+      const dealii::BoundingBox<3> box(mixed.vertices);
+      const auto &[low, high] = box.get_boundary_points();
       std::ostringstream text;
       text << origin << " has vertices between z = " << low[2] << " m and "
            << high[2] << " m, but 'Dimension' is 2; lay the mesh into the "
@@ -181,23 +179,6 @@ namespace Keyblock
         }
       return is_pure ? mixed.cells.size() : n;
     }
-
-    /** The path as seen from the scene file if it exists, else as given. */
-    std::string
-    find_file(const std::string &scene_file, const std::string &file)
-    {
-      namespace fs = std::filesystem;
-      for (const fs::path &path :
-           {fs::path(scene_file).parent_path() / file, fs::path(file)})
-        if (fs::is_regular_file(path) && std::ifstream(path))
-          return path.string();
-      AssertThrow(false,
-                  InputError("The mesh file '" + file +
-                             "' of the entry 'Domain/File' does not exist or "
-                             "cannot be read; give a path relative to the "
-                             "scene file."));
-      return "";
-    }
   } // namespace
 
 
@@ -209,6 +190,9 @@ namespace Keyblock
     const std::string path = find_file(scene.file, scene.domain.file);
     const std::string origin =
       "The mesh file '" + scene.domain.file + "' of the entry 'Domain/File'";
+    AssertThrow(!path.empty(),
+                InputError(origin + " does not exist or cannot be read; give a "
+                                    "path relative to the scene file."));
     const std::string extension = std::filesystem::path(path).extension();
     AssertThrow(extension == ".msh" || extension == ".inp" ||
                   extension == ".vtk" || extension == ".ucd",

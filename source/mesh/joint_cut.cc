@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/bounding_box.h>
+
 #include <keyblock/mesh/improvement.h>
 #include <keyblock/mesh/joint_cut.h>
 #include <keyblock/mesh/joint_cut_steps.h>
@@ -89,35 +91,17 @@ namespace Keyblock
 
 
 
-    /** Whether points are within the box around a mesh, not on it. */
+    /** Whether a point is within @p box, not on it. */
     template <int dim>
-    class BoxAround
+    bool
+    is_within(const dealii::BoundingBox<dim> &box, const Point<dim> &p)
     {
-    public:
-      explicit BoxAround(const SimplexMesh<dim> &mesh)
-        : low(mesh.vertices[0])
-        , high(low)
-      {
-        for (const Point<dim> &p : mesh.vertices)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              low[d]  = std::min(low[d], p[d]);
-              high[d] = std::max(high[d], p[d]);
-            }
-      }
-
-      bool
-      contains(const Point<dim> &p) const
-      {
-        bool is_inside = true;
-        for (unsigned int d = 0; d < dim; ++d)
-          is_inside = is_inside && p[d] > low[d] && p[d] < high[d];
-        return is_inside;
-      }
-
-    private:
-      Point<dim> low, high;
-    };
+      bool is_inside = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        is_inside =
+          is_inside && p[d] > box.lower_bound(d) && p[d] < box.upper_bound(d);
+      return is_inside;
+    }
 
 
 
@@ -129,7 +113,7 @@ namespace Keyblock
                     const double coarsening,
                     MeshReport<dim> &report)
     {
-      const BoxAround<dim> box(mesh);
+      const dealii::BoundingBox<dim> box(mesh.vertices);
       std::set<unsigned int> kept;
       for (const auto &facet : mesh.marked_facets())
         for (const auto &mark : mesh.marks.at(facet))
@@ -149,7 +133,7 @@ namespace Keyblock
                 middle += p / double(corners.size());
               if (kept.count(sheet->joints[f]) > 0)
                 is_there = true;
-              else if (box.contains(middle))
+              else if (is_within(box, middle))
                 {
                   ++lost.n_lost;
                   lost.width = std::max(lost.width, 2. * part.half_width());
@@ -183,7 +167,7 @@ namespace Keyblock
               area[j] += mesh.measure(facet);
               edge[j] += mesh.measure(facet) * mesh.size_at(facet);
             }
-      const BoxAround<dim> box(mesh);
+      const dealii::BoundingBox<dim> box(mesh.vertices);
       double found = 0., wanted = 0., found_large = 0., wanted_large = 0.;
       for (unsigned int j = 0; j < sheets.sheets.size(); ++j)
         {
@@ -193,7 +177,7 @@ namespace Keyblock
             std::count_if(places.begin(),
                           places.end(),
                           [&box](const Point<dim> &p) {
-                            return box.contains(p);
+                            return is_within(box, p);
                           });
           if (area[j] == 0.)
             {

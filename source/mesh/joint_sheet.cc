@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Bent joints as a whole: which of their facets is near, sides and rims.
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/numerics/rtree.h>
 
+#include <keyblock/base/box.h>
 #include <keyblock/mesh/joint_sheet.h>
 #include <keyblock/mesh/sheet_ridges.h>
 
@@ -13,8 +13,6 @@
 
 namespace Keyblock
 {
-  using dealii::BoundingBox;
-
   namespace
   {
     namespace bgi = boost::geometry::index;
@@ -35,20 +33,6 @@ namespace Keyblock
                  std::clamp((p - ridge[0]) * edge / (edge * edge), 0., 1.) *
                    edge;
         }
-    }
-
-    template <int dim>
-    double
-    distance_from_box(const BoundingBox<dim> &box, const Point<dim> &p)
-    {
-      const auto &[low, high] = box.get_boundary_points();
-      double sum              = 0.;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double outside = std::max({low[d] - p[d], 0., p[d] - high[d]});
-          sum += outside * outside;
-        }
-      return std::sqrt(sum);
     }
   } // namespace
 
@@ -159,8 +143,7 @@ namespace Keyblock
         for (const Ridge<dim> &ridge : ridges[f])
           at_ridge[ridge].push_back(f);
       }
-    const auto box  = BoundingBox<dim>(all).get_boundary_points();
-    made->tolerance = closeness * box.first.distance(box.second);
+    made->tolerance = closeness * diagonal_of_box(all);
     made->tree      = dealii::pack_rtree(boxes);
     made->ridges.resize(facets.size());
     for (unsigned int f = 0; f < facets.size(); ++f)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What monitors watch: the node, block or region that the scene names.
+#include <keyblock/base/box.h>
 #include <keyblock/base/expression.h>
 #include <keyblock/output/monitors.h>
 
@@ -138,20 +139,12 @@ namespace Keyblock
   {
     if (find_cell_at(monitor.location) != none)
       return;
-    const Mesh<dim> &mesh = split.mesh;
-    Point<dim> low = mesh.vertices[0], high = low;
-    for (const Point<dim> &p : mesh.vertices)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          low[d]  = std::min(low[d], p[d]);
-          high[d] = std::max(high[d], p[d]);
-        }
     std::ostringstream text;
     text << "The monitor '" << monitor.name << "' is at (" << monitor.location
          << ") m, which is in no rock";
     const std::string remedy =
       "correct 'Monitors/" + monitor.name + "/Location'";
-    AssertThrow(distance <= low.distance(high),
+    AssertThrow(distance <= diagonal_of_box(split.mesh.vertices),
                 InputError(text.str() + " by far; " + remedy + "."));
     text << "; it follows the nearest "
          << (monitor.kind == MonitorKind::block ? "block, with a cell "

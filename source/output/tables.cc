@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // blocks.csv and factors.csv, for spreadsheets.
 #include <keyblock/base/delimited_text.h>
-#include <keyblock/base/expression.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/blocks/block_measures.h>
 #include <keyblock/blocks/free_faces.h>
 #include <keyblock/output/output.h>
+#include <keyblock/scene/gravity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -150,6 +150,7 @@ namespace Keyblock
       Exposure(const Scene<dim> &scene, const SplitMesh<dim> &split)
         : scene(scene)
         , split(split)
+        , gravity(scene)
       {}
 
       /** Area of the free faces, and roof, wall or floor by their mean outward
@@ -180,13 +181,8 @@ namespace Keyblock
       std::string
       place_of(const Tensor<1, dim> &normal, const Point<dim> &at) const
       {
-        if (scene.initial_state.gravity.empty() || normal.norm() == 0.)
-          return "";
-        const Tensor<1, dim> down = Expression<dim>(scene.initial_state.gravity,
-                                                    dim,
-                                                    "Initial state/Gravity")
-                                      .vector(at, 0.);
-        if (down.norm() == 0.)
+        const Tensor<1, dim> down = gravity.at(at, 0.);
+        if (normal.norm() == 0. || down.norm() == 0.)
           return "";
         const double along = normal * down / (normal.norm() * down.norm());
         return along > std::sqrt(0.5)    ? "roof"
@@ -196,6 +192,7 @@ namespace Keyblock
 
       const Scene<dim> &scene;
       const SplitMesh<dim> &split;
+      const Gravity<dim> gravity;
       std::map<unsigned int, std::unique_ptr<FreeFaces<dim>>> by_stage;
     };
 

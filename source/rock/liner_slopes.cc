@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/rock/liner_slopes.h>
 
 #include <algorithm>
@@ -137,8 +138,7 @@ namespace Keyblock
           list.insert(list.end(),
                       faces[f].points.begin(),
                       faces[f].points.end());
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    sort_unique(list);
     return list;
   }
 

@@ -27,8 +27,8 @@ namespace Keyblock
     CheckValues checks;
     RockState<dim> rock;
     if (model.scene.checks.needs_rock())
-      rock = gather_rock(
-        model.scene, model.split, *model.numbering, model.cells, model.fields);
+      rock =
+        gather_rock(model.split, *model.numbering, model.cells, model.fields);
     model.communicator.on_root([&]() {
       if (!model.scene.stages.empty())
         checks = evaluate_checks<dim>({model.scene,

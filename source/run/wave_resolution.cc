@@ -36,8 +36,7 @@ namespace Keyblock
                   std::max(longest,
                            mesh.vertices[mesh.cells[c][v]].distance(
                              mesh.vertices[mesh.cells[c][v | (1 << d)]]));
-          const double rate =
-            std::sqrt(rock.shear_modulus() / rock.density) / longest;
+          const double rate = rock.s_wave_speed() / longest;
           if (rate < least)
             {
               least = rate;

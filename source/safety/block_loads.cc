@@ -2,6 +2,7 @@
 // What acts on a block: weight, water, tractions and seismic loads.
 #include <keyblock/base/expression.h>
 #include <keyblock/safety/block_loads.h>
+#include <keyblock/scene/gravity.h>
 
 namespace Keyblock
 {
@@ -61,18 +62,13 @@ namespace Keyblock
                  const Block<dim> &block,
                  const double time)
   {
-    const Scene<dim> &scene = ground.scene;
-    const double mass       = block.exact_mass() *
+    const double mass = block.exact_mass() *
                         mass_ratio(ground, free.cells_of_block(block.id - 1));
     BlockLoads<dim> loads;
     loads.centroid =
       block.exact.is_known ? block.exact.centroid : block.centroid;
-    if (!scene.initial_state.gravity.empty())
-      loads.weight = mass * Expression<dim>(scene.initial_state.gravity,
-                                            dim,
-                                            "Initial state/Gravity")
-                              .vector(Point<dim>(), time);
-    loads.seismic = mass * seismic_acceleration(ground);
+    loads.weight  = mass * Gravity<dim>(ground.scene).at(Point<dim>(), time);
+    loads.seismic = mass * seismic_acceleration_with_safety(ground);
     return loads;
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/safety/block_support.h>
 
-#include <keyblock/base/expression.h>
 #include <keyblock/blocks/bolt_layout.h>
+#include <keyblock/scene/gravity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,13 +136,9 @@ namespace Keyblock
       if (mass == 0.)
         return;
       support.shotcrete_center /= mass;
-      support.shotcrete_load = mass * seismic_acceleration(ground);
-      if (!scene.initial_state.gravity.empty())
-        support.shotcrete_load +=
-          mass * Expression<dim>(scene.initial_state.gravity,
-                                 dim,
-                                 "Initial state/Gravity")
-                   .vector(support.shotcrete_center, time);
+      support.shotcrete_load = mass * seismic_acceleration_with_safety(ground);
+      support.shotcrete_load +=
+        mass * Gravity<dim>(scene).at(support.shotcrete_center, time);
     }
   } // namespace
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/expression.h>
 #include <keyblock/blocks/blocks.h>
 #include <keyblock/law/joint_law.h>
 #include <keyblock/safety/block_theory.h>
 #include <keyblock/safety/limit_equilibrium.h>
+#include <keyblock/scene/gravity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -242,12 +242,7 @@ namespace Keyblock
   find_block_theory(const Scene<dim> &scene,
                     const BlockTheorySettings &settings)
   {
-    Tensor<1, dim> gravity;
-    if (!scene.initial_state.gravity.empty())
-      gravity = Expression<dim>(scene.initial_state.gravity,
-                                dim,
-                                "Initial state/Gravity")
-                  .vector(Point<dim>(), 0.);
+    Tensor<1, dim> gravity = Gravity<dim>(scene).at(Point<dim>(), 0.);
     if (gravity.norm() == 0.)
       gravity[dim - 1] = -1.;
     return find_block_theory(collect_sets(scene), gravity, settings);

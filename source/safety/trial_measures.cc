@@ -17,6 +17,23 @@ namespace Keyblock
 
     /** Share of its load that what holds a block bears at least [-]. */
     constexpr double holding_share = 0.1;
+
+    /** Largest @p value_of(material) of a block's cells, zero without any. */
+    template <int dim, typename Value>
+    double
+    largest_in_block(const Ground<dim> &ground,
+                     const unsigned int block,
+                     const Value &value_of)
+    {
+      const SplitMesh<dim> &split = ground.split;
+      double largest              = 0.;
+      for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
+        if (split.block_of_cell[c] == block)
+          largest =
+            std::max(largest,
+                     value_of(*ground.scene.materials[ground.material_of(c)]));
+      return largest;
+    }
   } // namespace
 
 
@@ -161,18 +178,11 @@ namespace Keyblock
   double
   StrengthTrials<dim>::wave_speed(const unsigned int block) const
   {
-    const Ground<dim> ground = run.conditions.active_cells.ground();
-    double speed             = 0.;
-    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
-      if (split.block_of_cell[c] == block)
-        {
-          const Material<dim> &m = *scene.materials[ground.material_of(c)];
-          speed =
-            std::max(speed,
-                     std::sqrt((m.lame_lambda() + 2. * m.shear_modulus()) /
-                               m.density));
-        }
-    return speed;
+    return largest_in_block(run.conditions.active_cells.ground(),
+                            block,
+                            [](const Material<dim> &material) {
+                              return material.p_wave_speed();
+                            });
   }
 
 
@@ -182,15 +192,13 @@ namespace Keyblock
   StrengthTrials<dim>::compression(const unsigned int block,
                                    const double load) const
   {
-    const Ground<dim> ground = run.conditions.active_cells.ground();
-    const Block<dim> &b      = blocks.blocks[block];
-    double modulus           = 0.;
-    for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
-      if (split.block_of_cell[c] == block)
-        {
-          const Material<dim> &m = *scene.materials[ground.material_of(c)];
-          modulus = std::max(modulus, m.lame_lambda() + 2. * m.shear_modulus());
-        }
+    const Block<dim> &b = blocks.blocks[block];
+    const double modulus =
+      largest_in_block(run.conditions.active_cells.ground(),
+                       block,
+                       [](const Material<dim> &material) {
+                         return material.p_wave_modulus();
+                       });
     return load * b.size * b.size / (modulus * b.volume);
   }
 

@@ -35,6 +35,34 @@ namespace Keyblock
                   monitor->name + "/Support'.");
     }
 
+    /** The closed form of a wave across a joint needs a wave that comes in, a
+     * joint, and a place on each side of it. */
+    template <int dim>
+    void
+    check_joint_wave(const Scene<dim> &scene)
+    {
+      const auto n_waves = std::count_if(scene.supports.begin(),
+                                         scene.supports.end(),
+                                         [](const auto &support) {
+                                           return support->is_quiet() &&
+                                                  !support->velocity.empty();
+                                         });
+      const auto n_points =
+        std::count_if(scene.monitors.begin(),
+                      scene.monitors.end(),
+                      [](const auto &monitor) {
+                        return monitor->kind == MonitorKind::point;
+                      });
+      require(n_waves > 0 && n_points == 2 && !scene.checks.joint.empty(),
+              "The entry 'Check/Closed form' is joint_wave, which needs a "
+              "quiet support with a 'Velocity', a joint in 'Check/Joint' and "
+              "two monitors of kind point, before and behind it; found are "
+              "supports: " +
+                std::to_string(n_waves) + ", joint: '" + scene.checks.joint +
+                "', monitors: " + std::to_string(n_points) +
+                "; correct 'Supports', 'Check/Joint' or 'Monitors'.");
+    }
+
     /** A closed form needs monitors and entries of its own. */
     template <int dim>
     void
@@ -64,6 +92,10 @@ namespace Keyblock
           (has_monitor(MonitorKind::support) && scene.checks.length > 0.),
         "The entry 'Check/Closed form' is footing, which needs a monitor of "
         "kind support and the loaded width in 'Check/Length'.");
+      require(form != ClosedForm::gravity_column ||
+                !scene.initial_state.gravity.empty(),
+              "The entry 'Check/Closed form' is gravity_column, which needs "
+              "'Initial state/Gravity'; set it.");
       require((form != ClosedForm::kirsch && form != ClosedForm::salencon) ||
                 (scene.excavations.size() == 1 &&
                  scene.excavations[0]->shape == ExcavationShape::circle),
@@ -112,6 +144,8 @@ namespace Keyblock
            !scene.supports.front()->velocity.empty()),
         "The entry 'Check/Closed form' is bond_break, which needs a first "
         "support that pulls; set its 'Velocity'.");
+      if (form == ClosedForm::joint_wave)
+        check_joint_wave(scene);
       require(form == ClosedForm::none || !scene.stages.empty(),
               "The entry 'Check/Closed form' is " + name_of(form) +
                 ", but 'Stages/Names' is empty; name a stage to measure.");

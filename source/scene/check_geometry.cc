@@ -4,6 +4,7 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
+#include <keyblock/base/find_file.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/law/joint_law.h>
 #include <keyblock/scene/check_parts.h>
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 namespace Keyblock
@@ -104,13 +104,10 @@ namespace Keyblock
       {
         require(!domain.file.empty(),
                 "The entry 'Domain/File' is empty; name the mesh file.");
-        const auto beside =
-          std::filesystem::path(scene.file).parent_path() / domain.file;
-        require(std::filesystem::exists(beside) ||
-                  std::filesystem::exists(domain.file),
+        require(!find_file(scene.file, domain.file).empty(),
                 "The mesh file '" + domain.file +
-                  "' of the entry 'Domain/File' does not exist; give a path "
-                  "relative to the scene file.");
+                  "' of the entry 'Domain/File' does not exist or cannot be "
+                  "read; give a path relative to the scene file.");
       }
   }
 

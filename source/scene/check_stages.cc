@@ -162,6 +162,12 @@ namespace Keyblock
                 "'; in " + std::to_string(dim) +
                 "D there are gravity, push x, graded x" +
                 (dim == 3 ? ", push y, graded y, shear xy." : "."));
+    require(!state.gravity.empty() || std::count(state.stress_fields.begin(),
+                                                 state.stress_fields.end(),
+                                                 "gravity") == 0,
+            "The entry 'Initial state/Stress fields' names 'gravity', but "
+            "'Initial state/Gravity' is empty; give it, or leave the field "
+            "out.");
     require(state.lateral_ratios.size() == 1 ||
               state.lateral_ratios.size() == 2,
             "The entry 'Initial state/Lateral ratios' has " +

@@ -3,6 +3,7 @@
 // a value is, and the value.
 #include <deal.II/base/numbers.h>
 
+#include <keyblock/base/box.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/dxf.h>
 #include <keyblock/scene/solid_file.h>
@@ -267,28 +268,13 @@ namespace Keyblock
       return paths;
     }
 
-    /** Diagonal of the box around points. */
-    template <int dim>
-    double
-    size_of_box(const std::vector<Point<dim>> &points)
-    {
-      Point<dim> low = points[0], high = low;
-      for (const Point<dim> &p : points)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            low[d]  = std::min(low[d], p[d]);
-            high[d] = std::max(high[d], p[d]);
-          }
-      return low.distance(high);
-    }
-
     double
     extent_of(const std::vector<Path> &paths)
     {
       Path points;
       for (const Path &path : paths)
         points.insert(points.end(), path.begin(), path.end());
-      return size_of_box(points);
+      return diagonal_of_box(points);
     }
 
     /** Let the first path go on with others until it closes. */
@@ -394,7 +380,7 @@ namespace Keyblock
     if (surface.triangles.empty())
       throw std::runtime_error("it has no 3DFACE");
     require_few_triangles(surface);
-    surface.weld(closeness * size_of_box(surface.vertices));
+    surface.weld(closeness * diagonal_of_box(surface.vertices));
     return surface;
   }
 } // namespace Keyblock

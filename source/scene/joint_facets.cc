@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Bent joints from their entries and files to plane facets.
 #include <keyblock/base/errors.h>
+#include <keyblock/base/find_file.h>
 #include <keyblock/base/gmsh_session.h>
-#include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
-#include <keyblock/scene/domain_outline.h>
 #include <keyblock/scene/dxf.h>
 #include <keyblock/scene/group_faces.h>
 #include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/plane_facets.h>
+#include <keyblock/scene/shape_place.h>
 #include <keyblock/scene/solid_file.h>
 
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -26,10 +25,6 @@ namespace Keyblock
   {
     /** Facets of one joint at most: each is a plane of its own from then on. */
     constexpr unsigned int most_facets = 5000;
-
-    /** Longest side of a surface over that of the domain, below which its unit
-     * is doubted [-]. */
-    constexpr double least_part = 1e-3;
 
     /** Makes the facets of one joint. */
     template <int dim>
@@ -174,12 +169,7 @@ namespace Keyblock
       void
       find_and_read()
       {
-        namespace fs = std::filesystem;
-        std::string found;
-        for (const fs::path &path :
-             {fs::path(scene.file).parent_path() / file(), fs::path(file())})
-          if (found.empty() && fs::is_regular_file(path) && std::ifstream(path))
-            found = path.string();
+        const std::string found = find_file(scene.file, file());
         require(!found.empty(),
                 subject + " does not exist or cannot be read; give a path "
                           "relative to the scene file.");
@@ -267,38 +257,16 @@ namespace Keyblock
       void
       check_place() const
       {
-        const DomainOutline<dim> domain(scene.domain);
-        Point<dim> low = facets[0].corners[0], high = low;
+        std::vector<Point<dim>> all;
         for (const PlaneFacet<dim> &facet : facets)
-          for (const Point<dim> &p : facet.corners)
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                low[d]  = std::min(low[d], p[d]);
-                high[d] = std::max(high[d], p[d]);
-              }
-        bool is_outside = false;
-        double longest = 0., longest_of_domain = 0.;
-        std::string sides;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            is_outside = is_outside || low[d] > domain.upper[d] ||
-                         high[d] < domain.lower[d];
-            longest = std::max(longest, high[d] - low[d]);
-            longest_of_domain =
-              std::max(longest_of_domain, domain.upper[d] - domain.lower[d]);
-            sides += (d > 0 ? ", " : "") + std::string(1, "xyz"[d]) + " from " +
-                     text_of(low[d]) + " to " + text_of(high[d]);
-          }
-        const std::string remedy =
-          "; check its unit " +
-          (names_unit(file()) ? "in the file" : "('" + section + "/Scale')") +
-          " and its coordinates ('Domain/Origin') against 'Domain'.";
-        require(!is_outside,
-                subject + " has a surface of " + sides +
-                  " m, which is outside of the domain" + remedy);
-        require(longest >= least_part * longest_of_domain,
-                subject + " has a surface of " + sides +
-                  " m, less than a thousandth of the domain" + remedy);
+          all.insert(all.end(), facet.corners.begin(), facet.corners.end());
+        const ShapePlace<dim> place(scene.domain,
+                                    dealii::BoundingBox<dim>(all),
+                                    subject + " has a surface",
+                                    section,
+                                    file());
+        place.require_inside(true);
+        place.require_size();
       }
 
       /** Copy rank 0's facets to all ranks. */

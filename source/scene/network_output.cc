@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/bounding_box.h>
+
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/base/vtu_file.h>
@@ -247,13 +249,8 @@ namespace Keyblock
                      const Scene<dim> &scene,
                      const std::vector<Point<dim>> &vertices)
   {
-    Point<dim> lower = vertices.at(0), upper = lower;
-    for (const Point<dim> &vertex : vertices)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d] = std::min(lower[d], vertex[d]);
-          upper[d] = std::max(upper[d], vertex[d]);
-        }
+    const dealii::BoundingBox<dim> around(vertices);
+    const auto &[lower, upper] = around.get_boundary_points();
     const DomainOutline<dim> box(lower, upper);
     const JointSetNumbers sets = number_joint_sets(scene);
     VtuGrid planes;

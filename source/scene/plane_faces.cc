@@ -2,6 +2,7 @@
 // From triangles to plane faces.
 #include <deal.II/base/tensor.h>
 
+#include <keyblock/base/box.h>
 #include <keyblock/scene/plane_faces.h>
 
 #include <algorithm>
@@ -25,19 +26,6 @@ namespace Keyblock
      * seven digits. */
     constexpr double flatness = 2e-7;
 
-    double
-    size_of(const TriangleSurface &surface)
-    {
-      Point<3> low = surface.vertices[0], high = low;
-      for (const Point<3> &p : surface.vertices)
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            low[d]  = std::min(low[d], p[d]);
-            high[d] = std::max(high[d], p[d]);
-          }
-      return low.distance(high);
-    }
-
     /** Twice the vector area of a closed line. */
     Tensor<1, 3>
     area_of(const TriangleSurface &surface, const Loop &loop)
@@ -56,7 +44,7 @@ namespace Keyblock
     number_faces(const TriangleSurface &surface, unsigned int &n_faces)
     {
       const auto &triangles  = surface.triangles;
-      const double tolerance = flatness * size_of(surface);
+      const double tolerance = flatness * diagonal_of_box(surface.vertices);
       std::map<Edge, unsigned int> across; // triangle that goes along the edge
       std::vector<std::pair<double, unsigned int>> by_area;
       for (unsigned int t = 0; t < triangles.size(); ++t)
@@ -145,7 +133,7 @@ namespace Keyblock
     vertices_in_edges(const TriangleSurface &surface,
                       const std::set<Edge> &edges)
     {
-      const double tolerance = flatness * size_of(surface);
+      const double tolerance = flatness * diagonal_of_box(surface.vertices);
       std::map<unsigned int, std::vector<unsigned int>> neighbors;
       for (const auto &[a, b] : edges)
         {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Plane parts of lines with kinks, surfaces of triangles, and faces of cells.
+#include <keyblock/base/box.h>
 #include <keyblock/base/number_text.h>
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/scene/plane_faces.h>
 #include <keyblock/scene/plane_facets.h>
 
@@ -24,21 +26,17 @@ namespace Keyblock
     /** Sine between planes below which vertices are not put where they meet. */
     constexpr double least_sine = 1e-3;
 
+    /** Diagonal of the box around points, which have to be finite [m]. */
     template <int dim>
     double
     size_of(const std::vector<Point<dim>> &points)
     {
-      Point<dim> low = points.at(0), high = low;
       for (const Point<dim> &p : points)
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            if (!std::isfinite(p[d]))
-              throw std::runtime_error("it has a point that is no finite "
-                                       "number");
-            low[d]  = std::min(low[d], p[d]);
-            high[d] = std::max(high[d], p[d]);
-          }
-      return low.distance(high);
+          if (!std::isfinite(p[d]))
+            throw std::runtime_error("it has a point that is no finite "
+                                     "number");
+      return diagonal_of_box(points);
     }
 
     /** Unit normal to a segment (2D: to its left) or of a polygon (by its
@@ -200,9 +198,7 @@ namespace Keyblock
           std::vector<unsigned int> vertices;
           for (const Triangle &t : face.triangles)
             vertices.insert(vertices.end(), t.begin(), t.end());
-          std::sort(vertices.begin(), vertices.end());
-          vertices.erase(std::unique(vertices.begin(), vertices.end()),
-                         vertices.end());
+          sort_unique(vertices);
           for (const unsigned int v : vertices)
             planes_at[v].push_back(plane);
         }

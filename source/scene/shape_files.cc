@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Excavations from files: solids in 3D, an outline in 2D.
 #include <keyblock/base/digest.h>
+#include <keyblock/base/find_file.h>
 #include <keyblock/base/gmsh_session.h>
-#include <keyblock/base/number_text.h>
 #include <keyblock/scene/check.h>
-#include <keyblock/scene/domain_outline.h>
 #include <keyblock/scene/dxf.h>
 #include <keyblock/scene/polygon.h>
 #include <keyblock/scene/shape_files.h>
+#include <keyblock/scene/shape_place.h>
 #include <keyblock/scene/solid_file.h>
 
 #include <boost/algorithm/string.hpp>
@@ -16,17 +16,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <stdexcept>
 
 namespace Keyblock
 {
   namespace
   {
-    /** Longest side of a shape over that of the domain, below which its unit
-     * is doubted [-]. */
-    constexpr double least_of_domain = 1e-3;
-
     /** Chords of half a circle in a drawing if no number is given. */
     constexpr unsigned int default_segments = 24;
 
@@ -106,20 +101,12 @@ namespace Keyblock
       void
       find_and_read()
       {
-        namespace fs = std::filesystem;
-        std::ifstream in;
-        for (const fs::path &path :
-             {fs::path(scene.file).parent_path() / excavation.file,
-              fs::path(excavation.file)})
-          if (!in.is_open() && fs::is_regular_file(path))
-            {
-              in.open(path, std::ios::binary);
-              if (in.is_open())
-                excavation.file = path.string();
-            }
-        require(in.is_open(),
+        const std::string found = find_file(scene.file, excavation.file);
+        require(!found.empty(),
                 subject + " does not exist or cannot be read; give a path "
                           "relative to the scene file.");
+        excavation.file = found;
+        std::ifstream in(found, std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(in),
                                std::istreambuf_iterator<char>()};
         excavation.file_digest = digest_of(text);
@@ -178,56 +165,33 @@ namespace Keyblock
                   "; draw it as one closed line that does not cross itself.");
       }
 
+      std::vector<Point<dim>>
+      outermost_points() const
+      {
+        if constexpr (dim == 2)
+          return outline;
+        else
+          {
+            std::vector<Point<3>> points;
+            for (const auto &solid : excavation.solids)
+              points.insert(points.end(), {solid->low, solid->high});
+            return points;
+          }
+      }
+
       /** The shape reaches into the domain and is of its order of size. */
       void
       check_place() const
       {
-        const DomainOutline<dim> domain(scene.domain);
-        Point<dim> low, high;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            low[d]  = std::numeric_limits<double>::max();
-            high[d] = -low[d];
-            for (const Point<2> &p : outline)
-              {
-                low[d]  = std::min(low[d], p[d % 2]);
-                high[d] = std::max(high[d], p[d % 2]);
-              }
-            for (const auto &solid : excavation.solids)
-              {
-                low[d]  = std::min(low[d], solid->low[d]);
-                high[d] = std::max(high[d], solid->high[d]);
-              }
-          }
-        bool is_outside = false, is_larger = true;
-        double longest = 0., longest_of_domain = 0.;
-        std::string sides;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double side      = high[d] - low[d],
-                         of_domain = domain.upper[d] - domain.lower[d];
-            is_outside             = is_outside || low[d] >= domain.upper[d] ||
-                         high[d] <= domain.lower[d];
-            is_larger         = is_larger && side >= of_domain;
-            longest           = std::max(longest, side);
-            longest_of_domain = std::max(longest_of_domain, of_domain);
-            sides += (d > 0 ? ", " : "") + std::string(1, "xyz"[d]) + " from " +
-                     text_of(low[d]) + " to " + text_of(high[d]);
-          }
-        const std::string remedy =
-          "; check its unit " +
-          (names_unit(suffix) ? std::string("in the file")
-                              : "('" + section + "/Scale')") +
-          " and its coordinates ('Domain/Origin') against 'Domain'.";
-        require(!is_larger,
-                subject + " has a shape of " + sides +
-                  " m, larger than the domain" + remedy);
-        require(longest >= least_of_domain * longest_of_domain,
-                subject + " has a shape of " + sides +
-                  " m, less than a thousandth of the domain" + remedy);
-        require(!is_outside,
-                subject + " has a shape of " + sides +
-                  " m, which is outside of the domain" + remedy);
+        const ShapePlace<dim> place(scene.domain,
+                                    dealii::BoundingBox<dim>(
+                                      outermost_points()),
+                                    subject + " has a shape",
+                                    section,
+                                    suffix);
+        place.require_smaller();
+        place.require_size();
+        place.require_inside(false);
       }
 
       const Communicator &communicator;

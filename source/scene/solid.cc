@@ -2,6 +2,7 @@
 // How deep a point is inside a surface of triangles.
 #include <deal.II/base/tensor.h>
 
+#include <keyblock/base/box.h>
 #include <keyblock/scene/solid.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace Keyblock
@@ -22,37 +24,6 @@ namespace Keyblock
 
     /** Triangles of a leaf of the tree at most. */
     constexpr unsigned int most_in_leaf = 4;
-
-    struct Box
-    {
-      Point<3> low, high;
-
-      double
-      distance(const Point<3> &p) const
-      {
-        double sum = 0.;
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            const double outside =
-              std::max({low[d] - p[d], 0., p[d] - high[d]});
-            sum += outside * outside;
-          }
-        return std::sqrt(sum);
-      }
-    };
-
-    Box
-    box_around(const std::vector<Point<3>> &points)
-    {
-      Box box{points[0], points[0]};
-      for (const Point<3> &p : points)
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            box.low[d]  = std::min(box.low[d], p[d]);
-            box.high[d] = std::max(box.high[d], p[d]);
-          }
-      return box;
-    }
 
     /** Where a triangle is nearest to a point. */
     struct Foot
@@ -103,7 +74,7 @@ namespace Keyblock
   {
     struct Node
     {
-      Box box;
+      BoundingBox<3> box;
       unsigned int begin, end; ///< of its triangles in `order`
       unsigned int child = 0;  ///< the first of two; 0: a leaf
     };
@@ -123,13 +94,13 @@ namespace Keyblock
       for (auto t = first; t != last; ++t)
         for (const unsigned int v : surface.triangles[*t])
           points.push_back(surface.vertices[v]);
-      const Box box   = box_around(points);
+      const BoundingBox<3> box(points);
       nodes[node].box = box;
       if (last - first <= most_in_leaf)
         return;
       unsigned int axis = 0;
       for (unsigned int d = 1; d < 3; ++d)
-        if (box.high[d] - box.low[d] > box.high[axis] - box.low[axis])
+        if (box.side_length(d) > box.side_length(axis))
           axis = d;
       const auto middle = first + (last - first) / 2;
       const auto place  = [&](const unsigned int t) {
@@ -161,12 +132,13 @@ namespace Keyblock
                  Foot &nearest,
                  Tensor<1, 3> &normal) const
     {
-      if (nodes[node].box.distance(p) >= nearest.distance)
+      if (distance_from_box(nodes[node].box, p) >= nearest.distance)
         return;
       if (nodes[node].child > 0)
         {
           unsigned int first = nodes[node].child, second = first + 1;
-          if (nodes[second].box.distance(p) < nodes[first].box.distance(p))
+          if (distance_from_box(nodes[second].box, p) <
+              distance_from_box(nodes[first].box, p))
             std::swap(first, second);
           find_nearest(first, surface, p, nearest, normal);
           find_nearest(second, surface, p, nearest, normal);
@@ -196,10 +168,9 @@ namespace Keyblock
   Solid::Solid(TriangleSurface given)
     : surface(std::move(given))
   {
-    auto made     = std::make_unique<Search>();
-    const Box box = box_around(surface.vertices);
-    low           = box.low;
-    high          = box.high;
+    auto made = std::make_unique<Search>();
+    std::tie(low, high) =
+      BoundingBox<3>(surface.vertices).get_boundary_points();
     made->of_vertex.resize(surface.vertices.size());
     std::map<Edge, Tensor<1, 3>> of_edge;
     for (unsigned int n = 0; n < surface.triangles.size(); ++n)

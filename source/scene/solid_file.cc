@@ -2,6 +2,7 @@
 // Solids and surfaces from files: triangles of .stl, and shapes that
 // OpenCASCADE reads by way of Gmsh.
 #include <gmsh.h>
+#include <keyblock/base/box.h>
 #include <keyblock/base/child_process.h>
 #include <keyblock/base/gmsh_session.h>
 #include <keyblock/base/number_text.h>
@@ -85,22 +86,12 @@ namespace Keyblock
     void
     require_fine_steps(const TriangleSurface &surface)
     {
-      double farthest = 0., size = 0.;
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          double low = std::numeric_limits<double>::max(), high = -low;
-          for (const Point<3> &corner : surface.vertices)
-            {
-              low  = std::min(low, corner[d]);
-              high = std::max(high, corner[d]);
-            }
-          farthest = std::max({farthest, std::abs(low), std::abs(high)});
-          size     = std::max(size, high - low);
-        }
-      const float place = static_cast<float>(farthest);
+      const BoundingBox<3> box(surface.vertices);
+      const double farthest = farthest_coordinate(box);
+      const float place     = static_cast<float>(farthest);
       const double step =
         std::nextafter(place, std::numeric_limits<float>::infinity()) - place;
-      if (step > coarsest_step * size)
+      if (step > coarsest_step * longest_side(box))
         throw std::runtime_error(
           "numbers of binary STL have steps of " + text_of(step, 3) + " at " +
           text_of(farthest, 8) +
@@ -137,17 +128,12 @@ namespace Keyblock
     void
     weld_corners(TriangleSurface &surface)
     {
-      Point<3> low = surface.vertices[0], high = low;
       for (const Point<3> &p : surface.vertices)
         for (unsigned int d = 0; d < 3; ++d)
-          {
-            if (!std::isfinite(p[d]))
-              throw std::runtime_error("it has a corner that is no finite "
-                                       "number");
-            low[d]  = std::min(low[d], p[d]);
-            high[d] = std::max(high[d], p[d]);
-          }
-      surface.weld(same_vertex * low.distance(high));
+          if (!std::isfinite(p[d]))
+            throw std::runtime_error("it has a corner that is no finite "
+                                     "number");
+      surface.weld(same_vertex * diagonal_of_box(surface.vertices));
     }
 
     /** Let OpenCASCADE turn lengths of files that name a unit into metres. */

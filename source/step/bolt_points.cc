@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/step/bolt_points.h>
 
 #include <algorithm>
@@ -33,8 +34,7 @@ namespace Keyblock
     for (unsigned int i = 0; i < n; ++i)
       for (const auto &[node, share] : points[i].carriers)
         own.push_back(node);
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
+    sort_unique(own);
     for (unsigned int i = 0; i < n; ++i)
       {
         for (const auto &[node, share] : points[i].carriers)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/bolts.h>
 
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/step/row_bound.h>
-
-#include <algorithm>
 
 namespace Keyblock
 {
@@ -11,8 +10,8 @@ namespace Keyblock
   Bolts<dim>::Bolts(const Scene<dim> &scene,
                     const SplitMesh<dim> &split,
                     const Numbering<dim> &numbering)
-    : scene(scene)
-    , numbering(numbering)
+    : numbering(numbering)
+    , trial(scene.safety.bolt_convention)
   {
     for (const Bolt<dim> &bolt : split.bolts)
       bolts.emplace_back(bolt, scene);
@@ -47,8 +46,7 @@ namespace Keyblock
         for (const auto &[node, weight] : point.carriers)
           list.push_back(node);
     });
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    sort_unique(list);
     return list;
   }
 
@@ -126,16 +124,6 @@ namespace Keyblock
       bolt.multiply(along, jump, force);
     });
     points.subtract(motion.data(), force);
-  }
-
-
-
-  template <int dim>
-  void
-  Bolts<dim>::reduce_strength(const StrengthReduction &reduction)
-  {
-    if (scene.safety.bolt_convention == BoltConvention::passive)
-      trial.reduce_strength(reduction);
   }
 
 

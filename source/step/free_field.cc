@@ -52,17 +52,6 @@ namespace Keyblock
 
 
 
-    template <int dim>
-    double
-    pressure_wave_speed(const Material<dim> &material)
-    {
-      return std::sqrt(
-        (material.lame_lambda() + 2. * material.shear_modulus()) /
-        material.density);
-    }
-
-
-
     /** Of the rock at the foot of a side, per area [Pa s/m]. */
     template <int dim>
     Tensor<2, dim>
@@ -149,8 +138,7 @@ namespace Keyblock
         SideFace<dim> face{std::numeric_limits<double>::max(),
                            std::numeric_limits<double>::lowest(),
                            scene.materials[ground.natural_material_of(c)].get(),
-                           pressure_wave_speed(
-                             *scene.materials[mesh.material[c]])};
+                           scene.materials[mesh.material[c]]->p_wave_speed()};
         for (const unsigned int v : mesh.face_vertices(c, f))
           {
             face.bottom = std::min(face.bottom, mesh.vertices[v][dim - 1]);
@@ -160,7 +148,7 @@ namespace Keyblock
           for (const unsigned int later : mesh.later_materials[c])
             face.largest_speed =
               std::max(face.largest_speed,
-                       pressure_wave_speed(*scene.materials[later]));
+                       scene.materials[later]->p_wave_speed());
         faces.push_back(face);
       });
     return faces;
@@ -210,17 +198,17 @@ namespace Keyblock
             const auto vectors  = nodal_area_vectors(mesh, c, f);
             const auto vertices = mesh.face_vertices(c, f);
             for (unsigned int v = 0; v < vertices.size(); ++v)
-              split.for_each_carrier(
+              for_each_owned_carrier(
+                split,
+                numbering,
                 vertices[v],
-                [&](const unsigned int carrier, const double weight) {
-                  if (numbering.is_owned(carrier))
-                    shares.push_back(
-                      {i,
-                       entry_of_node(numbering.local_node(carrier)),
-                       mesh.vertices[vertices[v]][dim - 1],
-                       mesh.face_center(c, f)[dim - 1],
-                       weight * areas[v] * impedance,
-                       weight * vectors[v]});
+                [&](const unsigned int node, const double weight) {
+                  shares.push_back({i,
+                                    entry_of_node(node),
+                                    mesh.vertices[vertices[v]][dim - 1],
+                                    mesh.face_center(c, f)[dim - 1],
+                                    weight * areas[v] * impedance,
+                                    weight * vectors[v]});
                 });
           });
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/step/free_field_column.h>
 
 #include <algorithm>
@@ -60,8 +61,7 @@ namespace Keyblock
         all.push_back(face.top);
         fastest = std::max(fastest, face.largest_speed);
       }
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    sort_unique(all);
     const auto gap = [&](const double elevation) {
       return std::max(least_share * height_beside(side, elevation),
                       fastest * least_step);

@@ -16,6 +16,7 @@ namespace Keyblock
     , split(split)
     , numbering(numbering)
     , fields(fields)
+    , acceleration(scene)
   {
     read_formulas();
   }
@@ -30,8 +31,7 @@ namespace Keyblock
     set_up_water(ground);
     set_up_tractions(ground);
     sum_steady_forces();
-    seismic_acceleration =
-      standard_gravity * scene.seismic_coefficient(ground.stage_number);
+    acceleration.take_ground(ground);
     forget_load();
   }
 
@@ -47,14 +47,7 @@ namespace Keyblock
           traction->expression, dim, "Tractions/*/Traction"));
         is_constant = is_constant && !depends_on_time(traction->expression);
       }
-    if (!scene.initial_state.gravity.empty())
-      {
-        gravity = std::make_unique<Expression<dim>>(scene.initial_state.gravity,
-                                                    dim,
-                                                    "Initial state/Gravity");
-        is_constant =
-          is_constant && !depends_on_time(scene.initial_state.gravity);
-      }
+    is_constant = is_constant && !acceleration.gravity.is_varying;
   }
 
 
@@ -101,11 +94,12 @@ namespace Keyblock
   {
     const auto vertices = split.mesh.face_vertices(face.cell, face.face);
     for (unsigned int v = 0; v < vertices.size(); ++v)
-      split.for_each_carrier(
-        vertices[v], [&](const unsigned int carrier, const double weight) {
-          if (numbering.is_owned(carrier))
-            action(numbering.local_node(carrier), weight * point.shape[v]);
-        });
+      for_each_owned_carrier(split,
+                             numbering,
+                             vertices[v],
+                             [&](const unsigned int node, const double weight) {
+                               action(node, weight * point.shape[v]);
+                             });
   }
 
 
@@ -116,8 +110,8 @@ namespace Keyblock
   {
     bool is_any = false;
     for (const unsigned int v : split.mesh.face_vertices(face.cell, face.face))
-      split.for_each_carrier(v, [&](const unsigned int carrier, double) {
-        is_any = is_any || numbering.is_owned(carrier);
+      for_each_owned_carrier(split, numbering, v, [&](unsigned int, double) {
+        is_any = true;
       });
     return is_any;
   }
@@ -225,11 +219,9 @@ namespace Keyblock
     const double left = ramp.share_left();
     if (is_set && is_constant && varying_water.empty() && left == share_set)
       return false;
-    is_set           = true;
-    share_set        = left;
-    Tensor<1, dim> g = seismic_acceleration;
-    if (gravity)
-      g += gravity->vector(Point<dim>(), time);
+    is_set                 = true;
+    share_set              = left;
+    const Tensor<1, dim> g = acceleration.at(time);
     for (unsigned int node = 0; node < numbering.n_owned(); ++node)
       for (int d = 0; d < dim; ++d)
         fields.load[dim * node + d] = fields.weighing_mass[node] * g[d];

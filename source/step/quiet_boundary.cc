@@ -15,8 +15,7 @@ namespace Keyblock
   {
     const double shear = std::sqrt(material.density * material.shear_modulus());
     const double pressure =
-      std::sqrt(material.density *
-                (material.lame_lambda() + 2. * material.shear_modulus()));
+      std::sqrt(material.density * material.p_wave_modulus());
     Tensor<2, dim> impedance = (pressure - shear) * outer_product(n, n);
     for (unsigned int d = 0; d < dim; ++d)
       impedance[d][d] += shear;
@@ -118,12 +117,11 @@ namespace Keyblock
                   const auto areas    = nodal_areas(mesh, c, f);
                   const auto vertices = mesh.face_vertices(c, f);
                   for (unsigned int v = 0; v < vertices.size(); ++v)
-                    split.for_each_carrier(
+                    for_each_owned_carrier(
+                      split,
+                      numbering,
                       vertices[v],
-                      [&](const unsigned int carrier, const double weight) {
-                        if (!numbering.is_owned(carrier))
-                          return;
-                        const unsigned int node = numbering.local_node(carrier);
+                      [&](const unsigned int node, const double weight) {
                         Dashpot &dashpot =
                           found
                             .try_emplace({{node, s}}, Dashpot{node, s, {}, 0.})

@@ -232,15 +232,15 @@ namespace Keyblock
                            const std::vector<unsigned int> &touched)
   {
     rests = false;
-    // mostly nothing rests: a few nodes tell
-    constexpr unsigned int stride = 61;
+    // mostly nothing rests: a few nodes tell whether one of so many does
+    constexpr unsigned int stride = 61, one_of = 16;
     unsigned int n_looked = 0, n_resting = 0;
     for (unsigned int node = 0; node < numbering.n_owned(); node += stride)
       {
         ++n_looked;
         n_resting += is_resting(node, limit);
       }
-    if (16 * n_resting < n_looked)
+    if (one_of * n_resting < n_looked)
       return 0.;
 
     if (!is_set_up)

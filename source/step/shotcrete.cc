@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/step/shotcrete.h>
 
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/step/liner_mass.h>
 #include <keyblock/step/row_bound.h>
 
@@ -26,6 +27,8 @@ namespace Keyblock
     , numbering(numbering)
     , weighed_mass(numbering.n_owned(), 0.)
     , inert_mass(numbering.n_owned(), 0.)
+    , acceleration(scene)
+    , trial(scene.safety.bolt_convention)
   {
     for (unsigned int i = 0; i < split.liners.size(); ++i)
       for (const LinerTrace<dim> &trace : split.liners[i].traces)
@@ -36,10 +39,6 @@ namespace Keyblock
           sections.back().liner = i;
           sections.back().trace = trace;
         }
-    if (!scene.initial_state.gravity.empty())
-      gravity = std::make_unique<Expression<dim>>(scene.initial_state.gravity,
-                                                  dim,
-                                                  "Initial state/Gravity");
   }
 
 
@@ -56,8 +55,7 @@ namespace Keyblock
       section.is_present = is_there(section.liner) &&
                            !ground.is_excavated(section.trace.cell[0]) &&
                            !ground.is_excavated(section.trace.cell[1]);
-    seismic_acceleration =
-      standard_gravity * scene.seismic_coefficient(ground.stage_number);
+    acceleration.take_ground(ground);
     std::fill(weighed_mass.begin(), weighed_mass.end(), 0.);
     std::fill(inert_mass.begin(), inert_mass.end(), 0.);
     reports.clear();
@@ -105,8 +103,7 @@ namespace Keyblock
     for (unsigned int node = 0; node < weighed_mass.size(); ++node)
       if (weighed_mass[node] > 0.)
         list.push_back(node);
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    sort_unique(list);
     return list;
   }
 
@@ -196,22 +193,10 @@ namespace Keyblock
   void
   Shotcrete<dim>::add_load(const double time, std::vector<double> &load) const
   {
-    Tensor<1, dim> g = seismic_acceleration;
-    if (gravity)
-      g += gravity->vector(Point<dim>(), time);
+    const Tensor<1, dim> g = acceleration.at(time);
     for (unsigned int node = 0; node < weighed_mass.size(); ++node)
       for (unsigned int d = 0; d < dim; ++d)
         load[dim * node + d] += weighed_mass[node] * g[d];
-  }
-
-
-
-  template <int dim>
-  void
-  Shotcrete<dim>::reduce_strength(const StrengthReduction &reduction)
-  {
-    if (scene.safety.bolt_convention == BoltConvention::passive)
-      trial.reduce_strength(reduction);
   }
 
 
@@ -223,14 +208,8 @@ namespace Keyblock
   {
     frequency = inertia.frequency;
     own_mass  = inert_mass;
-    if (inertia.has_equal_steps)
-      {
-        own_mass = row_sums();
-        for (double &m : own_mass)
-          m /= frequency * frequency;
-      }
-    for (unsigned int node = 0; node < own_mass.size(); ++node)
-      mass[node] += own_mass[node];
+    add_inertia_of_liners(
+      inertia, [this]() { return row_sums(); }, own_mass, mass);
   }
 
 
@@ -296,13 +275,9 @@ namespace Keyblock
   {
     ForceElementState state{name(), {}, {}};
     for (const Section &section : sections)
-      {
-        state.numbers.push_back(section.is_installed);
-        state.numbers.push_back(section.dissipated);
-        for (const auto *value : {&section.rest, &section.slip, &section.force})
-          for (unsigned int d = 0; d < dim; ++d)
-            state.numbers.push_back((*value)[d]);
-      }
+      for_each_number(section, [&](const double number) {
+        state.numbers.push_back(number);
+      });
     return state;
   }
 
@@ -314,13 +289,8 @@ namespace Keyblock
   {
     std::size_t at = 0;
     for (Section &section : sections)
-      {
-        section.is_installed = state.numbers.at(at++) != 0.;
-        section.dissipated   = state.numbers.at(at++);
-        for (auto *value : {&section.rest, &section.slip, &section.force})
-          for (unsigned int d = 0; d < dim; ++d)
-            (*value)[d] = state.numbers.at(at++);
-      }
+      for_each_number(section,
+                      [&](auto &number) { number = state.numbers.at(at++); });
   }
 
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/sort_unique.h>
 #include <keyblock/step/liner_mass.h>
 #include <keyblock/step/structural_liner.h>
 
@@ -27,18 +28,17 @@ namespace Keyblock
             vertices.insert(vertices.end(),
                             face.vertices.begin(),
                             face.vertices.end());
-          std::sort(vertices.begin(), vertices.end());
-          vertices.erase(std::unique(vertices.begin(), vertices.end()),
-                         vertices.end());
+          sort_unique(vertices);
           for (const unsigned int v : vertices)
             {
               lining.anchors.emplace_back();
               lining.anchors.back().vertex = v;
-              split.for_each_carrier(
-                v, [&](const unsigned int carrier, const double weight) {
-                  if (numbering.is_owned(carrier))
-                    lining.anchors.back().carriers.emplace_back(
-                      numbering.local_node(carrier), weight);
+              for_each_owned_carrier(
+                split,
+                numbering,
+                v,
+                [&](const unsigned int node, const double weight) {
+                  lining.anchors.back().carriers.emplace_back(node, weight);
                 });
             }
           linings.push_back(std::move(lining));
@@ -152,8 +152,7 @@ namespace Keyblock
           for_each_owned(anchor, [&](const unsigned int node, double) {
             list.push_back(node);
           });
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    sort_unique(list);
     return list;
   }
 
@@ -265,13 +264,9 @@ namespace Keyblock
   {
     ForceElementState state{name(), {}, {}};
     for (const Lining &lining : linings)
-      {
-        state.numbers.push_back(lining.is_installed);
-        for (const Anchor &anchor : lining.anchors)
-          for (const auto *value : {&anchor.rest, &anchor.displacement})
-            for (unsigned int d = 0; d < dim; ++d)
-              state.numbers.push_back((*value)[d]);
-      }
+      for_each_number(lining, [&](const double number) {
+        state.numbers.push_back(number);
+      });
     return state;
   }
 
@@ -283,13 +278,8 @@ namespace Keyblock
   {
     std::size_t at = 0;
     for (Lining &lining : linings)
-      {
-        lining.is_installed = state.numbers.at(at++) != 0.;
-        for (Anchor &anchor : lining.anchors)
-          for (auto *value : {&anchor.rest, &anchor.displacement})
-            for (unsigned int d = 0; d < dim; ++d)
-              (*value)[d] = state.numbers.at(at++);
-      }
+      for_each_number(lining,
+                      [&](auto &number) { number = state.numbers.at(at++); });
   }
 
 

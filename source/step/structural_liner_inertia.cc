@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What structural liners add to inertia, and how they shorten the step.
+#include <keyblock/step/liner_mass.h>
 #include <keyblock/step/structural_liner.h>
 
 #include <algorithm>
@@ -30,22 +31,27 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<double>
+  StructuralLiners<dim>::own_row_sums() const
+  {
+    std::vector<double> sums(numbering.n_owned(), 0.);
+    for (const auto &[vertex, sum] : row_sums())
+      if (numbering.is_owned(vertex))
+        sums[numbering.local_node(vertex)] = sum;
+    return sums;
+  }
+
+
+
+  template <int dim>
   void
   StructuralLiners<dim>::add_mass(
     const typename ForceElement<dim>::Inertia &inertia,
     std::vector<double> &mass)
   {
     own_mass = true_mass;
-    if (inertia.has_equal_steps)
-      {
-        std::fill(own_mass.begin(), own_mass.end(), 0.);
-        for (const auto &[vertex, sum] : row_sums())
-          if (numbering.is_owned(vertex))
-            own_mass[numbering.local_node(vertex)] =
-              sum / (inertia.frequency * inertia.frequency);
-      }
-    for (unsigned int node = 0; node < own_mass.size(); ++node)
-      mass[node] += own_mass[node];
+    add_inertia_of_liners(
+      inertia, [this]() { return own_row_sums(); }, own_mass, mass);
   }
 
 
@@ -88,6 +94,7 @@ namespace Keyblock
 #define INSTANTIATE(dim)                                                       \
   template std::map<unsigned int, double> StructuralLiners<dim>::row_sums()    \
     const;                                                                     \
+  template std::vector<double> StructuralLiners<dim>::own_row_sums() const;    \
   template void StructuralLiners<dim>::add_mass(                               \
     const typename ForceElement<dim>::Inertia &, std::vector<double> &);       \
   template StepBound StructuralLiners<dim>::step_bound(                        \

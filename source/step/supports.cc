@@ -2,8 +2,8 @@
 #include <keyblock/step/supports.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/base/sort_unique.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace Keyblock
@@ -291,8 +291,7 @@ namespace Keyblock
             if (holds_all || support.names_axis(d))
               hold_axis(entry, d, motion);
       });
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sort_unique(nodes);
     return n_hits;
   }
 

@@ -8,8 +8,7 @@ namespace Keyblock
 {
   template <int dim>
   RockState<dim>
-  gather_rock(const Scene<dim> &scene,
-              const SplitMesh<dim> &split,
+  gather_rock(const SplitMesh<dim> &split,
               const Numbering<dim> &numbering,
               const CellArrays<dim> &cells,
               const Fields<dim> &fields)
@@ -63,13 +62,11 @@ namespace Keyblock
     return rock;
   }
 
-  template RockState<2> gather_rock(const Scene<2> &,
-                                    const SplitMesh<2> &,
+  template RockState<2> gather_rock(const SplitMesh<2> &,
                                     const Numbering<2> &,
                                     const CellArrays<2> &,
                                     const Fields<2> &);
-  template RockState<3> gather_rock(const Scene<3> &,
-                                    const SplitMesh<3> &,
+  template RockState<3> gather_rock(const SplitMesh<3> &,
                                     const Numbering<3> &,
                                     const CellArrays<3> &,
                                     const Fields<3> &);

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <keyblock/scene/gravity.h>
+
 #include <array>
 
 namespace Keyblock
@@ -171,12 +173,9 @@ namespace Keyblock
   check_gravity_column(const CheckInput<dim> &input)
   {
     const Material<dim> &rock = *input.scene.materials.front();
-    const double modulus      = rock.lame_lambda() + 2. * rock.shear_modulus();
-    const Expression<dim> formula(input.scene.initial_state.gravity,
-                                  dim,
-                                  "Initial state/Gravity");
+    const double modulus      = rock.p_wave_modulus();
     const double weight =
-      -rock.density * formula.value(Point<dim>(), 0., dim - 1);
+      -rock.density * Gravity<dim>(input.scene).at(Point<dim>(), 0.)[dim - 1];
     double bottom = 1e300, top = -1e300;
     for (const Point<dim> &p : input.rock.vertices)
       {

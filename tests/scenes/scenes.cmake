@@ -172,7 +172,7 @@ keyblock_scene(verification/crack_water REFERENCES crack_water_rim RANKS 1 2
   SET "Joints/base/Friction angle=15" "Joints/crack/Water level=1.2"
   "Contact/Default friction angle=45")
 keyblock_scene(verification/factor_incline)
-keyblock_scene(verification/factor_incline REFERENCES factor_incline_teams
+keyblock_scene(verification/factor_incline REFERENCES factor_incline_rank_groups
   RANKS 2 SET "Safety factor/Rank groups=2")
 # stages whose balance says nothing of factor 1: cut short, tied, coarse
 foreach(case short,quasi-static,0.02,1e-6 static,static,0,1e-6
@@ -191,7 +191,7 @@ endforeach()
 keyblock_scene(verification/factor_incline REFERENCES factor_incline_undecided
   RANKS 1 SET "Safety factor/Maximum periods=2" "Safety factor/Bracket=1e-4"
   "Safety factor/Seismic coefficient=-0.000217, 0")
-# a slot between two blocks, one for each team
+# a slot between two blocks, one for each rank group
 keyblock_scene(verification/factor_incline REFERENCES factor_incline_two_blocks
   RANKS 2 4 SET "Safety factor/Rank groups=2"
   "Excavations/Names=uphill, downhill, slot" "Excavations/slot/Shape=box"

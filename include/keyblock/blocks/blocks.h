@@ -99,6 +99,8 @@ namespace Keyblock
     }
   };
 
+  /** The blocks of a mesh: rock that joints, excavations and the domain's
+   * boundary bound. */
   template <int dim>
   struct Blocks
   {

@@ -30,12 +30,6 @@ namespace Keyblock
     /** Mark the surface nodes of the faces of pairs that may meet. */
     void mark_nodes(std::vector<bool> &is_used) const;
 
-    bool
-    has_pairs() const
-    {
-      return !pairs.empty();
-    }
-
   private:
     struct Ridge
     {

@@ -46,12 +46,6 @@ namespace Keyblock
     /** Surface nodes of all candidate slaves and of the faces they may meet. */
     std::vector<unsigned int> candidate_nodes() const;
 
-    bool
-    has_candidates() const
-    {
-      return !candidates.empty() || (ridges && ridges->has_pairs());
-    }
-
     /**
      * Contacts nearer than @p reach [m] at the present @p position.
      * @param travelled how far candidate_nodes() are from where they were at

@@ -50,17 +50,19 @@ namespace Keyblock
     }
   };
 
+  /** How exactly groups are solved, and for which step. */
   struct SolverSettings
   {
-    double step                     = 0.; ///< dt of the coming move [s]
-    double tolerance                = 1e-10;
-    unsigned int maximum_iterations = 2000;
+    double step      = 0.;    ///< dt of the coming move [s]
+    double tolerance = 1e-10; ///< change in a sweep over impulses [-]
+    unsigned int maximum_iterations = 2000; ///< sweeps over the group
   };
 
+  /** How a group was solved. */
   struct SolverReport
   {
     unsigned int n_iterations = 0;
-    bool is_capped            = false;
+    bool is_capped            = false; ///< ended by maximum_iterations
   };
 
   /**
@@ -83,7 +85,8 @@ namespace Keyblock
    * 14 to 20, without their factor 2): every point for itself from the
    * predicted velocities, in one pass; the gap is closed in one step, overlap
    * included; a pulled point separates when its total force exceeds c A; the
-   * mass of a point on a surface is (20) and its force is shared by mass.
+   * mass of a point on a surface is that of equation 20 and its force is shared
+   * by mass.
    * Points that share nodes do not know of each other, so that corners may
    * diverge.
    */

@@ -106,7 +106,7 @@ namespace Keyblock
     /** Gap over which something pressed on each other then [m]. */
     double searched_gap            = 0.;
     bool is_search_due             = true;
-    unsigned int next_normal_check = 0; ///< step at which motion is measured
+    unsigned int next_motion_check = 0; ///< step at which motion is measured
 
     /** How far a pair's slip has opened it [m]. */
     double

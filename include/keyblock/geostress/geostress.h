@@ -66,6 +66,7 @@ namespace Keyblock
   /** Write one line per measurement: where, measured, fitted, residual. */
   void write_geostress(const std::string &file_name, const Geostress &result);
 
+  /** The factors and how well they fit, for people. */
   void print_geostress(std::ostream &out, const Geostress &result);
 } // namespace Keyblock
 

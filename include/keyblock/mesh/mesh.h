@@ -195,10 +195,11 @@ namespace Keyblock
                const std::string &name) const;
   };
 
+  /** The worst shape of a cell. */
   struct MeshQuality
   {
-    double minimum_scaled_jacobian = 1.;
-    unsigned int worst_cell        = 0;
+    double minimum_scaled_jacobian = 1.; ///< 1: of a box [-]
+    unsigned int worst_cell        = 0;  ///< which has it, if it is below 1
   };
 
   /**
@@ -281,6 +282,7 @@ namespace Keyblock
   template <int dim>
   double least_over_median_thickness(const Mesh<dim> &mesh);
 
+  /** Look for the cell of the worst shape. */
   template <int dim>
   MeshQuality measure_quality(const Mesh<dim> &mesh);
 } // namespace Keyblock

@@ -143,6 +143,23 @@ namespace Keyblock
     mutable std::vector<double> exchange_buffer;
     mutable std::vector<MPI_Request> exchange_requests;
   };
+
+  /** Call @p action(local node, weight) for the nodes of this rank that carry
+   * what acts at a @p vertex. */
+  template <int dim, typename Action>
+  void
+  for_each_owned_carrier(const SplitMesh<dim> &split,
+                         const Numbering<dim> &numbering,
+                         const unsigned int vertex,
+                         const Action &action)
+  {
+    split.for_each_carrier(vertex,
+                           [&](const unsigned int carrier,
+                               const double weight) {
+                             if (numbering.is_owned(carrier))
+                               action(numbering.local_node(carrier), weight);
+                           });
+  }
 } // namespace Keyblock
 
 #endif

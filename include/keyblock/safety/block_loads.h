@@ -41,10 +41,11 @@ namespace Keyblock
     std::vector<PointForce<dim>> all() const;
   };
 
-  /** That of limit equilibrium at the stage of @p ground [m/s2]. */
+  /** That of the stage of @p ground and, for limit equilibrium alone, of
+   * 'Safety factor/Seismic coefficient' [m/s2]. */
   template <int dim>
   Tensor<1, dim>
-  seismic_acceleration(const Ground<dim> &ground)
+  seismic_acceleration_with_safety(const Ground<dim> &ground)
   {
     Tensor<1, dim> coefficient =
       ground.scene.seismic_coefficient(ground.stage_number);

@@ -4,6 +4,7 @@
 
 #include <keyblock/base/choice.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -128,6 +129,25 @@ namespace Keyblock
     shear_modulus() const
     {
       return young_modulus / (2. * (1. + poisson_ratio));
+    }
+
+    /** Stress per strain along one axis, none across it [Pa]. */
+    double
+    p_wave_modulus() const
+    {
+      return lame_lambda() + 2. * shear_modulus();
+    }
+
+    /** Of plane waves [m/s]. */
+    double
+    p_wave_speed() const
+    {
+      return std::sqrt(p_wave_modulus() / density);
+    }
+    double
+    s_wave_speed() const
+    {
+      return std::sqrt(shear_modulus() / density);
     }
 
     void declare(ParameterHandler &prm);

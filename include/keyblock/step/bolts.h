@@ -46,7 +46,11 @@ namespace Keyblock
     void recall(const ForceElementState &state) override;
 
     /** In the passive convention divide what bolts hold (PassiveSupport). */
-    void reduce_strength(const StrengthReduction &reduction) override;
+    void
+    reduce_strength(const StrengthReduction &reduction) override
+    {
+      trial.reduce_strength(reduction);
+    }
     void
     take_ways(const std::vector<Tensor<1, dim>> &ways) override
     {
@@ -78,7 +82,6 @@ namespace Keyblock
     template <typename Action>
     void for_each_motion(const Action &action);
 
-    const Scene<dim> &scene;
     const Numbering<dim> &numbering;
     std::vector<BoltInRock<dim>> bolts;
     BoltPoints<dim> points; ///< of the present ones

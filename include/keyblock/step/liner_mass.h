@@ -25,14 +25,40 @@ namespace Keyblock
       if (!ground.is_excavated(part.cell))
         {
           area += part.area;
-          ground.split.for_each_carrier(
-            part.vertex, [&](const unsigned int carrier, const double weight) {
-              if (numbering.is_owned(carrier))
-                mass[numbering.local_node(carrier)] +=
-                  weight * part.area * liner.thickness * liner.density;
-            });
+          for_each_owned_carrier(ground.split,
+                                 numbering,
+                                 part.vertex,
+                                 [&](const unsigned int node,
+                                     const double weight) {
+                                   mass[node] += weight * part.area *
+                                                 liner.thickness *
+                                                 liner.density;
+                                 });
         }
     return area;
+  }
+
+  /**
+   * Add the inertia of liners to the @p mass of owned nodes: their true mass,
+   * or where steps are equal as much as keeps the frequency of @p inertia [kg].
+   * @param row_sums tells those of their stiffness, by owned node [N/m]
+   * @param own_mass the true mass, then what is in use
+   */
+  template <typename Inertia, typename RowSums>
+  void
+  add_inertia_of_liners(const Inertia &inertia,
+                        const RowSums &row_sums,
+                        std::vector<double> &own_mass,
+                        std::vector<double> &mass)
+  {
+    if (inertia.has_equal_steps)
+      {
+        own_mass = row_sums();
+        for (double &m : own_mass)
+          m /= inertia.frequency * inertia.frequency;
+      }
+    for (unsigned int node = 0; node < own_mass.size(); ++node)
+      mass[node] += own_mass[node];
   }
 } // namespace Keyblock
 

@@ -7,6 +7,7 @@
 #include <keyblock/blocks/ground.h>
 #include <keyblock/rock/dofs.h>
 #include <keyblock/rock/fields.h>
+#include <keyblock/step/body_acceleration.h>
 #include <keyblock/step/ramp.h>
 
 #include <memory>
@@ -178,8 +179,7 @@ namespace Keyblock
     const Numbering<dim> &numbering;
     Fields<dim> &fields;
 
-    Tensor<1, dim> seismic_acceleration; ///< of the stage [m/s2]
-    std::unique_ptr<Expression<dim>> gravity;
+    BodyAcceleration<dim> acceleration;
     std::vector<std::unique_ptr<Expression<dim>>> tractions;
     std::vector<std::unique_ptr<Expression<dim>>> water_pressures; ///< by joint
 
@@ -188,7 +188,7 @@ namespace Keyblock
     std::vector<std::pair<unsigned int, double>> steady_forces;
     std::vector<LoadPoint<dim, double>> varying_tractions;
     std::vector<LoadPoint<dim, Tensor<1, dim>>> varying_water;
-    bool is_constant = true; ///< no other formula depends on time
+    bool is_constant = true; ///< neither traction nor gravity depends on time
     bool is_set      = false;
     double share_set = 0.; ///< of the carried force in the load [-]
   };

@@ -21,10 +21,16 @@ namespace Keyblock
   class PassiveSupport
   {
   public:
+    /** Nothing is taken in another @p convention. */
+    explicit PassiveSupport(const BoltConvention convention)
+      : is_passive(convention == BoltConvention::passive)
+    {}
+
     void
     reduce_strength(const StrengthReduction &new_reduction)
     {
-      reduction = new_reduction;
+      if (is_passive)
+        reduction = new_reduction;
     }
 
     /** As ForceElement::take_ways(). */
@@ -58,6 +64,7 @@ namespace Keyblock
                          const Tensor<1, dim> &normal) const;
 
   private:
+    const bool is_passive;
     StrengthReduction reduction;
     std::vector<Tensor<1, dim>> ways; ///< unit vectors or zero, by block
   };

@@ -28,11 +28,12 @@ namespace Keyblock
       const auto &corners = ground.split.mesh.cells[point.cell];
       for (unsigned int v = 0; v < corners.size(); ++v)
         if (point.weight[v] != 0.)
-          ground.split.for_each_carrier(
-            corners[v], [&](const unsigned int carrier, const double weight) {
-              if (numbering.is_owned(carrier))
-                carriers.emplace_back(numbering.local_node(carrier),
-                                      weight * point.weight[v]);
+          for_each_owned_carrier(
+            ground.split,
+            numbering,
+            corners[v],
+            [&](const unsigned int node, const double weight) {
+              carriers.emplace_back(node, weight * point.weight[v]);
             });
     }
 

@@ -2,7 +2,7 @@
 #ifndef keyblock_step_shotcrete_h
 #define keyblock_step_shotcrete_h
 
-#include <keyblock/base/expression.h>
+#include <keyblock/step/body_acceleration.h>
 #include <keyblock/step/force_element.h>
 #include <keyblock/step/passive_support.h>
 
@@ -62,7 +62,11 @@ namespace Keyblock
     void recall(const ForceElementState &state) override;
 
     /** In the passive convention divide what sections hold (PassiveSupport). */
-    void reduce_strength(const StrengthReduction &reduction) override;
+    void
+    reduce_strength(const StrengthReduction &reduction) override
+    {
+      trial.reduce_strength(reduction);
+    }
     void
     take_ways(const std::vector<Tensor<1, dim>> &ways) override
     {
@@ -85,6 +89,19 @@ namespace Keyblock
       Tensor<1, dim> force;      ///< on the second side [N]
       double dissipated = 0.;    ///< [J]
     };
+
+    /** Call @p action with each number of what has happened to a @p section, in
+     * the order of checkpoints. */
+    template <typename AnySection, typename Action>
+    static void
+    for_each_number(AnySection &section, const Action &action)
+    {
+      action(section.is_installed);
+      action(section.dissipated);
+      for (auto *value : {&section.rest, &section.slip, &section.force})
+        for (unsigned int d = 0; d < dim; ++d)
+          action((*value)[d]);
+    }
 
     double stiffness_of(const Section &section) const;
     double strength_of(const Section &section) const; ///< not reduced [N]
@@ -109,8 +126,7 @@ namespace Keyblock
     std::vector<double> own_mass;     ///< in use, by owned node [kg]
     double frequency = 0.;            ///< highest of the cells [rad/s]
     std::vector<LinerReport> reports; ///< but for loads
-    std::unique_ptr<Expression<dim>> gravity;
-    Tensor<1, dim> seismic_acceleration; ///< of the stage [m/s2]
+    BodyAcceleration<dim> acceleration;
     PassiveSupport<dim> trial;
   };
 } // namespace Keyblock

@@ -28,6 +28,7 @@ namespace Keyblock
     ExplicitStep<dim> &step;
   };
 
+  /** Copy the state of @p run (collective). */
   template <int dim>
   Snapshot<dim>
   take_snapshot(const RunParts<dim> &run)

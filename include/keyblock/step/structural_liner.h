@@ -111,6 +111,19 @@ namespace Keyblock
       std::vector<unsigned int> rank_of_piece;
     };
 
+    /** Call @p action with each number of what a @p lining remembers, in the
+     * order of checkpoints. */
+    template <typename AnyLining, typename Action>
+    static void
+    for_each_number(AnyLining &lining, const Action &action)
+    {
+      action(lining.is_installed);
+      for (auto &anchor : lining.anchors)
+        for (auto *value : {&anchor.rest, &anchor.displacement})
+          for (unsigned int d = 0; d < dim; ++d)
+            action((*value)[d]);
+    }
+
     /** Call @p action(local node, weight) for the owned nodes that carry what
      * acts at @p anchor. */
     template <typename Action>
@@ -124,8 +137,9 @@ namespace Keyblock
     void build(Lining &lining) const;
 
     /** Sums of the rows of the stiffness, by vertex that carries (the same on
-     * every rank) [N/m]. */
+     * every rank), and by owned node [N/m]. */
     std::map<unsigned int, double> row_sums() const;
+    std::vector<double> own_row_sums() const;
 
     /** Deal out the pieces to the ranks (collective). */
     void deal_out(Lining &lining) const;

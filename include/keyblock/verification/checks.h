@@ -26,8 +26,7 @@ namespace Keyblock
 
   /** Collect the state on every rank (collective). */
   template <int dim>
-  RockState<dim> gather_rock(const Scene<dim> &scene,
-                             const SplitMesh<dim> &split,
+  RockState<dim> gather_rock(const SplitMesh<dim> &split,
                              const Numbering<dim> &numbering,
                              const CellArrays<dim> &cells,
                              const Fields<dim> &fields);

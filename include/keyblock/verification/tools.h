@@ -5,6 +5,7 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
+#include <keyblock/scene/gravity.h>
 #include <keyblock/verification/checks.h>
 
 #include <algorithm>
@@ -92,15 +93,9 @@ namespace Keyblock
                              "', which needs a monitor of kind block and "
                              "one of kind joint in 'Monitors/Names'; add "
                              "them."));
-      begin = input.history.stage_begin.back();
-      time  = input.history.column("time", begin);
-      if (!input.scene.initial_state.gravity.empty())
-        {
-          const Expression<dim> formula(input.scene.initial_state.gravity,
-                                        dim,
-                                        "Initial state/Gravity");
-          gravity = formula.vector(Point<dim>(), time.back());
-        }
+      begin   = input.history.stage_begin.back();
+      time    = input.history.column("time", begin);
+      gravity = Gravity<dim>(input.scene).at(Point<dim>(), time.back());
       for (const unsigned int j :
            input.scene.joints_called(input.scene.checks.joint))
         joint = input.scene.joints[j].get();
