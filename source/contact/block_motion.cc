@@ -95,10 +95,10 @@ namespace Keyblock
   std::vector<double>
   BlockMotions<dim>::sum_over_masses() const
   {
-    std::vector<double> sums((2 + dim) * nodes_of_block.size(), 0.);
+    std::vector<double> sums((2 + 2 * dim) * nodes_of_block.size(), 0.);
     for (unsigned int b = 0; b < nodes_of_block.size(); ++b)
       {
-        double *const sum = &sums[(2 + dim) * b];
+        double *const sum = &sums[(2 + 2 * dim) * b];
         for (const unsigned int node : nodes_of_block[b])
           {
             const double m = fields.weighing_mass[node];
@@ -108,6 +108,7 @@ namespace Keyblock
                 const double u = fields.displacement[dim * node + d];
                 sum[1 + d] += m * u;
                 sum[1 + dim] += m * u * u;
+                sum[2 + dim + d] += fields.load[dim * node + d];
               }
           }
       }
@@ -158,7 +159,7 @@ namespace Keyblock
     const double *const wall = &faces[(1 + dim) * links.size()];
     for (unsigned int b = 0; b < n_blocks; ++b)
       {
-        const double *const sum = &masses[(2 + dim) * b];
+        const double *const sum = &masses[(2 + 2 * dim) * b];
         const double weight =
           displacement_weight * std::pow(blocks.blocks[b].size, dim - 1);
         matrix.add(b, b, weight);
@@ -173,6 +174,10 @@ namespace Keyblock
             square -= mean * mean;
           }
         motions[b].spread = std::sqrt(std::max(0., square));
+        double load       = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          load += sum[2 + dim + d] * sum[2 + dim + d];
+        motions[b].load = std::sqrt(load);
       }
     dealii::SparseDirectUMFPACK solver;
     solver.initialize(matrix);

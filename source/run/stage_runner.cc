@@ -2,6 +2,7 @@
 #include <keyblock/run/ramp_length.h>
 #include <keyblock/run/stage_runner.h>
 #include <keyblock/run/static_stage.h>
+#include <keyblock/safety/block_stiffness.h>
 #include <keyblock/scene/step_count.h>
 
 #include <algorithm>
@@ -28,6 +29,10 @@ namespace Keyblock
     /** Way over the size in the second half of the time so far, at a steady
      * speed, by which a block has failed [-]. */
     constexpr double steady_slip = 1e-3;
+
+    /** And over the compression of the block by its load: soft blocks that rock
+     * on a corner until they rest go this far, slender ones [-]. */
+    constexpr double steady_compressions = 50.;
   } // namespace
 
 
@@ -207,12 +212,24 @@ namespace Keyblock
     if (model.conditions->loads.is_ramping())
       progress.slips.restart(progress.n_done);
     const bool is_recorded = progress.slips.offer(progress.n_done, way);
+    const auto is_steady   = [&](const unsigned int b) {
+      const Block<dim> &block = model.blocks.blocks[b];
+      const double least      = steady_slip * block.size;
+      return progress.slips.is_steady(b, least) &&
+             progress.slips.is_steady(
+               b,
+               std::max(
+                 least,
+                 steady_compressions *
+                   compression_of_block(model.conditions->active_cells.ground(),
+                                        b,
+                                        block,
+                                        motions[b].load)));
+    };
     for (unsigned int b = 0; b < model.blocks.blocks.size(); ++b)
-      if (can_fail(b) &&
-          (way[b] >
-             model.scene.safety.removal_slip * model.blocks.blocks[b].size ||
-           (is_recorded && progress.slips.is_steady(
-                             b, steady_slip * model.blocks.blocks[b].size))))
+      if (can_fail(b) && (way[b] > model.scene.safety.removal_slip *
+                                     model.blocks.blocks[b].size ||
+                          (is_recorded && is_steady(b))))
         failed.push_back(b);
     return failed;
   }

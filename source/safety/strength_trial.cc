@@ -3,11 +3,11 @@
 #include <keyblock/base/stop_request.h>
 #include <keyblock/safety/slow_mode.h>
 #include <keyblock/safety/strength_trial.h>
+#include <keyblock/step/measured_steps.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace Keyblock
 {
@@ -65,29 +65,6 @@ namespace Keyblock
 
     /** Times that a block which neither rests nor speeds up is looked at. */
     constexpr unsigned int n_rounds = 5;
-
-    /** While it lives, forces are measured at any step, and no ledger is kept.
-     */
-    template <int dim>
-    class MeasuredSteps
-    {
-    public:
-      explicit MeasuredSteps(ExplicitStep<dim> &step)
-        : step(step)
-        , keeps_ledger(std::exchange(step.keeps_ledger, false))
-        , skips_resting(std::exchange(step.skips_resting, false))
-      {}
-
-      ~MeasuredSteps()
-      {
-        step.keeps_ledger  = keeps_ledger;
-        step.skips_resting = skips_resting;
-      }
-
-    private:
-      ExplicitStep<dim> &step;
-      const bool keeps_ledger, skips_resting;
-    };
   } // namespace
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a trial measures of a block, and the stage that its measures ask for.
 #include <keyblock/rock/nodal_force.h>
+#include <keyblock/safety/block_stiffness.h>
 #include <keyblock/safety/strength_trial.h>
 
 #include <algorithm>
@@ -17,23 +18,6 @@ namespace Keyblock
 
     /** Share of its load that what holds a block bears at least [-]. */
     constexpr double holding_share = 0.1;
-
-    /** Largest @p value_of(material) of a block's cells, zero without any. */
-    template <int dim, typename Value>
-    double
-    largest_in_block(const Ground<dim> &ground,
-                     const unsigned int block,
-                     const Value &value_of)
-    {
-      const SplitMesh<dim> &split = ground.split;
-      double largest              = 0.;
-      for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
-        if (split.block_of_cell[c] == block)
-          largest =
-            std::max(largest,
-                     value_of(*ground.scene.materials[ground.material_of(c)]));
-      return largest;
-    }
   } // namespace
 
 
@@ -192,14 +176,10 @@ namespace Keyblock
   StrengthTrials<dim>::compression(const unsigned int block,
                                    const double load) const
   {
-    const Block<dim> &b = blocks.blocks[block];
-    const double modulus =
-      largest_in_block(run.conditions.active_cells.ground(),
-                       block,
-                       [](const Material<dim> &material) {
-                         return material.p_wave_modulus();
-                       });
-    return load * b.size * b.size / (modulus * b.volume);
+    return compression_of_block(run.conditions.active_cells.ground(),
+                                block,
+                                blocks.blocks[block],
+                                load);
   }
 
 

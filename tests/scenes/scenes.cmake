@@ -290,6 +290,8 @@ keyblock_scene(verification/roof_clamped RANKS 1 2)
 keyblock_scene(verification/block_at_wall RANKS 1 2)
 keyblock_scene(verification/half_trough RANKS 1)
 keyblock_scene(verification/blocks_at_edge RANKS 1 2)
+# a block that rocks slowly until it stands
+keyblock_scene(verification/leaning_column RANKS 1)
 keyblock_scene(verification/lined_roof RANKS 1 2)
 keyblock_scene(verification/lined_roof REFERENCES lined_roof_weight RANKS 1
   SET "Shotcrete/shell/Density=2400")

@@ -15,6 +15,7 @@ namespace Keyblock
   {
     Vector<dim> shift{}; ///< mean, against the rock around [m]
     double spread = 0.;  ///< root mean square about the mean: rotation [m]
+    double load   = 0.;  ///< resultant of gravity and tractions [N]
 
     /** Root mean square of both [m]. */
     double

@@ -17,8 +17,8 @@ namespace Keyblock
     for (unsigned int d = 0; d < dim; ++d)
       {
         const unsigned int i = dim * node + d;
-        force[d]             = fields.load[i] - fields.internal_force[i] +
-                   fields.contact_force[i];
+        force[d] =
+          fields.load[i] - fields.internal_force[i] + fields.contact_force[i];
       }
     return force;
   }
