@@ -258,6 +258,7 @@ namespace Keyblock
       refuse_idle_overrides(text, ground.depth > 0.);
     make_profiles();
     complete_ground(text);
+    refuse_idle_entries(*prm, *this, text);
     check_domain(*this);
     read_shape_files(communicator, *this);
     joints = make_joints(*this, read_names(names, "Joints"), text);
