@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/mesh/size_remedy.h>
 #include <keyblock/run/study_report.h>
 
 #include <nlohmann/json.hpp>
@@ -59,7 +60,6 @@ namespace Keyblock
       owner[key]        = json;
     }
 
-    std::ostream &
     /** The share of @p n samples that fail; its interval has no rounding errors
      * where none or all do. */
     ProbabilityEstimate
@@ -81,6 +81,7 @@ namespace Keyblock
       return variable.distribution != Distribution::sequence;
     }
 
+    std::ostream &
     operator<<(std::ostream &out, const ProbabilityEstimate &p)
     {
       return out << p.value << " [" << p.lower << ", " << p.upper << "]";
@@ -197,8 +198,8 @@ namespace Keyblock
             " samples the mesh has moved faces of blocks off their joints by "
             "more than half a cell, or changed volumes by more than 5 %; limit "
             "equilibrium takes faces as plane and, where they are known, exact "
-            "volumes; lower 'Mesh/Size' or 'Mesh/Size at excavation', or set "
-            "'Mesh/Cells across blocks'."};
+            "volumes; " +
+            remedy_of_coarse_cells(scene.meshing) + "."};
   }
 
 

@@ -198,6 +198,11 @@ namespace Keyblock
     for (const auto &material : materials)
       if (density == 0. && !material->is_rigid())
         density = material->density;
+    require(domain.shape != DomainShape::box || !domain.size.empty(),
+            "The entry 'Domain/Size' is missing: 'Ground/Depth' puts rollers "
+            "and overburden on the sides of the box; give its lengths along "
+            "the axes (without them only a rectangle, horseshoe or cavern in "
+            "'Excavations' says how large the domain is).");
     require(domain.shape == DomainShape::box && domain.size.size() == dim,
             "The entry 'Ground/Depth' needs a domain that is a box, on which "
             "rollers and overburden stand; set 'Domain/Shape' to box, or leave "
