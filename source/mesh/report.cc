@@ -108,8 +108,8 @@ namespace Keyblock
                   << parting.angle << " degrees and up to about "
                   << parting.distance
                   << " m apart; lower the size of cells there ('Mesh/Size at "
-                     "joints')"
-                  << " to keep them apart, or leave one of them out.\n";
+                     "joints') to keep them apart, or leave one of them "
+                     "out.\n";
           }
       if (n > most_pairs)
         out << "Warning: " << n - most_pairs

@@ -334,6 +334,12 @@ def joint_twice():
     valid(validate(INCLINE, ["Joints/Names=base, twin", "Joints/twin/Dip=40",
                              "Joints/twin/Friction angle=10"]),
           "The joint 'base' lies wholly on the joint 'twin'")
+    # not in the scene, but in its mesh
+    valid(validate(PRM / "tutorial" / "first_tunnel.prm", [
+        "Joints/Names=a, b", "Joints/a/Point=0, 12", "Joints/a/Dip=10",
+        "Joints/b/Point=0, 12.05", "Joints/b/Dip=10.1", "Joint sets/Names=",
+        "Study/Names="]),
+          "The mesh has let the joint 'b' fall together with the joint 'a'")
 
 
 def shape_file_changed():
