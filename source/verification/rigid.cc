@@ -26,8 +26,10 @@ namespace Keyblock
 
 
   /** Block that slides on an incline: a = g (sin - cos tan phi) - c A / m, with
-   * what is left of the cohesion c; one that holds by cohesion and friction
-   * stays. */
+   * what is left of the cohesion c, if the whole base stays closed (where an
+   * edge opens, its cohesion is lost); one that holds by cohesion and friction
+   * stays.
+   */
   template <int dim>
   CheckValues
   check_incline(const CheckInput<dim> &input)
