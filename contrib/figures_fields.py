@@ -47,8 +47,8 @@ def put_blocks(axes, run, grid, box):
             colors="0.15" if number in named else "0.45"))
     _, corners = cells_of(grid)
     places = number_places(corners, block_of_cells(grid), box, named)
-    for number, place in places.items():
-        put_text(axes, place, str(number), zorder=5, fontsize=9,
+    for number in [n for n in named if n in places]:
+        put_text(axes, places[number], str(number), zorder=5, fontsize=9,
                  color=block_colour(run, number))
 
 
@@ -168,9 +168,10 @@ def draw_joint_states(run, name=None, box=()):
                 linewidths=1.2 + 0.5 * k,
                 label=f"{text} ({(mine & inside).sum()} faces)"))
     named = run.named_blocks()
-    for number, place in number_places(corners, block_of_cells(grid), box,
-                                       named).items():
-        put_text(axes, place, str(number), zorder=7, fontsize=9, color="0.2")
+    places = number_places(corners, block_of_cells(grid), box, named)
+    for number in [n for n in named if n in places]:
+        put_text(axes, places[number], str(number), zorder=7, fontsize=9,
+                 color="0.2")
     axes.set_title(f"joints {title}", loc="left")
     put_legend(axes)
     return figure

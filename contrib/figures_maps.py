@@ -188,10 +188,11 @@ def draw_block_map(run, box=()):
     named = run.named_blocks()
     others = set(run.blocks) - set(run.finite_blocks())
     others = others if len(run.blocks) <= 30 else set()
-    for number, place in number_places(corners, block, box,
-                                       {*named, *others}).items():
+    places = number_places(corners, block, box, {*named, *others})
+    # the most dangerous first: labels that would lie on others are left out
+    for number in [n for n in [*named, *sorted(others)] if n in places]:
         is_finite = number in named
-        put_text(axes, place, str(number), zorder=5,
+        put_text(axes, places[number], str(number), zorder=5,
                  fontsize=11 if is_finite else 9,
                  weight="bold" if is_finite else "normal",
                  color=block_colour(run, number) if is_finite else "0.4")

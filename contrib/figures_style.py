@@ -158,12 +158,28 @@ def put_legend(axes, **options):
 
 
 def put_text(axes, place, text, **options):
-    """A short text with a white rim, readable on any ground.
+    """A short text with a white rim, readable on any ground; save() leaves it
+    out where it would lie on one that was put before.
 
     In SVG, where its letters are paths, it is the group label_TEXT."""
     rim = [patheffects.withStroke(linewidth=2.5, foreground="white")]
     axes.text(*place, text, ha="center", va="center", path_effects=rim,
               clip_on=True, gid=f"label_{text}", **options)
+
+
+def hide_covered_labels(figure):
+    """Leave out labels that would lie on others: those put first stay."""
+    figure.draw_without_rendering()  # places depend on the layout
+    for axes in figure.axes:
+        kept = []
+        for text in axes.texts:
+            if not (text.get_gid() or "").startswith("label_"):
+                continue
+            box = text.get_window_extent()
+            if any(box.overlaps(other) for other in kept):
+                text.set_visible(False)
+            else:
+                kept.append(box)
 
 
 def use_logarithm(axes, values, name):
@@ -191,6 +207,7 @@ def reduce_colours(path):
 
 def save(figure, path, dpi=100):
     """Write a figure as its ending says, PNG with few colours; say it."""
+    hide_covered_labels(figure)
     try:
         with pyplot.rc_context({"svg.fonttype": "none", "pdf.fonttype": 42}):
             # the layout leaves too little room beside maps in true proportions

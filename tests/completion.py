@@ -88,6 +88,22 @@ def entries():
         "Stages/slide/Mass damping="]
 
 
+def included():
+    """Names of a scene that another one includes, beside itself."""
+    folder = FOLDER / "included"
+    (folder / "parts").mkdir(parents=True, exist_ok=True)
+    (folder / "one.prm").write_text(
+        "  include parts/more.prm  # of all\nsubsection Stages\n"
+        "  set Names = last # one\nend\n", encoding="utf-8")
+    (folder / "parts" / "more.prm").write_text(
+        "subsection Joints\n  set Names = upper, lower\nend\n"
+        "include more.prm\ninclude nothing.prm", encoding="utf-8")
+    scene = str(folder / "one.prm")
+    assert {"Joints/upper/", "Joints/lower/"} <= set(
+        offers(scene, "--set", "Joints/"))
+    assert "Stages/last/" in offers(scene, "--set", "Stages/")
+
+
 def all_entries():
     """Every entry that stands for no name is offered in its section."""
     depth, missing, number = [], [], 0
@@ -132,8 +148,8 @@ def main():
     document = FOLDER / "tree" / "doc" / "parameters.md"
     document.parent.mkdir(exist_ok=True)
     document.write_text(text_of("--print-parameters"), encoding="utf-8")
-    for case in (options, files, entries, all_entries, without_documents,
-                 quick):
+    for case in (options, files, entries, included, all_entries,
+                 without_documents, quick):
         case()
         print(f"{case.__name__}: as it should be")
 

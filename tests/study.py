@@ -76,6 +76,8 @@ def faults_of_groups(keyblock, scene, folder):
     for name in ("factor", "factor_1", "factor_2"):
         if abs(float(values[name] or "inf") - together) > 2e-3:
             faults.append(f"{name} of blocks that fail together: {values[name]}")
+    if "rank_correlation" in results["variables"][0]:
+        faults.append("a sequence has a rank correlation")
     if values["failed_blocks"] != "2" or results["probability"]["value"] != 1:
         faults.append("of blocks that fail together not both failed")
     return faults

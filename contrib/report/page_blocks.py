@@ -98,10 +98,19 @@ def blocks_section(run, rows, has_view, files):
         shown = rows[:MOST_ROWS]
     ids = {r["block"] for r in shown}
     rest = [r for r in rows if r["block"] not in ids]
-    text = ["<h2 id=blocks>Blocks, the most dangerous first</h2>",
-            "<p>Exposed ones first, then those that failed, then by the least "
-            "factor, alone or of a group, of all stages; those that still move "
-            "at the end as if it were 1 at most. "
+    if any(r["factor"] or r["limit"] for r in rows):
+        title = "Blocks, the most dangerous first"
+        order = ("Exposed ones first, then those that failed, then by the least "
+                 "factor, alone or of a group, of all stages; those that still "
+                 "move at the end as if it were 1 at most. ")
+    else:
+        title = "Blocks, the exposed and the largest first"
+        order = ("Those that failed or still move stand before others. The run "
+                 "was asked for no factors (Safety factor/Blocks), so that the "
+                 "table does not say which block is dangerous; --validate "
+                 "prints limit equilibrium of each. ")
+    text = [f"<h2 id=blocks>{title}</h2>",
+            f"<p>{order}"
             + ("Click on a row to mark the block in the view below. "
                if has_view else "")
             + f"As tables: {files}.</p>",

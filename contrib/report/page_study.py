@@ -126,11 +126,13 @@ def variables_section(study, figures):
     rows = "".join(
         f"<tr><td>{escape(v['name'])}</td><td><code>{escape(v['entry'])}"
         f"</code></td><td>{escape(v['distribution'])}</td>"
-        f"<td class=n>{number(v['mean'])}</td>"
-        f"<td class=n>{number(v['deviation'])}</td>"
-        f"<td class=n>{number(v['rank_correlation'], 3)}</td></tr>"
+        # (a sequence, as of seeds, has none of these)
+        + "".join(f"<td class=n>{number(v.get(key), digits)}</td>"
+                  for key, digits in (("mean", 4), ("deviation", 4),
+                                      ("rank_correlation", 3)))
+        + "</tr>"
         for v in sorted(study.results["variables"],
-                        key=lambda v: -abs(v["rank_correlation"])))
+                        key=lambda v: -abs(v.get("rank_correlation", 0.))))
     return ("<h2 id=variables>Variables</h2>"
             + figures_in(figures.get("correlations"))
             + '<div class="wide"><table><thead><tr><th>variable</th><th>entry'

@@ -65,7 +65,8 @@ def convergence(points):
 
 def correlations(variables):
     """Rank correlations with the least factor, the strongest on top; or
-    None."""
+    None. Sequences, as of seeds, have none."""
+    variables = [v for v in variables if "rank_correlation" in v]
     if not variables:
         return None
     ordered = sorted(variables, key=lambda v: abs(v["rank_correlation"]))

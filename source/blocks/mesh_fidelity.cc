@@ -3,6 +3,7 @@
 
 #include <keyblock/base/number_text.h>
 #include <keyblock/mesh/place_digits.h>
+#include <keyblock/mesh/size_remedy.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,14 +105,13 @@ namespace Keyblock
              list_some(names) + "), the most on " +
              scene.joints[most.joint]->name + ", by " +
              text_of(most.distance, 3) + " m at (" + place + "), " +
-             text_of(most.in_cells, 2) +
-             " of the size of the cell there; lower 'Mesh/Size' or 'Mesh/Size "
-             "at excavation', or set 'Mesh/Cells across blocks'.";
+             text_of(most.in_cells, 2) + " of the size of the cell there; " +
+             remedy_of_coarse_cells(scene.meshing) + ".";
     }
 
     template <int dim>
     std::string
-    warning_of_volumes(const Blocks<dim> &blocks)
+    warning_of_volumes(const Scene<dim> &scene, const Blocks<dim> &blocks)
     {
       const Block<dim> *most = nullptr;
       double largest         = largest_difference;
@@ -141,9 +141,8 @@ namespace Keyblock
              (ids.size() > 1
                 ? " (more than 5 % off are blocks " + list_some(ids) + ")"
                 : "") +
-             ", and its factor by strength reduction is found with that; lower "
-             "'Mesh/Size' or 'Mesh/Size at excavation', or set 'Mesh/Cells "
-             "across blocks'.";
+             ", and its factor by strength reduction is found with that; " +
+             remedy_of_coarse_cells(scene.meshing) + ".";
     }
 
     /** Blocks of which a joint cuts a corner off that the mesh has lost. */
@@ -226,8 +225,8 @@ namespace Keyblock
                 : "") +
              ", and its factors are found with that, by limit equilibrium, too "
              "(a block that is not convex, or that joints bound which end "
-             "there, or that the mesh has split); lower 'Mesh/Size' or "
-             "'Mesh/Size at excavation', or set 'Mesh/Cells across blocks'.";
+             "there, or that the mesh has split); " +
+             remedy_of_coarse_cells(scene.meshing) + ".";
     }
   } // namespace
 
@@ -244,7 +243,7 @@ namespace Keyblock
          {warning_of_shifts(scene,
                             measure_shifts(scene, split, blocks),
                             digits_of_place(split.mesh, 3)),
-          warning_of_volumes(blocks),
+          warning_of_volumes(scene, blocks),
           warning_of_lost_corners(scene, blocks),
           warning_of_shifted_volumes(split, scene, blocks)})
       if (!warning.empty())

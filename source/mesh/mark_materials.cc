@@ -38,6 +38,14 @@ namespace Keyblock
         std::swap(band[0], band[1]);
       return band;
     }
+
+    template <int dim>
+    std::string
+    regions_of(const Mesh<dim> &mesh)
+    {
+      return list_groups({mesh.region.begin(), mesh.region.end()},
+                         mesh.region_names);
+    }
   } // namespace
 
 
@@ -82,8 +90,11 @@ namespace Keyblock
         AssertThrow(n_hits > 0,
                     InputError("No cell lies in the region '" + region +
                                "' of the entry 'Materials/" +
-                               scene.materials[m]->name +
-                               "/Region'; correct it or drop the material."));
+                               scene.materials[m]->name + "/Region'" +
+                               (is_id ? "; the regions of the mesh are: " +
+                                          regions_of(mesh)
+                                      : "") +
+                               "; correct it or drop the material."));
       }
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       AssertThrow(

@@ -286,6 +286,7 @@ namespace Keyblock
 
     find_neighbors(mesh);
     mark_boundaries(mesh, scene);
+    check_boundary_groups(mesh, scene);
     mark_materials(mesh, scene);
     mark_excavations(mesh, scene);
     check_rock_is_left(mesh, scene);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Geometry, neighbours and quality of a mesh.
 #include <keyblock/mesh/mesh.h>
+#include <keyblock/scene/boundary_names.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,11 +28,7 @@ namespace Keyblock
   const std::vector<std::string> &
   Mesh<dim>::boundary_names()
   {
-    static const std::vector<std::string> names =
-      dim == 2 ? std::vector<std::string>{"left", "right", "bottom", "top"}
-               : std::vector<std::string>{
-                   "left", "right", "front", "back", "bottom", "top"};
-    return names;
+    return Keyblock::boundary_names<dim>();
   }
 
 

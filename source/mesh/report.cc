@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/mesh/report.h>
 
+#include <deal.II/base/numbers.h>
+
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <ostream>
 
@@ -49,7 +52,36 @@ namespace Keyblock
         }
     }
 
-    /** Warn of joints that lie wholly on others. */
+    /** How far apart two joints are that the mesh has on the same faces. */
+    struct Parting
+    {
+      double angle;    ///< between their planes [deg]
+      double distance; ///< of one's place from the other's plane [m]
+
+      /** Whether they were one plane before the mesh was made; @p size: of
+       * what they share [m]. */
+      bool
+      is_nothing(const double size) const
+      {
+        constexpr double closeness = 1e-4;
+        return angle * dealii::numbers::PI / 180. <= closeness &&
+               distance <= closeness * size;
+      }
+    };
+
+    template <int dim>
+    Parting
+    parting_of(const Joint<dim> &a, const Joint<dim> &b)
+    {
+      const double cosine = std::abs(a.normal() * b.normal());
+      const Point<dim> &place =
+        b.extent == JointShape::polygon ? b.vertices[0] : b.point;
+      return {std::acos(std::min(1., cosine)) * 180. / dealii::numbers::PI,
+              std::abs(a.distance(place))};
+    }
+
+    /** Warn of joints that lie wholly on others, in the scene or because the
+     * mesh has let them fall together. */
     template <int dim>
     void
     print_duplicates(std::ostream &out,
@@ -60,13 +92,28 @@ namespace Keyblock
       unsigned int n                    = 0;
       for (const auto &merged : report.merged)
         if (merged.is_all_of_other && n++ < most_pairs)
-          out << "Warning: The joint '" << scene.joints[merged.other]->name
-              << "' lies wholly on the joint '"
-              << scene.joints[merged.joint]->name
-              << "', whose strength rules there; remove one of them, or move "
-                 "it.\n";
+          {
+            const Joint<dim> &ruler = *scene.joints[merged.joint];
+            const Joint<dim> &other = *scene.joints[merged.other];
+            const Parting parting   = parting_of(ruler, other);
+            if (parting.is_nothing(std::pow(merged.area, 1. / (dim - 1))))
+              out << "Warning: The joint '" << other.name
+                  << "' lies wholly on the joint '" << ruler.name
+                  << "', whose strength rules there; remove one of them, or "
+                     "move it.\n";
+            else
+              out << "Warning: The mesh has let the joint '" << other.name
+                  << "' fall together with the joint '" << ruler.name
+                  << "', whose strength rules there: their planes are "
+                  << parting.angle << " degrees and up to about "
+                  << parting.distance
+                  << " m apart; lower the size of cells there ('Mesh/Size at "
+                     "joints') to keep them apart, or leave one of them "
+                     "out.\n";
+          }
       if (n > most_pairs)
-        out << "Warning: So do " << n - most_pairs << " more joints.\n";
+        out << "Warning: " << n - most_pairs
+            << " more joints lie or fell on others in this way.\n";
     }
 
     template <int dim>

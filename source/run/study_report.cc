@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/mesh/size_remedy.h>
 #include <keyblock/run/study_report.h>
 
 #include <nlohmann/json.hpp>
@@ -59,45 +60,33 @@ namespace Keyblock
       owner[key]        = json;
     }
 
+    /** The share of @p n samples that fail; its interval has no rounding errors
+     * where none or all do. */
+    ProbabilityEstimate
+    estimate(const std::size_t n_failed, const std::size_t n)
+    {
+      ProbabilityEstimate p = estimate_probability(n_failed, n);
+      if (n_failed == 0)
+        p.lower = 0.;
+      if (n_failed == n)
+        p.upper = 1.;
+      return p;
+    }
+
+    /** Whether values are drawn, not counted: those of seeds have no mean and
+     * no rank. */
+    bool
+    is_drawn(const StudyVariable &variable)
+    {
+      return variable.distribution != Distribution::sequence;
+    }
+
     std::ostream &
     operator<<(std::ostream &out, const ProbabilityEstimate &p)
     {
       return out << p.value << " [" << p.lower << ", " << p.upper << "]";
     }
   } // namespace
-
-
-
-  std::vector<double>
-  figures_of(const SampleResult &r)
-  {
-    std::vector<double> figures = {r.factor,
-                                   double(r.block),
-                                   double(r.stage),
-                                   double(r.n_exposed),
-                                   double(r.n_failed),
-                                   r.failed_volume,
-                                   r.rigid_factor,
-                                   double(r.is_coarse)};
-    figures.insert(figures.end(), r.factors.begin(), r.factors.end());
-    return figures;
-  }
-
-
-
-  SampleResult
-  result_of(const double *figures, const unsigned int n)
-  {
-    return {figures[0],
-            static_cast<unsigned int>(figures[1]),
-            static_cast<unsigned int>(figures[2]),
-            static_cast<unsigned int>(figures[3]),
-            static_cast<unsigned int>(figures[4]),
-            figures[5],
-            figures[6],
-            figures[7] > 0.,
-            std::vector<double>(figures + n_sample_figures, figures + n)};
-  }
 
 
 
@@ -153,12 +142,12 @@ namespace Keyblock
   ProbabilityEstimate
   StudyReport<dim>::probability_of(const std::size_t n) const
   {
-    return estimate_probability(std::count_if(results.begin(),
-                                              results.begin() + n,
-                                              [](const SampleResult &r) {
-                                                return r.n_failed > 0;
-                                              }),
-                                n);
+    return estimate(std::count_if(results.begin(),
+                                  results.begin() + n,
+                                  [](const SampleResult &r) {
+                                    return r.n_failed > 0;
+                                  }),
+                    n);
   }
 
 
@@ -167,13 +156,13 @@ namespace Keyblock
   ProbabilityEstimate
   StudyReport<dim>::rigid_probability() const
   {
-    return estimate_probability(std::count_if(results.begin(),
-                                              results.end(),
-                                              [&](const SampleResult &r) {
-                                                return r.rigid_factor <
-                                                       scene.study.threshold;
-                                              }),
-                                results.size());
+    return estimate(std::count_if(results.begin(),
+                                  results.end(),
+                                  [&](const SampleResult &r) {
+                                    return r.rigid_factor <
+                                           scene.study.threshold;
+                                  }),
+                    results.size());
   }
 
 
@@ -182,13 +171,13 @@ namespace Keyblock
   ProbabilityEstimate
   StudyReport<dim>::probability_of_block(const unsigned int block) const
   {
-    return estimate_probability(std::count_if(results.begin(),
-                                              results.end(),
-                                              [&](const SampleResult &r) {
-                                                return r.factors[block] <
-                                                       scene.study.threshold;
-                                              }),
-                                results.size());
+    return estimate(std::count_if(results.begin(),
+                                  results.end(),
+                                  [&](const SampleResult &r) {
+                                    return r.factors[block] <
+                                           scene.study.threshold;
+                                  }),
+                    results.size());
   }
 
 
@@ -209,8 +198,8 @@ namespace Keyblock
             " samples the mesh has moved faces of blocks off their joints by "
             "more than half a cell, or changed volumes by more than 5 %; limit "
             "equilibrium takes faces as plane and, where they are known, exact "
-            "volumes; lower 'Mesh/Size' or 'Mesh/Size at excavation', or set "
-            "'Mesh/Cells across blocks'."};
+            "volumes; " +
+            remedy_of_coarse_cells(scene.meshing) + "."};
   }
 
 
@@ -281,9 +270,10 @@ namespace Keyblock
           << " samples no block can move";
     out << '\n';
     for (unsigned int v = 0; v < values.size(); ++v)
-      out << "        " << scene.study_variables[v]->name
-          << ": rank correlation with the least factor " << correlation_of(v)
-          << '\n';
+      if (is_drawn(*scene.study_variables[v]))
+        out << "        " << scene.study_variables[v]->name
+            << ": rank correlation with the least factor " << correlation_of(v)
+            << '\n';
     if (blocks)
       for (unsigned int b = 0; b < blocks->blocks.size(); ++b)
         if (probability_of_block(b).value > 0.)
@@ -327,14 +317,18 @@ namespace Keyblock
     root["variables"] = Json::array();
     for (unsigned int v = 0; v < values.size(); ++v)
       {
-        const SampleStatistics drawn(values[v]);
-        root["variables"].push_back(
-          {{"name", scene.study_variables[v]->name},
-           {"entry", scene.study_variables[v]->entry},
-           {"distribution", name_of(scene.study_variables[v]->distribution)},
-           {"mean", drawn.mean},
-           {"deviation", drawn.deviation},
-           {"rank_correlation", correlation_of(v)}});
+        const StudyVariable &variable = *scene.study_variables[v];
+        Json json                     = {{"name", variable.name},
+                                         {"entry", variable.entry},
+                                         {"distribution", name_of(variable.distribution)}};
+        if (is_drawn(variable))
+          {
+            const SampleStatistics drawn(values[v]);
+            json["mean"]             = drawn.mean;
+            json["deviation"]        = drawn.deviation;
+            json["rank_correlation"] = correlation_of(v);
+          }
+        root["variables"].push_back(json);
       }
     root["convergence"] = Json::array();
     for (unsigned int k = 1; k <= n_points; ++k)

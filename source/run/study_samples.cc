@@ -20,6 +20,39 @@
 
 namespace Keyblock
 {
+  std::vector<double>
+  figures_of(const SampleResult &r)
+  {
+    std::vector<double> figures = {r.factor,
+                                   double(r.block),
+                                   double(r.stage),
+                                   double(r.n_exposed),
+                                   double(r.n_failed),
+                                   r.failed_volume,
+                                   r.rigid_factor,
+                                   double(r.is_coarse)};
+    figures.insert(figures.end(), r.factors.begin(), r.factors.end());
+    return figures;
+  }
+
+
+
+  SampleResult
+  result_of(const double *figures, const unsigned int n)
+  {
+    return {figures[0],
+            static_cast<unsigned int>(figures[1]),
+            static_cast<unsigned int>(figures[2]),
+            static_cast<unsigned int>(figures[3]),
+            static_cast<unsigned int>(figures[4]),
+            figures[5],
+            figures[6],
+            figures[7] > 0.,
+            std::vector<double>(figures + n_sample_figures, figures + n)};
+  }
+
+
+
   namespace
   {
     /** A random order of 0 ... n - 1. */

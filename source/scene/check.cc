@@ -2,6 +2,7 @@
 // Contradictions between the entries of a scene, found before anything else.
 #include <keyblock/base/errors.h>
 #include <keyblock/law/joint_stiffness.h>
+#include <keyblock/scene/boundary_names.h>
 #include <keyblock/scene/check_parts.h>
 
 #include <algorithm>
@@ -194,6 +195,7 @@ namespace Keyblock
     check_time_stepping(time_stepping);
     check_initial_state(*this);
     check_expressions(*this);
+    check_boundary_names(*this);
     check_supports(*this);
     check_monitors(*this);
     check_closed_form(*this);

@@ -14,12 +14,16 @@ namespace Keyblock
   {
     namespace options = boost::program_options;
     options::options_description visible("Options"), all;
-    visible.add_options()("validate", "read, mesh and check; compute nothing")(
+    visible.add_options()("validate",
+                          "read, mesh and check; print blocks, their limit "
+                          "equilibrium and what time and memory a run will "
+                          "take; write nothing")(
       "study",
-      "judge the samples of the section Study by limit equilibrium; no steps")(
-      "set",
-      options::value<std::vector<std::string>>(),
-      "\"Section/Entry=value\": overrides an entry; may be repeated")(
+      "judge the samples that the section Study describes, by limit "
+      "equilibrium or, with Study/Level full, those with critical blocks by "
+      "runs")("set",
+              options::value<std::vector<std::string>>(),
+              "\"Section/Entry=value\": overrides an entry; may be repeated")(
       "restart",
       options::value<std::string>(),
       "checkpoint file to continue from, with the same scene")(
@@ -53,7 +57,17 @@ namespace Keyblock
       }
     std::ostringstream text;
     if (values.count("help"))
-      text << "Usage: keyblock [options] SCENE.prm\n" << visible;
+      text
+        << "Usage: keyblock [options] SCENE.prm\n"
+        << visible << "\nExamples:\n"
+        << "  keyblock prm/tutorial/sliding_block.prm\n"
+           "      run a scene; results go to output-sliding_block\n"
+           "  keyblock prm/tutorial/first_tunnel.prm --validate \\\n"
+           "      --set \"Joints/*/Friction angle=25\"\n"
+           "      which blocks there are, with another friction angle\n"
+           "  keyblock prm/tutorial/first_tunnel.prm --study --output study\n"
+           "      probability of failure; `keyblock-report study` writes its "
+           "report\n";
     else if (values.count("version"))
       text << "keyblock " << KEYBLOCK_VERSION << '\n';
     else if (values.count("print-parameters"))

@@ -6,6 +6,7 @@
 
 #include <keyblock/base/expression.h>
 #include <keyblock/base/number_text.h>
+#include <keyblock/scene/boundary_names.h>
 #include <keyblock/scene/check.h>
 #include <keyblock/scene/entries.h>
 #include <keyblock/scene/scene.h>
@@ -48,24 +49,13 @@ namespace Keyblock
       prm.leave_subsection();
     }
 
-    /** Names of the sides of a box, two per axis, the lower one first. */
-    template <int dim>
-    std::vector<std::string>
-    names_of_sides()
-    {
-      return dim == 2
-               ? std::vector<std::string>{"left", "right", "bottom", "top"}
-               : std::vector<std::string>{
-                   "left", "right", "front", "back", "bottom", "top"};
-    }
-
     /** Places on a side of the box, none of them on its edges. */
     template <int dim>
     std::vector<Point<dim>>
     places_on(const Domain<dim> &box, const std::string &side)
     {
-      constexpr unsigned int n_along       = 16;
-      const std::vector<std::string> sides = names_of_sides<dim>();
+      constexpr unsigned int n_along        = 16;
+      const std::vector<std::string> &sides = boundary_names<dim>();
       const unsigned int s =
         std::find(sides.begin(), sides.end(), side) - sides.begin();
       const unsigned int n = dim == 2 ? n_along : n_along * n_along;
@@ -170,7 +160,7 @@ namespace Keyblock
     complete_supports(ParameterHandler &prm, Scene<dim> &scene)
     {
       std::vector<std::string> free;
-      for (const std::string &side : names_of_sides<dim>())
+      for (const std::string &side : boundary_names<dim>())
         if (side != "top" && std::none_of(scene.supports.begin(),
                                           scene.supports.end(),
                                           [&](const auto &support) {
@@ -208,6 +198,11 @@ namespace Keyblock
     for (const auto &material : materials)
       if (density == 0. && !material->is_rigid())
         density = material->density;
+    require(domain.shape != DomainShape::box || !domain.size.empty(),
+            "The entry 'Domain/Size' is missing: 'Ground/Depth' puts rollers "
+            "and overburden on the sides of the box; give its lengths along "
+            "the axes (without them only a rectangle, horseshoe or cavern in "
+            "'Excavations' says how large the domain is).");
     require(domain.shape == DomainShape::box && domain.size.size() == dim,
             "The entry 'Ground/Depth' needs a domain that is a box, on which "
             "rollers and overburden stand; set 'Domain/Shape' to box, or leave "

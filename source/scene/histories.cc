@@ -3,6 +3,7 @@
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/scene.h>
+#include <keyblock/scene/unit_warnings.h>
 
 #include <cmath>
 #include <filesystem>
@@ -87,8 +88,9 @@ namespace Keyblock
   Scene<dim>::warnings() const
   {
     std::vector<std::string> found = old_names;
-    for (const std::string &warning : warnings_of_facets(*this))
-      found.push_back(warning);
+    for (const auto &warnings :
+         {warnings_of_facets(*this), warnings_of_units(*this)})
+      found.insert(found.end(), warnings.begin(), warnings.end());
     for (const auto &material : materials)
       if (material->is_plastic() &&
           material->tensile_strength > material->apex())

@@ -36,7 +36,21 @@ namespace Keyblock
       using C                        = JointColumn;
       using Q                        = Quantity;
       std::vector<KnownColumn> known = {
-        {C::name, Q::words, {"name", "joint", "id", "label"}},
+        {C::name,
+         Q::words,
+         {"name",
+          "joint",
+          "id",
+          "label",
+          "no",
+          "nr",
+          "number",
+          "joint no",
+          "joint nr",
+          "joint number",
+          "joint id",
+          "joint name",
+          "joint label"}},
         {C::set, Q::words, {"set", "joint set", "family"}},
         {C::dip, Q::angle, {"dip", "dip angle"}},
         {C::dip_direction,
@@ -140,8 +154,8 @@ namespace Keyblock
     std::string
     normalized(std::string text)
     {
-      // the sign of degrees and the superscript 2 in UTF-8 and in Latin-1
-      for (const char *sign : {"\xC2\xB0", "\xC2\xBA", "\xB0", "\xBA"})
+      // the superscript 2 in UTF-8 and in Latin-1, as the sign of degrees
+      for (const char *sign : degree_signs)
         boost::replace_all(text, sign, " deg");
       for (const char *sign : {"\xC2\xB2", "\xB2", "^2"})
         boost::replace_all(text, sign, "2");
@@ -208,6 +222,19 @@ namespace Keyblock
                         known_columns().end(),
                         [&](const auto &k) { return k.column == column; })
       ->names.front();
+  }
+
+
+
+  bool
+  is_angle(const JointColumn column)
+  {
+    return std::any_of(known_columns().begin(),
+                       known_columns().end(),
+                       [&](const auto &k) {
+                         return k.column == column &&
+                                k.quantity == Quantity::angle;
+                       });
   }
 
 

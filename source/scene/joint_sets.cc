@@ -169,17 +169,6 @@ namespace Keyblock
                 "The entry '" + section + "/Region size' contains " +
                   exact_text(length) + "; lengths must be positive.");
       const bool is_infinite = set.radius_law == RadiusDistribution::infinite;
-      const std::vector<std::pair<std::string, double>> sizes = {
-        {"Radius mean", set.radius_mean},
-        {"Radius deviation", set.radius_deviation},
-        {"Radius minimum", set.radius_minimum},
-        {"Radius maximum", set.radius_maximum}};
-      for (const auto &[entry, value] : sizes)
-        require(!is_infinite || value == 0.,
-                "The entry '" + section + "/" + entry + "' is " +
-                  exact_text(value) +
-                  ", but 'Radius law' is infinite, so that it has no effect; "
-                  "give the law of the radii, or leave it out.");
       require(!is_infinite || domain.shape == DomainShape::file ||
                 set.region_size.empty(),
               "The entry '" + section +

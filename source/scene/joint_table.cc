@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/numbers.h>
+
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/law/joint_law.h>
@@ -9,7 +11,9 @@
 #include <boost/algorithm/string.hpp>
 #include <boost/algorithm/string/trim_all.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace Keyblock
 {
@@ -22,28 +26,77 @@ namespace Keyblock
       return azimuth >= 360. ? azimuth - 360. : azimuth;
     }
 
+    double
+    dip_in(const RowReader &row, const C column)
+    {
+      const double angle = row.number_in(column, 0., 90., "degrees");
+      return column == C::plunge ? 90. - angle : angle;
+    }
+
+    double
+    dip_direction_in(const RowReader &row, const C column)
+    {
+      const double angle = row.number_in(column, 0., 360., "degrees");
+      return column == C::dip_direction
+               ? angle
+               : wrapped(angle + (column == C::strike ? 90. : 180.));
+    }
+
+    /** Refuse a row whose dip, or pole, is not that of its normal. */
+    template <int dim>
+    void
+    check_against_normal(const RowReader &row, const Joint<dim> &joint)
+    {
+      constexpr double tolerance = 1.; // [deg]
+      const double degrees       = 180. / dealii::numbers::PI;
+      const Tensor<1, dim> n     = joint.normal();
+      // what the row leaves open is as the normal has it
+      Joint<dim> other = joint;
+      other.normal_entry.clear();
+      other.dip = std::acos(std::min(1., std::abs(n[dim - 1]))) * degrees;
+      other.dip_direction = std::atan2(n[0], dim == 3 ? n[1] : 0.) * degrees;
+      C rival             = C::name;
+      for (const C column : {C::dip, C::plunge})
+        if (row.has(column))
+          {
+            rival     = column;
+            other.dip = dip_in(row, column);
+          }
+      for (const C column : {C::dip_direction, C::strike, C::trend})
+        if (row.has(column))
+          {
+            rival               = rival == C::name ? column : rival;
+            other.dip_direction = dip_direction_in(row, column);
+          }
+      const double cosine = std::min(1., std::abs(n * other.normal()));
+      const double angle  = std::acos(cosine) * degrees;
+      row.require(rival == C::name || !(angle > tolerance),
+                  rival,
+                  "it turns the joint " + text_of(angle, 3) +
+                    " degrees away from the normal in the same row; leave one "
+                    "of them out.");
+    }
+
     template <int dim>
     void
     read_orientation(const RowReader &row, Joint<dim> &joint)
     {
       const std::array<C, 3> normal = {{C::normal_x, C::normal_y, C::normal_z}};
       if (row.has(normal[0]) || row.has(normal[1]) || row.has(normal[2]))
-        for (unsigned int d = 0; d < dim; ++d)
-          joint.normal_entry.push_back(row.number(normal[d]));
-      else if (row.columns.count(C::plunge) || row.columns.count(C::trend))
         {
-          joint.dip = 90. - row.number_in(C::plunge, 0., 90., "degrees");
-          joint.dip_direction =
-            wrapped(row.number_in(C::trend, 0., 360., "degrees") + 180.);
+          for (unsigned int d = 0; d < dim; ++d)
+            joint.normal_entry.push_back(row.number(normal[d]));
+          check_against_normal(row, joint);
+          return;
         }
-      else
-        {
-          joint.dip = row.number_in(C::dip, 0., 90., "degrees");
-          joint.dip_direction =
-            row.columns.count(C::strike)
-              ? wrapped(row.number_in(C::strike, 0., 360., "degrees") + 90.)
-              : row.number_in(C::dip_direction, 0., 360., "degrees");
-        }
+      const bool is_pole =
+        row.columns.count(C::plunge) || row.columns.count(C::trend);
+      joint.dip = dip_in(row, is_pole ? C::plunge : C::dip);
+      joint.dip_direction =
+        dip_direction_in(row,
+                         is_pole                        ? C::trend
+                         : row.columns.count(C::strike) ? C::strike
+                                                        : C::dip_direction);
     }
 
     /** The coordinates in "x, y, z" or "x y z". */
@@ -278,11 +331,12 @@ namespace Keyblock
     const DelimitedText table = read_delimited_text(file_name, "Joints/File");
     const Columns columns     = find_joint_columns(table);
     check_columns<dim>(table, columns);
+    const bool has_commas = has_decimal_commas(table);
     std::vector<std::unique_ptr<Joint<dim>>> joints;
     joints.reserve(table.rows.size());
     for (unsigned int i = 0; i < table.rows.size(); ++i)
       {
-        const RowReader row(table, columns, table.rows[i]);
+        const RowReader row(table, columns, table.rows[i], has_commas);
         joints.push_back(std::make_unique<Joint<dim>>());
         Joint<dim> &joint = *joints.back();
         joint.origin      = row.place();
@@ -301,6 +355,27 @@ namespace Keyblock
     return joints;
   }
 
+
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_table(const Scene<dim> &scene)
+  {
+    const bool has_row =
+      std::any_of(scene.joints.begin(),
+                  scene.joints.end(),
+                  [](const auto &joint) {
+                    return joint->origin.rfind("Line ", 0) == 0;
+                  });
+    if (scene.network.is_resolved || scene.network.file.empty() || has_row)
+      return {};
+    return {"The table '" + scene.network.file +
+            "' of the entry 'Joints/File' has a header and no rows, so that it "
+            "gives no joint; give each joint a row, or leave the entry out."};
+  }
+
+  template std::vector<std::string> warnings_of_table(const Scene<2> &);
+  template std::vector<std::string> warnings_of_table(const Scene<3> &);
   template std::vector<std::unique_ptr<Joint<2>>>
   read_joint_table(const std::string &,
                    const Point<2> &,

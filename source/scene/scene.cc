@@ -10,10 +10,12 @@
 #include <keyblock/scene/check_parts.h>
 #include <keyblock/scene/idle_entries.h>
 #include <keyblock/scene/joint_facets.h>
+#include <keyblock/scene/joint_table.h>
 #include <keyblock/scene/joints.h>
 #include <keyblock/scene/shape_files.h>
 #include <keyblock/scene/study_entries.h>
 #include <keyblock/scene/text.h>
+#include <keyblock/scene/unit_warnings.h>
 
 #include <algorithm>
 #include <cmath>
@@ -256,11 +258,15 @@ namespace Keyblock
     text.parse(*prm, false);
     if (network.is_resolved)
       refuse_idle_overrides(text, ground.depth > 0.);
+    refuse_idle_entries(*prm, *this, text);
     make_profiles();
     complete_ground(text);
     check_domain(*this);
     read_shape_files(communicator, *this);
     joints = make_joints(*this, read_names(names, "Joints"), text);
+    for (const auto &warnings :
+         {warnings_of_table(*this), warnings_of_drawings(*this)})
+      old_names.insert(old_names.end(), warnings.begin(), warnings.end());
     make_facets(communicator, *this);
     for (const auto &variable : study_variables)
       check_study_variable(*variable);

@@ -4,7 +4,32 @@
 
 namespace Keyblock
 {
-  /** Block that slides on an incline: a = g (sin - cos tan phi). */
+  namespace
+  {
+    /** What an acceleration along the joint has to overcome, by a cohesion [Pa]
+     * over the area on which the body stands [m/s2]. */
+    template <int dim>
+    double
+    resistance_of_cohesion(const CheckInput<dim> &input,
+                           const Block<dim> &block,
+                           const double cohesion)
+    {
+      const auto joints = input.scene.joints_called(input.scene.checks.joint);
+      double area       = 0.;
+      for (const auto &[joint, part] : block.joint_area)
+        if (std::count(joints.begin(), joints.end(), joint) > 0)
+          area += part;
+      return cohesion * area / block.mass;
+    }
+  } // namespace
+
+
+
+  /** Block that slides on an incline: a = g (sin - cos tan phi) - c A / m, with
+   * what is left of the cohesion c, if the whole base stays closed (where an
+   * edge opens, its cohesion is lost); one that holds by cohesion and friction
+   * stays.
+   */
   template <int dim>
   CheckValues
   check_incline(const CheckInput<dim> &input)
@@ -17,7 +42,17 @@ namespace Keyblock
     const double drive = body.gravity * body.downhill;
     const double press = std::abs(body.gravity * body.normal);
     const double start = body.time.front() - input.stages.back().time_step;
-    const double acceleration = std::max(0., drive - tangent * press);
+    const double held =
+      resistance_of_cohesion(input, block, body.joint->cohesion);
+    const double sliding =
+      tangent * press +
+      resistance_of_cohesion(input, block, body.joint->cohesion_of_sliding());
+    const double shear_per_mass =
+      held > 0. && drive <= held + press * std::tan(body.joint->friction_angle *
+                                                    dealii::numbers::PI / 180.)
+        ? drive
+        : std::min(drive, sliding);
+    const double acceleration = drive - shear_per_mass;
 
     CheckValues checks;
     const unsigned int window = body.window();
@@ -52,7 +87,7 @@ namespace Keyblock
     compare(checks,
             "shear_force",
             windowed_mean(shear),
-            block.mass * std::min(drive, tangent * press));
+            block.mass * shear_per_mass);
 
     // offset of the normal force from the foot of the block's centre
     const auto center = body.along(body.joint_name, "center", body.downhill);
@@ -63,8 +98,8 @@ namespace Keyblock
     compare(checks,
             "force_offset",
             windowed_mean(moment) / windowed_mean(normal_force),
-            std::abs(body.joint->distance(block.centroid)) *
-              std::min(tangent, drive / press));
+            std::abs(body.joint->distance(block.centroid)) * shear_per_mass /
+              press);
     checks.emplace_back("energy_residual",
                         input.stages.back().energies.relative_residual());
     return checks;

@@ -231,6 +231,57 @@ def damaged_msh():
     assert b"map" not in done.stderr
 
 
+def boundary_groups():
+    """Groups of outer faces that the mesh file has, and others."""
+    text = MSH.replace("$Nodes", '$PhysicalNames\n2\n1 4 "side"\n2 1 "granite"\n'
+                       "$EndPhysicalNames\n$Nodes").replace(
+                           "$Elements\n1\n",
+                           "$Elements\n2\n2 1 2 4 4 1 2\n")
+    for name in ("side", "4"):
+        pathlib.Path("a.msh").write_text(text, encoding="utf-8")
+        pathlib.Path("a.prm").write_text(MSH_SCENE, encoding="utf-8")
+        valid(validate("a.prm", [f"Domain/Truncated boundaries=id {name}",
+                                 "Materials/rock/Region=id granite"]))
+    for name in ("sides", "1", "granite"):
+        refused(validate("a.prm", [f"Domain/Truncated boundaries=id {name}"]),
+                f"names 'id {name}', but no outer face of the mesh file 'a.msh' "
+                "is in a group of that number or name; groups of outer faces "
+                "are: 4 (side).")
+    refused(validate("a.prm", ["Materials/rock/Region=id granit"]),
+            "the regions of the mesh are: 1 (granite);")
+
+
+def table_without_rows():
+    pathlib.Path("a.csv").write_text("dip,dip direction,x,y\n", encoding="utf-8")
+    valid(validate(PRM / "tutorial" / "first_tunnel.prm",
+                   [f"Joints/File={pathlib.Path('a.csv').resolve()}"]),
+          "has a header and no rows")
+
+
+def other_units():
+    """Values that look as if they were in another unit."""
+    valid(validate(INCLINE))
+    for setting, warning in (
+            ("Joints/base/Friction angle=0.61", "in radians? That would be 34.95"),
+            ("Joints/base/Cohesion=0.05", "'Joints/base/Cohesion' is 0.05 Pa"),
+            ("Materials/rock/Young modulus=15", "is it in GPa or MPa?"),
+            ("Materials/rock/Density=2.7", "is it in t/m3")):
+        valid(validate(INCLINE, [setting]), warning)
+    drawing = (PRM.parent / "tests" / "shapes" / "opening.dxf").read_text()
+    room = pathlib.Path("room.dxf").resolve()
+    for code, warning in (
+            (2, "says that it is in feet ($INSUNITS), but 'Scale' is 0.001"),
+            (4, None), (0, None)):
+        room.write_text("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n"
+                        f"  {code}\n0\nENDSEC\n" + drawing)
+        done = validate(PRM / "verification" / "roof_block_falls.prm", [
+            "Excavations/room/Shape=file", f"Excavations/room/File={room}",
+            "Excavations/room/Scale=1e-3"])
+        text = done.stdout.decode("utf-8")
+        assert done.returncode == 0, done.stderr
+        assert (warning in text) if warning else "INSUNITS" not in text, text
+
+
 def small_memory():
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (2 * 2**30,) * 2)
@@ -283,6 +334,12 @@ def joint_twice():
     valid(validate(INCLINE, ["Joints/Names=base, twin", "Joints/twin/Dip=40",
                              "Joints/twin/Friction angle=10"]),
           "The joint 'base' lies wholly on the joint 'twin'")
+    # not in the scene, but in its mesh
+    valid(validate(PRM / "tutorial" / "first_tunnel.prm", [
+        "Joints/Names=a, b", "Joints/a/Point=0, 12", "Joints/a/Dip=10",
+        "Joints/b/Point=0, 12.05", "Joints/b/Dip=10.1", "Joint sets/Names=",
+        "Study/Names="]),
+          "The mesh has let the joint 'b' fall together with the joint 'a'")
 
 
 def shape_file_changed():

@@ -167,6 +167,27 @@ BOOST_AUTO_TEST_CASE(table_of_polygons_and_traces)
   BOOST_TEST(std::abs(normals[0]->normal()[1] - 0.6) < 1e-15);
 }
 
+// cells as they are typed: degree signs, numbers of joints, both ways to give
+// the orientation
+BOOST_AUTO_TEST_CASE(table_of_a_field_book)
+{
+  const auto joints =
+    read<3>("Joint No.;Dip;Dip direction;nx;ny;nz;x;y;z;Cohesion (kPa)\n"
+            "17;60\xC2\xB0;135 \xB0;;;;0,301;0;0;12,5\n"
+            "18;45;90;0,7071;0;0,7071;0.125;0;0;1.5\n");
+  BOOST_REQUIRE(joints.size() == 2u);
+  BOOST_TEST(joints[0]->name == "17");
+  BOOST_TEST(joints[0]->dip == 60.);
+  BOOST_TEST(joints[0]->dip_direction == 135.);
+  BOOST_TEST(joints[0]->cohesion == 12500.);
+  BOOST_TEST(joints[1]->point[0] == 0.125);
+  BOOST_TEST(joints[1]->cohesion == 1500.);
+  // points are decimal ones where no number has a comma
+  BOOST_TEST(read<3>("dip;dip direction;x;y;z\n45;90;1.000;0;12.500\n")
+               .at(0)
+               ->point[2] == 12.5);
+}
+
 BOOST_AUTO_TEST_CASE(water_in_a_table)
 {
   const auto joints = read<3>("dip,dip direction,x,y,z,water pressure (kPa)\n"
@@ -201,6 +222,22 @@ BOOST_AUTO_TEST_CASE(refused_tables)
   refuse("a/b,1,2,3,4,5,6\n", {"Line 2", "'a/b'", "another name"});
   refuse("a,1,2,3,4,5,\"1,5\"\n", {"'1,5'", "not a number"});
 
+  const std::string commas = "dip;dip direction;x;y;z;radius\n45,5;90;";
+  check_refused<3>(commas + "1.000;0;0;5\n",
+                   {"Line 2", "column 'x'", "'1.000'", "thousands"});
+  check_refused<3>(commas + "0;0;0;12.500\n", {"'12.500'", "thousands"});
+  check_refused<3>(commas + "0;-1.250.000;0;5\n", {"'-1.250.000'"});
+  check_refused<3>("dip (rad),dip direction,x,y,z\n60\xC2\xB0,90,0,0,0\n",
+                   {"column 'dip'", "not a number"});
+  check_refused<3>("dip,dip direction,x,y,z,radius\n45,90,0,0,0,5\xB0\n",
+                   {"column 'radius'", "not a number"});
+  const std::string both = "nx,ny,nz,x,y,z,";
+  check_refused<3>(both + "dip,dip direction\n0,0,1,0,0,0,60,90\n",
+                   {"Line 2", "column 'dip'", "60 degrees away", "normal"});
+  check_refused<3>(both + "dip,strike\n0.5,0,0.866,0,0,0,30,90\n",
+                   {"column 'dip'", "degrees away"});
+  check_refused<3>(both + "trend,plunge\n0,0,1,0,0,0,,50\n",
+                   {"column 'plunge'", "40 degrees away"});
   check_refused<3>("", {"is empty"});
   check_refused<3>("# nothing\n;;\n", {"is empty"});
   check_refused<3>("\xFF\xFE"

@@ -4,10 +4,22 @@
 
 #include <keyblock/mesh/mesh.h>
 
+#include <set>
+#include <string>
+
 // What make_mesh() marks in the generator's cells. All throw InputError where
 // the scene does not fit the mesh.
 namespace Keyblock
 {
+  /** Numbers and names of groups of a mesh file, as `1 (ore), 2`. */
+  std::string list_groups(const std::set<unsigned int> &ids,
+                          const GroupNames &names);
+
+  /** Refuse scenes that name a group of outer faces that the mesh file has
+   * not. */
+  template <int dim>
+  void check_boundary_groups(const Mesh<dim> &mesh, const Scene<dim> &scene);
+
   /** Set the material of each cell: the last whose region holds it. */
   template <int dim>
   void mark_materials(Mesh<dim> &mesh, const Scene<dim> &scene);

@@ -2,7 +2,7 @@
 #ifndef keyblock_scene_idle_entries_h
 #define keyblock_scene_idle_entries_h
 
-#include <keyblock/scene/joint.h>
+#include <keyblock/scene/scene.h>
 #include <keyblock/scene/text.h>
 
 namespace Keyblock
@@ -27,6 +27,15 @@ namespace Keyblock
    * joints are all written out, as in used.prm. @p has_depth: whether Ground
    * gives anything. */
   void refuse_idle_overrides(const SceneText &text, const bool has_depth);
+
+  /** Throw InputError for entries that have no effect with the choice beside
+   * them, as the radius of an excavation that is a box; those of the file are
+   * left alone if an override makes that choice, or if all joints are written
+   * out, as in used.prm. @p prm: the entries as they were parsed. */
+  template <int dim>
+  void refuse_idle_entries(ParameterHandler &prm,
+                           const Scene<dim> &scene,
+                           const SceneText &text);
 } // namespace Keyblock
 
 #endif

@@ -58,6 +58,15 @@ namespace Keyblock
     double unit = 1.;   ///< in m, deg or Pa
   };
 
+  /** The sign of degrees in UTF-8 and in Latin-1, and what is taken for it. */
+  constexpr const char *degree_signs[] = {"\xC2\xB0",
+                                          "\xC2\xBA",
+                                          "\xB0",
+                                          "\xBA"};
+
+  /** Whether a column has angles. */
+  bool is_angle(const JointColumn column);
+
   /** The name of a column as messages and written tables use it. */
   const std::string &name_of(const JointColumn column);
 

@@ -29,6 +29,11 @@ namespace Keyblock
                    const Point<dim> &origin,
                    const std::map<std::string, JointStrength> &strength_of_set);
 
+  /** What is allowed and probably not meant of the scene's table, as long as
+   * its joints are as they were read. */
+  template <int dim>
+  std::vector<std::string> warnings_of_table(const Scene<dim> &scene);
+
   /** Throws InputError if @p name (of what @p owner says) has letters that
    * lists and paths of entries are parted by. */
   void check_name(const std::string &name, const std::string &owner);

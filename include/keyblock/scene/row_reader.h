@@ -10,13 +10,29 @@
 #include <keyblock/scene/joint_columns.h>
 #include <keyblock/scene/joint_table.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace Keyblock
 {
   using C       = JointColumn;
   using Columns = std::map<JointColumn, ColumnPlace>;
+
+  /** Whether some number of the table has a decimal comma. */
+  inline bool
+  has_decimal_commas(const DelimitedText &table)
+  {
+    double number = 0.;
+    if (table.has_decimal_comma())
+      for (const DelimitedText::Row &row : table.rows)
+        for (const std::string &field : row.fields)
+          if (field.find(',') != std::string::npos &&
+              read_number(field, true, number))
+            return true;
+    return false;
+  }
 
   /** One row of a table, and sentences about it. */
   class RowReader
@@ -24,10 +40,12 @@ namespace Keyblock
   public:
     RowReader(const DelimitedText &table,
               const Columns &columns,
-              const DelimitedText::Row &row)
+              const DelimitedText::Row &row,
+              const bool has_commas)
       : table(table)
       , columns(columns)
       , row(row)
+      , has_commas(has_commas)
     {}
 
     /** `Line 7 of the table 'joints.csv'`. */
@@ -73,12 +91,20 @@ namespace Keyblock
               column,
               "there is no such column; add it.");
       require(has(column), column, "there is no value; give a number.");
-      double value = 0.;
-      require(read_number(text(column), table.has_decimal_comma(), value),
+      const std::string digits = without_degree_sign(column);
+      double value             = 0.;
+      require(read_number(digits, table.has_decimal_comma(), value),
               column,
               "'" + text(column) +
                 "' is not a number; write digits with a decimal point (or "
                 "comma, if ';' or tabs separate the columns).");
+      require(!has_commas || !may_have_thousands_points(digits),
+              column,
+              "'" + text(column) +
+                "' may be a number with a decimal point or one with points "
+                "between thousands, as other numbers of the table have a "
+                "decimal comma; write it without points, or all numbers with "
+                "decimal points.");
       return value * columns.at(column).unit;
     }
 
@@ -114,6 +140,41 @@ namespace Keyblock
     const DelimitedText &table;
     const Columns &columns;
     const DelimitedText::Row &row;
+    const bool has_commas; ///< some number of the table has a decimal comma
+
+  private:
+    /** What stands in the column; of an angle in degrees without their sign.*/
+    std::string
+    without_degree_sign(const C column) const
+    {
+      std::string digits = text(column);
+      if (is_angle(column) && columns.at(column).unit == 1.)
+        for (const char *sign : degree_signs)
+          if (boost::ends_with(digits, sign))
+            {
+              digits.erase(digits.size() - std::string(sign).size());
+              boost::trim_right(digits);
+              break;
+            }
+      return digits;
+    }
+
+    /** Whether points may part thousands: all groups behind the first one have
+     * three digits. */
+    static bool
+    may_have_thousands_points(const std::string &digits)
+    {
+      std::vector<std::string> groups;
+      boost::split(groups, digits, boost::is_any_of("."));
+      return groups.size() > 1 &&
+             std::all_of(groups.begin(), groups.end(), [&](const auto &group) {
+               const bool is_first = &group == &groups.front();
+               return group.find_first_not_of(is_first ? "+-0123456789"
+                                                       : "0123456789") ==
+                        std::string::npos &&
+                      (is_first ? group != "0" : group.size() == 3);
+             });
+    }
   };
 } // namespace Keyblock
 

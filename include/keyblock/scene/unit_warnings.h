@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_scene_unit_warnings_h
+#define keyblock_scene_unit_warnings_h
+
+#include <keyblock/scene/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace Keyblock
+{
+  /** Values that look as if they were in another unit, one sentence each:
+   * angles in radians, stresses in MPa or GPa, densities in t/m3. */
+  template <int dim>
+  std::vector<std::string> warnings_of_units(const Scene<dim> &scene);
+
+  /** Drawings (ASCII DXF) of excavations and joints whose header names another
+   * unit ($INSUNITS) than the scene's Scale, one sentence each; before the
+   * joints are parted into facets, which do not name their file. */
+  template <int dim>
+  std::vector<std::string> warnings_of_drawings(const Scene<dim> &scene);
+} // namespace Keyblock
+
+#endif
