@@ -61,8 +61,8 @@ namespace Keyblock
           out << scene.joints[joint]->name << ' ';
         if (block.exact.is_known &&
             std::abs(block.exact.volume - block.volume) > 1e-9 * block.volume)
-          out << " (exactly " << std::setprecision(6) << block.exact.volume
-              << (dim == 2 ? " m2)" : " m3)");
+          out << " (by its planes " << std::setprecision(6)
+              << block.exact.volume << (dim == 2 ? " m2)" : " m3)");
         if (block.exposed_stage != none && is_too_coarse(block, scene))
           out << " (only " << std::setprecision(2) << block.cells_across()
               << " cells across)";

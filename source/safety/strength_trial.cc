@@ -55,9 +55,10 @@ namespace Keyblock
      * may be no more than strength that is not yet mobilised [-]. */
     constexpr double mobilising_slip = 0.02;
 
-    /** Resultant over the load of a block that fails at once; a smaller one may
-     * be that of rock which still relaxes, and is damped once more before a
-     * motion counts as failure [-]. */
+    /** Resultant over the load of a group of blocks that fails at once; a
+     * smaller one may be that of rock which still relaxes, and is damped once
+     * more before a motion counts as failure. A block by itself fails at the
+     * beginning of its motion, though it may be caught further on [-]. */
     constexpr double plain_unbalanced = 0.02;
 
     /** Windows over which such an acceleration must stay. */
@@ -332,7 +333,8 @@ namespace Keyblock
         if (verdict == Verdict::holds)
           return verdict;
         if (verdict == Verdict::fails &&
-            (++n_failures > 1 || trial.unbalanced > plain_unbalanced))
+            (companions.empty() || ++n_failures > 1 ||
+             trial.unbalanced > plain_unbalanced))
           return verdict;
       }
     return Verdict::open;
