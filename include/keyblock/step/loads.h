@@ -190,7 +190,7 @@ namespace Keyblock
     std::vector<LoadPoint<dim, Tensor<1, dim>>> varying_water;
     bool is_constant = true; ///< neither traction nor gravity depends on time
     bool is_set      = false;
-    double share_set = 0.; ///< of the carried force in the load [-]
+    double share_set = 0.; ///< of the ramped force in the load [-]
   };
 } // namespace Keyblock
 
