@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 namespace Keyblock
 {
@@ -214,10 +213,11 @@ namespace Keyblock
   ContactSearch<dim>::add_contact_beside(
     const std::vector<double> &position,
     const double reach,
-    const unsigned int slave,
+    const Candidate &candidate,
     const std::vector<Projection<dim>> &outside,
     std::vector<SurfaceContact<dim>> &contacts) const
   {
+    const unsigned int slave = candidate.slave;
     const auto nearest =
       std::min_element(outside.begin(),
                        outside.end(),
@@ -265,37 +265,8 @@ namespace Keyblock
           dot<dim>(across->normal, normal) + equal_cosine)
         across = &projection;
     add_contact(slave, *across, normal, is_off ? distance : gap, contacts);
-  }
-
-
-
-  template <int dim>
-  unsigned int
-  ContactSearch<dim>::joint_at_rim(const std::vector<double> &position,
-                                   const Candidate &candidate,
-                                   const Projection<dim> &foot) const
-  {
-    // of what a node at the rim of its block stands for, half a face
-    constexpr double share  = 0.5;
-    const Vector<dim> place = at<dim>(position, candidate.slave);
-    unsigned int joint      = none;
-    double nearest          = std::numeric_limits<double>::max();
-    for (const auto *faces : {&candidate.faces, &candidate.paired_faces})
-      for (const CandidateFace &face : *faces)
-        if (const unsigned int own = surface.interface.surface[face.face].joint;
-            surface.is_on_joint(candidate.slave, own))
-          {
-            const Projection<dim> beside =
-              surface.project(position, place, face.face);
-            const double distance = norm<dim>(beside.offset);
-            if (distance < std::min(share * beside.size, nearest) &&
-                is_coplanar(beside, foot))
-              {
-                nearest = distance;
-                joint   = own;
-              }
-          }
-    return joint;
+    if (dot<dim>(across->normal, normal) > cosine_of_kink)
+      keep_joint_at_rim(position, candidate, *across, contacts.back());
   }
 
 
@@ -318,11 +289,12 @@ namespace Keyblock
     for (const Projection<dim> &foot : kept)
       {
         add_contact(candidate.slave, foot, foot.normal, foot.gap, contacts);
-        if (contacts.back().joint == none)
-          contacts.back().joint = joint_at_rim(position, candidate, foot);
+        keep_joint_at_rim(position, candidate, foot, contacts.back());
       }
+    if (add_contacts_flush(position, candidate, kept, outside, contacts))
+      return;
     if (kept.empty() && !outside.empty())
-      add_contact_beside(position, reach, candidate.slave, outside, contacts);
+      add_contact_beside(position, reach, candidate, outside, contacts);
   }
 
 
@@ -342,6 +314,24 @@ namespace Keyblock
       ridges->add_contacts(position, reach, contacts);
   }
 
+  template bool ContactSearch<2>::is_convex(const std::vector<double> &,
+                                            const Projection<2> &,
+                                            const Projection<2> &) const;
+  template void
+  ContactSearch<2>::add_contact(const unsigned int,
+                                const Projection<2> &,
+                                const Vector<2> &,
+                                const double,
+                                std::vector<SurfaceContact<2>> &) const;
+  template bool ContactSearch<3>::is_convex(const std::vector<double> &,
+                                            const Projection<3> &,
+                                            const Projection<3> &) const;
+  template void
+  ContactSearch<3>::add_contact(const unsigned int,
+                                const Projection<3> &,
+                                const Vector<3> &,
+                                const double,
+                                std::vector<SurfaceContact<3>> &) const;
   template std::vector<Projection<2>>
   ContactSearch<2>::feet_on_pairs(const std::vector<double> &,
                                   const unsigned int) const;

@@ -198,6 +198,11 @@ keyblock_scene(verification/factor_incline REFERENCES factor_incline_two_blocks
   "Excavations/slot/Corner=-0.05, 0" "Excavations/slot/Size=0.1, 0.1")
 # two blocks that lean on each other, and the factor of both
 keyblock_scene(verification/factor_group RANKS 1 2)
+keyblock_scene(verification/row RANKS 1)
+keyblock_scene(verification/row_3d RANKS 1)
+keyblock_scene(verification/row_3d REFERENCES row_3d_leans RANKS 1
+  SET "Joints/upper/Friction angle=10" "Joints/lower/Friction angle=30"
+  "Safety factor/Blocks=none")
 foreach(case 10_40 68_40 25_50 60_40 50_25 75_68 77_76 80_75)
   string(REPLACE "_" ";" angles ${case})
   list(GET angles 0 friction)

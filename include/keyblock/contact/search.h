@@ -130,11 +130,26 @@ namespace Keyblock
                               const Candidate &candidate,
                               const Projection<dim> &foot) const;
 
+    /** Give a contact over a foot that is on no joint of the slave's the one
+     * over whose rim the slave has slid, if any. */
+    void keep_joint_at_rim(const std::vector<double> &position,
+                           const Candidate &candidate,
+                           const Projection<dim> &foot,
+                           SurfaceContact<dim> &contact) const;
+
+    /** Contacts of a slave that is beside faces of its joint by so little that
+     * they bear it as if it were over them. Returns whether there are any. */
+    bool add_contacts_flush(const std::vector<double> &position,
+                            const Candidate &candidate,
+                            const std::vector<Projection<dim>> &kept,
+                            const std::vector<Projection<dim>> &outside,
+                            std::vector<SurfaceContact<dim>> &contacts) const;
+
     /** The contact of a slave with the edge or corner nearest to it, of faces
      * that it is beside. */
     void add_contact_beside(const std::vector<double> &position,
                             const double reach,
-                            const unsigned int slave,
+                            const Candidate &candidate,
                             const std::vector<Projection<dim>> &outside,
                             std::vector<SurfaceContact<dim>> &contacts) const;
 
