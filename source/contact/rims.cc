@@ -78,7 +78,7 @@ namespace Keyblock
       {
         const double farthest = farthest_overhang * foot.size;
         if (norm<dim>(foot.offset) < farthest &&
-            surface.opposes(position, candidate.slave, foot.normal) &&
+            surface.can_stand_on(position, candidate.slave, foot.normal) &&
             joint_at_rim(position, candidate, foot) != none &&
             std::none_of(kept.begin(), kept.end(), [&](const auto &other) {
               return is_coplanar(other, foot) ||
