@@ -25,8 +25,9 @@ namespace Keyblock
     /** The same of a joint that may lie on another, which rules [-]. */
     constexpr double merged = 1e-5;
 
-    /** Ratio of volumes up to which a block is what the planes bound [-]. */
-    constexpr double most_like = 3.;
+    /** Ratio of volumes up to which a block is what the planes bound, and what
+     * an excavation leaves of that [-]. */
+    constexpr double most_like = 3., most_like_rest = 1.5;
 
     template <int dim>
     using SurfacesOfFace =
@@ -145,6 +146,29 @@ namespace Keyblock
       exact.is_known = exact.volume > 0.;
     }
 
+    /** Whether a corner on a joint lies where the outlines that it is
+     * attributed to have faces: the mesh may have it on a face beside the one
+     * that the joint crosses. */
+    template <int dim>
+    bool
+    is_where_faces_are(const Point<dim> &x,
+                       const std::vector<unsigned int> &list,
+                       const Mesh<dim> &mesh,
+                       const PlaneArrangement<dim> &planes,
+                       const double tolerance)
+    {
+      const auto is_joint = [&](const unsigned int s) {
+        return mesh.surfaces[s].is_joint();
+      };
+      return std::none_of(list.begin(), list.end(), is_joint) ||
+             std::all_of(list.begin(), list.end(), [&](const unsigned int s) {
+               return is_joint(s) ||
+                      planes.is_on_outline(x,
+                                           mesh.surfaces[s].normal,
+                                           tolerance);
+             });
+    }
+
     /** Measure a block whose faces are those of the mesh, made plane: where the
      * planes do not meet as the mesh has it, or a joint goes on through the
      * block, nothing is known. */
@@ -170,7 +194,7 @@ namespace Keyblock
       for (const auto &[v, list] : surfaces_at)
         {
           const auto x = intersection(mesh.vertices[v], list, mesh, size);
-          if (!x)
+          if (!x || !is_where_faces_are(*x, list, mesh, planes, merged * size))
             return;
           place[v] = *x;
         }
@@ -214,6 +238,53 @@ namespace Keyblock
         block.exact = exact;
     }
 
+    /** Whether what an excavation leaves of a convex body is one block, and
+     * that one. */
+    template <int dim>
+    bool
+    is_rest(const unsigned int b,
+            const Blocks<dim> &blocks,
+            const ConvexBody<dim> &around,
+            const double rest)
+    {
+      const double ratio = rest / blocks.blocks[b].volume;
+      for (unsigned int other = 0; other < blocks.blocks.size(); ++other)
+        if (other != b && around.contains(blocks.blocks[other].centroid))
+          return false;
+      return ratio < most_like_rest && ratio * most_like_rest > 1.;
+    }
+
+    /** Measure a block between infinite joints and excavations by what is
+     * around it, whatever the mesh has made of its corners. Of faces on joints
+     * the areas are known then. */
+    template <int dim>
+    void
+    measure_by_rest(const unsigned int b,
+                    Blocks<dim> &blocks,
+                    const std::vector<OuterFace> &faces,
+                    const Mesh<dim> &mesh,
+                    const PlaneArrangement<dim> &planes)
+    {
+      Block<dim> &block = blocks.blocks[b];
+      const auto around = planes.body_of(block, faces, false);
+      typename Block<dim>::Measures rest;
+      if (around)
+        rest = planes.measure_rest(*around);
+      if (block.exact.is_known &&
+          std::abs(block.exact.volume - rest.volume) <= across * rest.volume)
+        return;
+      block.exact = typename Block<dim>::Measures();
+      if (!around || !is_rest(b, blocks, *around, rest.volume))
+        return;
+      rest.bent_area = bent_areas(faces, mesh);
+      for (const auto &entry : rest.joint_area)
+        rest.bent_area.try_emplace(entry.first, 0.);
+      for (const auto &entry : rest.bent_area)
+        rest.joint_area.try_emplace(entry.first, 0.);
+      rest.is_known = true;
+      block.exact   = rest;
+    }
+
     /** Of blocks between the same planes, which the mesh has split, none is
      * what the planes bound but the largest; nor is one of another size. */
     template <int dim>
@@ -221,13 +292,6 @@ namespace Keyblock
     forget_parts(Blocks<dim> &blocks,
                  const std::vector<std::optional<ConvexBody<dim>>> &bodies)
     {
-      const auto is_inside = [](const Point<dim> &p, const ConvexBody<dim> &b) {
-        return std::all_of(b.get_faces().begin(),
-                           b.get_faces().end(),
-                           [&p](const auto &face) {
-                             return face.outward * (p - face.corners[0]) < 0.;
-                           });
-      };
       for (unsigned int b = 0; b < bodies.size(); ++b)
         if (bodies[b])
           {
@@ -239,7 +303,7 @@ namespace Keyblock
                             blocks.blocks.end(),
                             [&](const Block<dim> &other) {
                               return other.volume > block.volume &&
-                                     is_inside(other.centroid, *bodies[b]);
+                                     bodies[b]->contains(other.centroid);
                             }))
               block.exact = typename Block<dim>::Measures();
           }
@@ -305,14 +369,8 @@ namespace Keyblock
               continue;
             }
           measure(block, faces[b], mesh, planes);
-          // between infinite joints alone, what is around the block is known
-          if (planes.has_finite_joint(faces[b]) || !block.exact.is_known)
-            continue;
-          const auto around = planes.body_of(block, faces[b], false);
-          const double volume =
-            around ? around->volume() - planes.excavated_volume(*around) : 0.;
-          if (std::abs(block.exact.volume - volume) > across * volume)
-            block.exact = typename Block<dim>::Measures();
+          if (!planes.has_finite_joint(faces[b]))
+            measure_by_rest(b, blocks, faces[b], mesh, planes);
         }
     forget_parts(blocks, bodies);
   }

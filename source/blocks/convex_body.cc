@@ -200,6 +200,17 @@ namespace Keyblock
 
 
   template <int dim>
+  bool
+  ConvexBody<dim>::contains(const Point<dim> &p) const
+  {
+    return std::all_of(faces.begin(), faces.end(), [&p](const Face &face) {
+      return face.outward * (p - face.corners[0]) < 0.;
+    });
+  }
+
+
+
+  template <int dim>
   double
   ConvexBody<dim>::volume() const
   {

@@ -286,47 +286,6 @@ namespace Keyblock
 
 
   template <int dim>
-  double
-  PlaneArrangement<dim>::excavated_volume(const ConvexBody<dim> &body) const
-  {
-    const auto part_of = [&body](const std::array<Point<dim>, dim + 1> &x) {
-      for (const auto &face : body.get_faces())
-        if (std::all_of(x.begin(), x.end(), [&face](const Point<dim> &p) {
-              return face.outward * (p - face.corners[0]) >= 0.;
-            }))
-          return 0.;
-      ConvexBody<dim> part(x, body.tolerance);
-      for (const auto &face : body.get_faces())
-        if (!part.is_empty())
-          part.cut(face.corners[0], face.outward, face.name);
-      return part.volume();
-    };
-    double volume = 0.;
-    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-      if (mesh.excavation_stage[c] != 0)
-        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-          {
-            const auto v            = mesh.face_vertices(c, f);
-            const Point<dim> center = mesh.cell_center(c);
-            if constexpr (dim == 2)
-              volume +=
-                part_of({{mesh.vertices[v[0]], mesh.vertices[v[1]], center}});
-            else
-              for (const auto &[i, k] : {std::pair<int, int>(0, 1),
-                                         std::pair<int, int>(1, 3),
-                                         std::pair<int, int>(3, 2),
-                                         std::pair<int, int>(2, 0)})
-                volume += part_of({{mesh.vertices[v[i]],
-                                    mesh.vertices[v[k]],
-                                    mesh.face_center(c, f),
-                                    center}});
-          }
-    return volume;
-  }
-
-
-
-  template <int dim>
   bool
   PlaneArrangement<dim>::is_cut(
     const std::vector<std::pair<Point<dim>, Point<dim>>> &edges,

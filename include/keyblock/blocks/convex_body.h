@@ -62,6 +62,9 @@ namespace Keyblock
       return faces.size() <= dim;
     }
 
+    /** Whether a point lies inside, not on the surface. */
+    bool contains(const Point<dim> &p) const;
+
     double volume() const;       ///< [m^dim]
     Point<dim> centroid() const; ///< of the volume [m]
 

@@ -49,9 +49,16 @@ namespace Keyblock
       });
     }
 
-    /** How much of a body is excavated [m^dim]: meshes have outlines where they
-     * are. */
-    double excavated_volume(const ConvexBody<dim> &body) const;
+    /** Volume, centroid and areas on joints of what excavations leave of a
+     * body: meshes have outlines where they are. */
+    typename Block<dim>::Measures
+    measure_rest(const ConvexBody<dim> &body) const;
+
+    /** Whether a point in the plane with @p normal lies on a face of an outline
+     * in that plane, within @p tolerance [m]. */
+    bool is_on_outline(const Point<dim> &point,
+                       const Tensor<1, dim> &normal,
+                       const double tolerance) const;
 
     /** Whether no face of an outline lies within a body by more than
      * @p tolerance [m], and what of it is on no joint is all on outlines. */
