@@ -7,8 +7,8 @@ usage: outline_chords.py KEYBLOCK FOLDER DIMENSION CHORDS [--infinite]
 CHORDS like 6,9,12. Two joints meet above the vault and end inside it; in 3D two
 more cut a length off. Cells are so coarse that the mesh, where it bends joints,
 has their traces on chords beside those that they cross. What the summary has as
-exact volume has to be that of the planes; where the mesh follows the joints it
-has one. With --infinite the joints go on, so that the rest of what they enclose
+exact volume has to be that of the planes within 1 %; where the mesh follows the
+joints it has one, and that to 1e-6. With --infinite the joints go on, so that the rest of what they enclose
 is known, and each wedge has to have an exact volume.
 """
 import json
@@ -24,7 +24,7 @@ TOP = (1., 13.)
 DIPS = (60., -55.)  # of the joints, to the right and to the left
 ENDS = (2.1, 4.9)  # of the wedge in 3D
 RADIUS, SPRINGLINE = 6., 4.
-TOLERANCE = 1e-6
+TOLERANCE, TOLERANCE_BENT = 1e-6, 1e-2
 
 
 def chord_points(n):
@@ -120,7 +120,8 @@ def check(n, is_bent):
     wedges = [b for b in blocks if "infinite" not in b["class"][0] and
               10. < b["centroid"][-1] < 13. and b["volume"] < 2. * exact]
     known = [b["exact_volume"] for b in wedges if "exact_volume" in b]
-    wrong = [v for v in known if abs(v / exact - 1.) > TOLERANCE]
+    tolerance = TOLERANCE_BENT if is_bent and not IS_INFINITE else TOLERANCE
+    wrong = [v for v in known if abs(v / exact - 1.) > tolerance]
     print(f"{n} chords: {exact:.5f}, in the mesh "
           f"{[round(b['volume'], 5) for b in wedges]}, exact {known}", flush=True)
     return len(known), len(wrong)

@@ -88,7 +88,8 @@ namespace Keyblock
   bool
   PlaneArrangement<dim>::is_on_outline(const Point<dim> &point,
                                        const Tensor<1, dim> &normal,
-                                       const double tolerance) const
+                                       const double tolerance,
+                                       const double beside) const
   {
     const auto covers = [&](const OutlineFace &part) {
       const auto &x        = part.corners;
@@ -109,7 +110,7 @@ namespace Keyblock
               if (out * (mid / double(n) - x[i]) > 0.)
                 out = -out;
             }
-          if (out * (point - x[i]) > tolerance * out.norm())
+          if (out * (point - x[i]) > beside * out.norm())
             return false;
         }
       return true;
@@ -117,14 +118,43 @@ namespace Keyblock
     return std::any_of(outline.begin(), outline.end(), covers);
   }
 
+
+
+  template <int dim>
+  bool
+  PlaneArrangement<dim>::is_on_outlines(
+    const Point<dim> &point,
+    const std::vector<unsigned int> &surfaces,
+    const double tolerance,
+    const double beside) const
+  {
+    const auto is_joint = [this](const unsigned int s) {
+      return mesh.surfaces[s].is_joint();
+    };
+    return std::none_of(surfaces.begin(), surfaces.end(), is_joint) ||
+           std::all_of(surfaces.begin(),
+                       surfaces.end(),
+                       [&](const unsigned int s) {
+                         return is_joint(s) ||
+                                is_on_outline(point,
+                                              mesh.surfaces[s].normal,
+                                              tolerance,
+                                              beside);
+                       });
+  }
+
   template Block<2>::Measures
   PlaneArrangement<2>::measure_rest(const ConvexBody<2> &) const;
-  template bool PlaneArrangement<2>::is_on_outline(const Point<2> &,
-                                                   const Tensor<1, 2> &,
-                                                   const double) const;
+  template bool
+  PlaneArrangement<2>::is_on_outlines(const Point<2> &,
+                                      const std::vector<unsigned int> &,
+                                      const double,
+                                      const double) const;
   template Block<3>::Measures
   PlaneArrangement<3>::measure_rest(const ConvexBody<3> &) const;
-  template bool PlaneArrangement<3>::is_on_outline(const Point<3> &,
-                                                   const Tensor<1, 3> &,
-                                                   const double) const;
+  template bool
+  PlaneArrangement<3>::is_on_outlines(const Point<3> &,
+                                      const std::vector<unsigned int> &,
+                                      const double,
+                                      const double) const;
 } // namespace Keyblock

@@ -6,6 +6,7 @@
 #include <keyblock/safety/stress_ratio.h>
 
 #include <algorithm>
+#include <iomanip>
 #include <sstream>
 
 namespace Keyblock
@@ -63,8 +64,17 @@ namespace Keyblock
                        block,
                        run.step.time,
                        run.conditions.broken_segments());
-    result.limit_mode     = statics.mode();
-    result.limit_remark   = statics.remark();
+    result.limit_mode   = statics.mode();
+    result.limit_remark = statics.remark();
+    if (const double way = trials.way_from_place(block); way > 0.)
+      {
+        std::ostringstream text;
+        text << "judged where it was before it moved by "
+             << std::setprecision(3) << way << " m";
+        if (!result.limit_remark.empty())
+          result.limit_remark += "; ";
+        result.limit_remark += text.str();
+      }
     result.limit_factor   = statics.limit.factor;
     result.support_demand = statics.demand;
     result.stress_ratio =

@@ -18,6 +18,9 @@ namespace Keyblock
 
     /** Share of its load that what holds a block bears at least [-]. */
     constexpr double holding_share = 0.1;
+
+    /** Way over the size of a block from which on it has left its place [-]. */
+    constexpr double far_off = 0.05;
   } // namespace
 
 
@@ -64,6 +67,16 @@ namespace Keyblock
     for (unsigned int d = 0; d < dim; ++d)
       motion.velocity[d] = sums[2 * dim + 2 + d] / sums[2 * dim + 1];
     return motion;
+  }
+
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::way_from_place(const unsigned int block) const
+  {
+    const double way = run.contact->motions().measure()[block].way();
+    return way > far_off * blocks.blocks[block].size ? way : 0.;
   }
 
 
@@ -130,7 +143,8 @@ namespace Keyblock
         std::replace(holders.back().begin(), holders.back().end(), '_', ' ');
       }
     if (holders.empty() || left >= holding_share * load)
-      holders.push_back("clamping");
+      holders.push_back(
+        way_from_place(block) > 0. ? "what it has come to lie on" : "clamping");
     std::string text = holders[0];
     for (unsigned int i = 1; i < holders.size(); ++i)
       text += (i + 1 < holders.size() ? ", " : " and ") + holders[i];

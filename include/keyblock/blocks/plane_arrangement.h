@@ -54,11 +54,15 @@ namespace Keyblock
     typename Block<dim>::Measures
     measure_rest(const ConvexBody<dim> &body) const;
 
-    /** Whether a point in the plane with @p normal lies on a face of an outline
-     * in that plane, within @p tolerance [m]. */
-    bool is_on_outline(const Point<dim> &point,
-                       const Tensor<1, dim> &normal,
-                       const double tolerance) const;
+    /** Whether a corner on a joint, where the surfaces of the mesh in a list
+     * meet, lies on faces of the outlines among these, within @p tolerance of
+     * their planes and @p beside them by so much at most [m]: the mesh may have
+     * it on a face beside the one that the joint crosses. True of corners that
+     * are on no joint. */
+    bool is_on_outlines(const Point<dim> &point,
+                        const std::vector<unsigned int> &surfaces,
+                        const double tolerance,
+                        const double beside) const;
 
     /** Whether no face of an outline lies within a body by more than
      * @p tolerance [m], and what of it is on no joint is all on outlines. */
@@ -82,6 +86,10 @@ namespace Keyblock
     bool reaches_over(const unsigned int joint,
                       const std::vector<Point<dim>> &section,
                       const double tolerance) const;
+    bool is_on_outline(const Point<dim> &point,
+                       const Tensor<1, dim> &normal,
+                       const double tolerance,
+                       const double beside) const;
     const Mesh<dim> &mesh;
     std::vector<JointExtent<dim>> joints;
 

@@ -87,9 +87,14 @@ namespace Keyblock
       return last_along;
     }
 
+    /** How far @p block has left the place where limit equilibrium judges it
+     * [m]; 0: by less than a twentieth of its size (collective). */
+    double way_from_place(const unsigned int block) const;
+
     /** What holds @p block against @p way (unit vector; zero: its load) now, in
-     * words: every kind of support that bears a tenth of its load, and clamping
-     * if that is left a tenth (collective). */
+     * words: every kind of support that bears a tenth of its load, and, if that
+     * is left a tenth, clamping, or what it lies on if it has left its place
+     * (collective). */
     std::string list_holders(const unsigned int block,
                              const Tensor<1, dim> &way) const;
 
