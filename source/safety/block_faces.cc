@@ -89,11 +89,13 @@ namespace Keyblock
       {
         for (const auto &[joint, area] : block.exact.joint_area)
           if (area > 0. && block.exact.bent_area.at(joint) == 0.)
-            result
-              .faces[joint_entry(joint,
-                                 ground.scene.joints[joint]->distance(
-                                   block.centroid) > 0.)]
-              .area += area;
+            {
+              const bool is_plus =
+                ground.scene.joints[joint]->distance(block.centroid) > 0.;
+              BlockFace<dim> &face = result.faces[joint_entry(joint, is_plus)];
+              face.area += area;
+              face.is_lost = true;
+            }
       }
 
       /** Water in the joints: over the faces between the planes where these are

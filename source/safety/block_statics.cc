@@ -126,6 +126,24 @@ namespace Keyblock
           last << ": it may rotate (an indication only)";
       }
 
+      /** @param without: motion without the faces that the mesh has lost */
+      void
+      add_lost_faces(const SupportedMotion<dim> &without)
+      {
+        if (!(without.limit.factor < 0.999 * limit.factor))
+          return;
+        add() << without.limit.factor << " without its ";
+        const char *between = "";
+        for (const BlockFace<dim> &face : around.faces)
+          if (face.is_lost)
+            {
+              last << between << face.area << (dim == 2 ? " m" : " m2")
+                   << " on " << face.name;
+              between = " and ";
+            }
+        last << ", which the mesh has lost";
+      }
+
       void
       add_faces()
       {
@@ -322,11 +340,10 @@ namespace Keyblock
     BlockStatics<dim> statics;
     statics.around  = look_around(ground, free, blocks.blocks[block], time);
     statics.support = find_support_of_block(ground, block, time, broken);
+    const bool is_passive =
+      ground.scene.safety.bolt_convention == BoltConvention::passive;
     const SupportedMotion<dim> motion =
-      find_motion<dim>(statics.around,
-                       statics.support,
-                       ground.scene.safety.bolt_convention ==
-                         BoltConvention::passive);
+      find_motion<dim>(statics.around, statics.support, is_passive);
     statics.limit = motion.limit;
     if (ground.scene.safety.wanted > 0.)
       statics.demand = find_demand(ground,
@@ -339,6 +356,15 @@ namespace Keyblock
     remarks.add_loads(time);
     remarks.add_support();
     remarks.add_rotation(motion.rotation, motion.factor_of_sliding);
+    BlockSurroundings<dim> in_mesh = statics.around;
+    auto &faces                    = in_mesh.faces;
+    faces.erase(std::remove_if(faces.begin(),
+                               faces.end(),
+                               [](const auto &face) { return face.is_lost; }),
+                faces.end());
+    if (faces.size() < statics.around.faces.size())
+      remarks.add_lost_faces(
+        find_motion<dim>(in_mesh, statics.support, is_passive));
     remarks.add_faces();
     remarks.add_neighbors();
     remarks.add_obstacle();

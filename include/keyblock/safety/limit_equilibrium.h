@@ -28,6 +28,8 @@ namespace Keyblock
     /** Set if friction depends on the normal stress. */
     std::shared_ptr<const JointLaw> law{};
 
+    bool is_lost = false; ///< between the planes, but not in the mesh
+
     // only for judge_rotation()
     double tensile_strength = 0.;               ///< [Pa]
     std::vector<dealii::Point<dim>> vertices{}; ///< of the mesh on it
