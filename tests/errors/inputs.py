@@ -8,8 +8,10 @@ CASE is the name of a function below. In a folder of its own it makes the
 input, runs the program and looks at how it ends.
 """
 import json
+import math
 import os
 import pathlib
+import re
 import resource
 import shutil
 import struct
@@ -638,6 +640,77 @@ def coarse_mesh():
     done = validate("s.prm", ["Mesh/Snap=0"])
     assert done.returncode == 0, done.stderr
     assert b"Warning: The mesh " not in done.stdout, done.stdout
+
+
+LEDGE = """set Dimension = 2
+subsection Domain
+  set Corner = -15, -15
+  set Size = 30, 30
+end
+subsection Mesh
+  set Generator = gmsh
+  set Size = 1.5
+end
+subsection Excavations
+  set Names = room
+  subsection room
+    set Vertices = -3, -3; 3, -3; 3, 1; 0.9, 3; -3, 3
+  end
+end
+subsection Joints
+  set Names = a, b, top, ledge
+  subsection a
+    set Point = -2, 3
+    set Dip = 60
+    set Dip direction = 90
+    set Friction angle = 35
+  end
+  subsection b
+    set Point = 1, 3
+    set Dip = 60
+    set Dip direction = 90
+    set Friction angle = 35
+  end
+  subsection top
+    set Point = 0, 7
+    set Dip = 0
+    set Friction angle = 35
+  end
+  subsection ledge
+    set Point = 0.9, 3
+    set Dip = 40
+    set Dip direction = 270
+    set Friction angle = 35
+  end
+end
+subsection Materials
+  set Names = rock
+end
+subsection Initial state
+  set Gravity = 0; -9.81
+end
+"""
+
+
+def lost_ledge():
+    """A strip between two joints would slide into the room, but for a ledge of
+    0.0879 m by the planes, which the mesh has lost."""
+    pathlib.Path("s.prm").write_text(LEDGE, encoding="utf-8")
+    length = 0.1 * math.sin(math.radians(60)) / math.sin(math.radians(100))
+    for more, is_there in ((["Joints/ledge/Point=0.9, 3"], True),
+                           (["Joints/Names=a, b, top"], False)):
+        done = validate("s.prm", more)
+        assert done.returncode == 0, done.stderr
+        text = done.stdout.decode("utf-8")
+        row = next(line for line in text.splitlines() if "the start" in line)
+        print(row)
+        assert ("stable" in row) == is_there, row
+        assert ("which the mesh has lost" in row) == is_there, row
+        if is_there:
+            found = re.search("; ([0-9.]+) without its ([0-9.]+) m on ledge", row)
+            assert abs(float(found[1]) - math.tan(math.radians(35))
+                       / math.tan(math.radians(60))) < 1e-3, row
+            assert abs(float(found[2]) / length - 1.) < 1e-3, row
 
 
 def blocks_that_lean():
