@@ -96,6 +96,15 @@ namespace Keyblock
   double
   find_ramp_duration(const Model<dim> &model)
   {
+    const auto by_waves = [&model] {
+      // a wave crosses a cell in a stable step
+      return n_periods * 4. * std::pow(model.n_cells_global, 1. / dim) *
+             model.step->dt / model.scene.time_stepping.safety;
+    };
+    // a model that floats has no lowest mode
+    if (!model.communicator.on_any(!model.fields.supports.empty() ||
+                                   !model.conditions->elements.empty()))
+      return by_waves();
     const std::vector<NodeSupport<dim>> supports =
       hold_blocks(model, find_loose_blocks(model));
     StaticSolver<dim> solver(model.split,
@@ -110,9 +119,7 @@ namespace Keyblock
       }
     catch (const ComputationError &)
       {
-        // a wave crosses a cell in a stable step
-        return n_periods * 4. * std::pow(model.n_cells_global, 1. / dim) *
-               model.step->dt / model.scene.time_stepping.safety;
+        return by_waves();
       }
   }
 
