@@ -191,7 +191,8 @@ def stop(process, checkpoint, ranks):
     process.send_signal(by)
     expect_end(process, 128 + by, f"continue by: keyblock {options.scene}",
                f"--restart {checkpoint}")
-    expect_refusals(checkpoint, ranks)
+    if broken == 0:
+        expect_refusals(checkpoint, ranks)
 
 
 def expect_refusals(checkpoint, ranks):
@@ -228,16 +229,9 @@ def expect_refusals(checkpoint, ranks):
 
 
 reference = options.folder + "_reference"
-begin = time.time()
 expect(run(command_of(reference, options.ranks[0], 0, [])), 0)
-duration = time.time() - begin
-
-
-def rest_of(begin):
-    """What is left of a run that began then, if it had waited [s]."""
-    elapsed = time.time() - begin
-    return duration if options.by == "kill" else max(0., duration - elapsed)
-
+# of the run itself, without what the program takes to start and to end
+duration = schema.read(reference + "/summary.json")["run"]["wall_time"]
 
 broken, resumed, n_runs, largest = 0, 0, 0, 0.
 while broken < options.breaks:
@@ -260,11 +254,10 @@ while broken < options.breaks:
             assert process.returncode == 0, output
             resumed += is_resumed(output, restart)
             break
-        if options.by != "kill":
-            wait_for(checkpoint, begin, process)
+        wait_for(checkpoint, begin, process)
         try:
             output = process.communicate(
-                timeout=random.uniform(0., 1.2 * rest_of(begin)))[0]
+                timeout=random.uniform(0., 1.2 * duration))[0]
             assert process.returncode == 0, output
             resumed += is_resumed(output, restart)
             break
@@ -292,7 +285,7 @@ largest = max(largest, compare(at_end, reference))
 
 print(f"{broken} runs broken off, {n_runs} taken to the end, {resumed} of them "
       "from a checkpoint; "
-      f"largest difference {largest:g}, uninterrupted {duration:.1f} s")
+      f"largest difference {largest:g}, uninterrupted {duration:.3g} s")
 if resumed == 0:
     sys.exit("no run was resumed to its end")
 if not math.isfinite(largest):
