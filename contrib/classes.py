@@ -17,11 +17,6 @@ from script_tools import ROOT, make_parser
 
 MOST_LINES, MOST_LINES_OF_FUNCTION = 400, 100
 
-# files that may be longer, and why
-LONG = {
-    "source/rock/cell_kernels.cc": "compiled as a whole for each instruction set",
-}
-
 
 def without_comments(text):
     text = re.sub(r'"(?:\\.|[^"\\\n])*"', '""', text)
@@ -98,16 +93,13 @@ def main():
             name = str(path.relative_to(ROOT))
             text = path.read_text(encoding="utf-8")
             n_lines = text.count("\n")
-            if n_lines > MOST_LINES and name not in LONG:
+            if n_lines > MOST_LINES:
                 faults.append(f"{name} has {n_lines} lines")
             code = without_comments(text)
             n, line = longest_function(code)
-            if n > MOST_LINES_OF_FUNCTION and name not in LONG:
+            if n > MOST_LINES_OF_FUNCTION:
                 faults.append(f"{name}:{line} is a function of {n} lines")
             classes += [(*entry, name) for entry in list_classes(code)]
-    for name in LONG:
-        if (ROOT / name).read_text(encoding="utf-8").count("\n") <= MOST_LINES:
-            faults.append(f"{name} need not be excepted any more")
     print(f"{'functions':>9} {'members':>8}  class")
     for name, n_functions, n_members, file in sorted(classes, key=lambda c: -c[1])[:options.number]:
         print(f"{n_functions:9} {n_members:8}  {name}  ({file})")
