@@ -41,7 +41,7 @@ namespace Keyblock
   FiniteCheck<dim>::check_motion()
   {
     // of both fields the first vertex at fault on any rank
-    for (const auto &[what, field] :
+    for (const auto [what, field] :
          {std::make_pair("velocity", &model.fields.velocity),
           std::make_pair("displacement", &model.fields.displacement)})
       {
@@ -100,7 +100,7 @@ namespace Keyblock
     for (unsigned int i = 0; i < n_energy_terms; ++i)
       if (!std::isfinite(energies[i]))
         fail("energy '" + Energies::terms()[i].name + "'", none);
-    for (const auto &[what, value] :
+    for (const auto [what, value] :
          {std::make_pair("energies' residual", model.step->energies.residual()),
           std::make_pair("unbalanced ratio", model.step->unbalanced_ratio),
           std::make_pair("largest nodal ratio",
