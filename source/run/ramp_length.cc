@@ -84,6 +84,7 @@ namespace Keyblock
               held[node] = fixed;
             }
       std::vector<NodeSupport<dim>> supports;
+      supports.reserve(held.size());
       for (const auto &[node, support] : held)
         supports.push_back(support);
       return supports;
