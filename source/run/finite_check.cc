@@ -4,6 +4,7 @@
 #include <keyblock/base/number_text.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -41,9 +42,10 @@ namespace Keyblock
   FiniteCheck<dim>::check_motion()
   {
     // of both fields the first vertex at fault on any rank
-    for (const auto [what, field] :
-         {std::make_pair("velocity", &model.fields.velocity),
-          std::make_pair("displacement", &model.fields.displacement)})
+    const std::array<std::pair<const char *, const std::vector<double> *>, 2>
+      named{{{"velocity", &model.fields.velocity},
+             {"displacement", &model.fields.displacement}}};
+    for (const auto &[what, field] : named)
       {
         unsigned int bad = none;
         for (unsigned int node = 0; node < model.numbering->n_owned(); ++node)
@@ -100,13 +102,13 @@ namespace Keyblock
     for (unsigned int i = 0; i < n_energy_terms; ++i)
       if (!std::isfinite(energies[i]))
         fail("energy '" + Energies::terms()[i].name + "'", none);
-    for (const auto [what, value] :
-         {std::make_pair("energies' residual", model.step->energies.residual()),
-          std::make_pair("unbalanced ratio", model.step->unbalanced_ratio),
-          std::make_pair("largest nodal ratio",
-                         model.step->largest_nodal_ratio),
-          std::make_pair("time step", model.step->dt),
-          std::make_pair("time", model.step->time)})
+    const std::array<std::pair<const char *, double>, 5> named{
+      {{"energies' residual", model.step->energies.residual()},
+       {"unbalanced ratio", model.step->unbalanced_ratio},
+       {"largest nodal ratio", model.step->largest_nodal_ratio},
+       {"time step", model.step->dt},
+       {"time", model.step->time}}};
+    for (const auto &[what, value] : named)
       if (!std::isfinite(value))
         fail(what, none);
   }
