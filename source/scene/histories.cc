@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a scene says of water, shaking and histories, and what it is warned of.
 #include <keyblock/base/number_text.h>
+#include <keyblock/scene/gravity.h>
 #include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/scene.h>
 #include <keyblock/scene/unit_warnings.h>
@@ -16,6 +17,64 @@ namespace Keyblock
     /** Last over largest displacement of a history, beyond which its base line
      * is doubted [-]. */
     constexpr double largest_base_line_error = 0.05;
+
+    /** Sine between gravity and the last axis, from which on elevations are
+     * doubted [-]. */
+    constexpr double tilt = 1e-6;
+
+    /** Sentences on histories after which the ground stays displaced. */
+    template <int dim>
+    std::vector<std::string>
+    warnings_of_base_lines(const Scene<dim> &scene)
+    {
+      std::vector<std::string> found;
+      for (const auto &support : scene.supports)
+        if (support->history)
+          {
+            const bool is_stress =
+              support->history_quantity == HistoryQuantity::stress;
+            const std::string unit = is_stress ? " Pa s" : " m";
+            const TimeSeries way   = support->history->integral();
+            for (unsigned int d = 0; d < dim; ++d)
+              if (std::abs(way.last(d)) >
+                  largest_base_line_error * way.largest_magnitude())
+                found.push_back(
+                  "The history '" + support->history_file + "' ends with " +
+                  (is_stress ? "an impulse" : "a displacement") + " of " +
+                  text_of(way.last(d)) + unit + " along " + "xyz"[d] +
+                  ", of at most " + text_of(way.largest_magnitude()) + unit +
+                  " on the way" +
+                  (is_stress ? ", which leaves the ground displaced" : "") +
+                  "; correct its base line if it should end where it began.");
+          }
+      return found;
+    }
+
+
+
+    /** A sentence if there are water levels that do not lie across gravity. */
+    template <int dim>
+    std::vector<std::string>
+    warnings_of_water(const Scene<dim> &scene)
+    {
+      bool has_level = false;
+      for (unsigned int number = 1; number <= scene.stages.size() + 1; ++number)
+        for (unsigned int j = 0; j < scene.joints.size(); ++j)
+          has_level = has_level || (scene.joints[j]->water_pressure.empty() &&
+                                    !scene.water_pressure(j, number).empty());
+      const Tensor<1, dim> gravity = Gravity<dim>(scene).at(Point<dim>(), 0.);
+      Tensor<1, dim> across        = gravity;
+      across[dim - 1]              = 0.;
+      if (!has_level || across.norm() <= tilt * gravity.norm())
+        return {};
+      const std::string axis(1, "xyz"[dim - 1]);
+      return {"Gravity is not along " + axis +
+              ", but water levels are: "
+              "pressure is the 'Water/Unit weight' times the depth along " +
+              axis +
+              "; give 'Joints/*/Water pressure' as a formula if the "
+              "scene is drawn in turned axes."};
+    }
   } // namespace
 
 
@@ -88,8 +147,10 @@ namespace Keyblock
   Scene<dim>::warnings() const
   {
     std::vector<std::string> found = old_names;
-    for (const auto &warnings :
-         {warnings_of_facets(*this), warnings_of_units(*this)})
+    for (const auto &warnings : {warnings_of_facets(*this),
+                                 warnings_of_units(*this),
+                                 warnings_of_base_lines(*this),
+                                 warnings_of_water(*this)})
       found.insert(found.end(), warnings.begin(), warnings.end());
     for (const auto &material : materials)
       if (material->is_plastic() &&
@@ -132,22 +193,6 @@ namespace Keyblock
           " s: what is left of the ramp " +
           (s + 1 < stages.size() ? "goes on in the next stage."
                                  : "never goes; lengthen the stage."));
-    for (const auto &support : supports)
-      if (support->history &&
-          support->history_quantity != HistoryQuantity::stress)
-        {
-          const TimeSeries way = support->history->integral();
-          for (unsigned int d = 0; d < dim; ++d)
-            if (std::abs(way.last(d)) >
-                largest_base_line_error * way.largest_magnitude())
-              found.push_back(
-                "The history '" + support->history_file +
-                "' ends with a displacement of " + text_of(way.last(d)) +
-                " m along " + "xyz"[d] + ", of at most " +
-                text_of(way.largest_magnitude()) +
-                " m on the way; correct its base line if it should end where "
-                "it began.");
-        }
     return found;
   }
 

@@ -270,7 +270,9 @@ namespace Keyblock
         last_material = m;
         lowest        = std::min(lowest, frequency[c]);
       }
-    lowest_frequency = numbering.communicator.min(lowest);
+    lowest = numbering.communicator.min(lowest);
+    lowest_frequency =
+      lowest < std::numeric_limits<double>::max() ? lowest : 0.;
   }
 
 

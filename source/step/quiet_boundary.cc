@@ -234,6 +234,8 @@ namespace Keyblock
                                const Point<dim> &place,
                                const double time) const
   {
+    if (clock.stands())
+      return Tensor<1, dim>();
     if (waves[support])
       return waves[support]->vector(place, time);
     Tensor<1, dim> wave;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Keyblock
 {
@@ -32,6 +33,9 @@ namespace Keyblock
   double
   StableStep<dim>::limit(const Stage &stage) const
   {
+    // nothing is left that moves
+    if (frequency == 0.)
+      return std::numeric_limits<double>::infinity();
     // y = omega dt / 2 with (1 + alpha) (y^2 + 2 c y) = 1
     const double c = damping_ratio(stage);
     return 2. / frequency *

@@ -232,7 +232,8 @@ namespace Keyblock
     is_stress_current = false;
     previous_dt       = dt;
     conditions.loads.advance_ramp(dt);
-    time += dt;
+    if (!conditions.clock.stands())
+      time += dt;
     ++n_steps;
     return dt;
   }

@@ -191,6 +191,8 @@ namespace Keyblock
                              const Point<dim> &place,
                              const double time) const
   {
+    if (clock.stands())
+      return Tensor<1, dim>();
     if (motion.formula)
       return motion.formula->vector(place, time);
     Tensor<1, dim> velocity;

@@ -249,6 +249,10 @@ keyblock_scene(verification/factor_incline REFERENCES water_table RANKS 1 2
   "Stages/drained/Kind=quasi-static"
   "Stages/drained/Friction angle override=84.2894"
   "Stages/drained/Unbalanced ratio=1e-7" "Stages/drained/Water level=none")
+# water that rises with t stands still in trials
+keyblock_scene(verification/factor_incline REFERENCES water_rises RANKS 1 2
+  SET "Stages/rest/Kind=dynamic" "Stages/rest/Duration=0.05"
+  "Joints/base/Water pressure=8000*t")
 # the same by joints that are drained under the water table that stays
 keyblock_scene(verification/factor_incline REFERENCES water_drained RANKS 1
   SET "Stages/Names=rest, wet, drained" "Stages/wet/Kind=quasi-static"

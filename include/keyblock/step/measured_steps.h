@@ -8,8 +8,8 @@
 
 namespace Keyblock
 {
-  /** While it lives, forces may be measured at any step, and no ledger is kept.
-   */
+  /** While it lives, forces may be measured at any step, no ledger is kept, and
+   * time stands: steps look for the equilibrium of this moment. */
   template <int dim>
   class MeasuredSteps
   {
@@ -18,12 +18,15 @@ namespace Keyblock
       : step(step)
       , keeps_ledger(std::exchange(step.keeps_ledger, false))
       , skips_resting(std::exchange(step.skips_resting, false))
-    {}
+    {
+      step.hold_time(true);
+    }
 
     ~MeasuredSteps()
     {
       step.keeps_ledger  = keeps_ledger;
       step.skips_resting = skips_resting;
+      step.hold_time(false);
     }
 
     MeasuredSteps(const MeasuredSteps &)            = delete;

@@ -30,6 +30,20 @@ namespace Keyblock
                                      : std::numeric_limits<double>::lowest();
     }
 
+    /** Whether time stands: what is given by formulas in t and by histories
+     * stays as it is, and motions that are given are at rest. */
+    bool
+    stands() const
+    {
+      return is_standing;
+    }
+
+    void
+    stand(const bool stands)
+    {
+      is_standing = stands;
+    }
+
     const std::vector<double> &
     state() const
     {
@@ -44,6 +58,7 @@ namespace Keyblock
 
   private:
     std::vector<double> begins; ///< of stages 1, 2, ... [s]
+    bool is_standing = false;
   };
 } // namespace Keyblock
 

@@ -106,6 +106,13 @@ namespace Keyblock
     /** Set all velocities to zero; the next kick is a half one. */
     void stop_motion();
 
+    /** Whether steps leave the time as it is (StageClock::stands). */
+    void
+    hold_time(const bool is_held)
+    {
+      conditions.clock.stand(is_held);
+    }
+
     /** Mass damping [1/s], for the rest of the stage. */
     void
     set_mass_damping(const double rate)
