@@ -297,6 +297,20 @@ namespace Keyblock
 
 
 
+  template <int dim>
+  bool
+  ContactSurface<dim>::can_bear(const std::vector<double> &position,
+                                const unsigned int node,
+                                const unsigned int face,
+                                const Vector<dim> &normal) const
+  {
+    return opposes(position, node, normal) &&
+           (is_on_joint(node, interface.surface[face].joint) ||
+            can_stand_on(position, node, normal));
+  }
+
+
+
   template class ContactSurface<2>;
   template class ContactSurface<3>;
 } // namespace Keyblock

@@ -180,7 +180,8 @@ namespace Keyblock
     std::vector<bool> is_opposed;
     is_opposed.reserve(inside.size());
     for (const Projection<dim> &projection : inside)
-      is_opposed.push_back(surface.opposes(position, slave, projection.normal));
+      is_opposed.push_back(
+        surface.can_bear(position, slave, projection.face, projection.normal));
     std::vector<Projection<dim>> kept;
     for (unsigned int i = 0; i < inside.size(); ++i)
       {

@@ -22,7 +22,8 @@ namespace Keyblock
   share_last_group(const Blocks<dim> &blocks,
                    std::vector<SafetyFactor> &factors)
   {
-    // whether `member` takes over the group that was found for `finder`
+    // whether `member` takes over the group that was found for `finder`: not if
+    // it fails by itself before
     const auto shares = [&](const SafetyFactor &finder, SafetyFactor &member) {
       if (!finder.has_own_group() || member.has_own_group() ||
           finder.stage != member.stage ||
@@ -30,7 +31,9 @@ namespace Keyblock
                      finder.group.end(),
                      blocks.blocks[member.block].id) == 0 ||
           (!member.group.empty() &&
-           member.value_of_group() <= finder.value_of_group()))
+           member.value_of_group() <= finder.value_of_group()) ||
+          (member.outcome == SafetyFactor::Outcome::bracketed &&
+           member.upper < finder.group_lower))
         return false;
       member.group       = finder.group;
       member.group_lower = finder.group_lower;

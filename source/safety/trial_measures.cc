@@ -142,9 +142,12 @@ namespace Keyblock
         holders.push_back(elements[i]->name());
         std::replace(holders.back().begin(), holders.back().end(), '_', ' ');
       }
+    const double moved_by = way_from_place(block);
     if (holders.empty() || left >= holding_share * load)
-      holders.push_back(
-        way_from_place(block) > 0. ? "what it has come to lie on" : "clamping");
+      holders.push_back(moved_by > 0. ? "what it has come to lie on"
+                        : scene.safety.joints.empty()
+                          ? "clamping"
+                          : "joints that are not reduced");
     std::string text = holders[0];
     for (unsigned int i = 1; i < holders.size(); ++i)
       text += (i + 1 < holders.size() ? ", " : " and ") + holders[i];

@@ -138,7 +138,14 @@ keyblock_scene(verification/order_at_once RANKS 1 2)
 keyblock_scene(verification/order_left_first)
 keyblock_scene(verification/order_stepped)
 keyblock_scene(verification/roof_block_falls)
-keyblock_scene(verification/roof_block_stays)
+# (several meshes: it hung on which node came to lie where)
+foreach(size 0.2 0.3)
+  keyblock_scene(verification/slides_past_ledge
+    REFERENCES slides_past_ledge_${size} RANKS 1 2
+    SET "Mesh/Size at joints=${size}" "Mesh/Size at excavation=${size}")
+endforeach()
+keyblock_scene(verification/roof_block_stays
+  SET "Stages/dig/Unbalanced ratio=1e-7")
 keyblock_scene(verification/gravity_column REFERENCES gravity_column_relaxed
   SET "Stages/settle/Kind=quasi-static" "Stages/settle/Unbalanced ratio=1e-7")
 keyblock_scene(verification/bar_impact REFERENCES bar_impact_refined

@@ -114,6 +114,15 @@ namespace Keyblock
                       const unsigned int node,
                       const Vector<dim> &normal) const;
 
+    /** Whether a face with @p normal can bear a surface node: one of the node's
+     * faces looks against it and, unless it is of a joint of the node's, its
+     * block can stand there. A side that slides past the end of another joint
+     * is not caught on that joint's ledge. */
+    bool can_bear(const std::vector<double> &position,
+                  const unsigned int node,
+                  const unsigned int face,
+                  const Vector<dim> &normal) const;
+
     const Interface<dim> &interface;
     std::vector<unsigned int> vertex_of_node;
     std::vector<unsigned int> node_of_vertex;
