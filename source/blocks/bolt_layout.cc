@@ -41,7 +41,9 @@ namespace Keyblock
       return text;
     }
 
-    /** Its nodes at equal distances, and the rock at them. */
+    /** Its nodes at equal distances, and the rock at them: at a head or end on
+     * the plane of a joint the rock that the bolt is in, whatever becomes of
+     * the other side. */
     template <int dim>
     void
     divide(const BoltSet<dim> &set,
@@ -57,7 +59,11 @@ namespace Keyblock
       for (unsigned int i = 0; i <= n; ++i)
         {
           bolt.places.push_back(length * i / n);
-          bolt.rock.push_back(rock.find(bolt.at(bolt.places.back())));
+          const Point<dim> place = bolt.at(bolt.places.back());
+          bolt.rock.push_back(
+            i == 0   ? rock.find_towards(place, bolt.direction())
+            : i == n ? rock.find_towards(place, -bolt.direction())
+                     : rock.find(place));
           is_grouted = is_grouted || (bolt.places.back() >= set.free_length &&
                                       bolt.rock.back().cell != none);
         }

@@ -3,12 +3,13 @@
 
 #include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
+#include <keyblock/blocks/excavation_parts.h>
 #include <keyblock/blocks/liner_layout.h>
+#include <keyblock/blocks/section_outline.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace Keyblock
 {
@@ -17,18 +18,6 @@ namespace Keyblock
     /** Distances around a closed row are larger than the spacing by no more
      * than this, so that chords of a circle count as the circle [-]. */
     constexpr double spacing_tolerance = 1e-3;
-
-    /** A straight piece of the outline of an excavation's section, and the
-     * normal there, into the rock. */
-    template <int dim>
-    struct Piece
-    {
-      Point<dim> begin, end;
-      Tensor<1, dim> inward;
-    };
-
-    template <int dim>
-    using Outline = std::vector<Piece<dim>>;
 
     /** Where the plane of a ring cuts a face: nothing, or a piece. */
     void
@@ -56,63 +45,7 @@ namespace Keyblock
       Tensor<1, 3> inward = -area / area.norm();
       inward -= (inward * axis) * axis;
       if (inward.norm() > 0.1) // not the end of a cavern
-        pieces.push_back({points[0], points[1], inward / inward.norm()});
-    }
-
-    /** Put pieces that touch into rows, each from one end to the other. */
-    template <int dim>
-    std::vector<Outline<dim>>
-    put_in_rows(const Outline<dim> &pieces)
-    {
-      double size = 0.;
-      for (const Piece<dim> &piece : pieces)
-        size = std::max(size, piece.begin.distance(piece.end));
-      const auto key = [&](const Point<dim> &p) {
-        std::array<long long, dim> k;
-        for (unsigned int d = 0; d < dim; ++d)
-          k[d] = std::llround(p[d] / (1e-6 * size));
-        return k;
-      };
-      std::map<std::array<long long, dim>, std::vector<unsigned int>> at;
-      for (unsigned int i = 0; i < pieces.size(); ++i)
-        for (const Point<dim> &p : {pieces[i].begin, pieces[i].end})
-          at[key(p)].push_back(i);
-
-      std::vector<bool> is_used(pieces.size(), false);
-      std::vector<Outline<dim>> rows;
-      const auto walk = [&](const unsigned int first, const Point<dim> &from) {
-        rows.emplace_back();
-        unsigned int i    = first;
-        Point<dim> corner = from;
-        while (true)
-          {
-            is_used[i]        = true;
-            Piece<dim> piece  = pieces[i];
-            const bool is_fwd = key(piece.begin) == key(corner);
-            if (!is_fwd)
-              std::swap(piece.begin, piece.end);
-            rows.back().push_back(piece);
-            corner                  = piece.end;
-            const unsigned int last = i;
-            for (const unsigned int other : at[key(corner)])
-              if (!is_used[other])
-                {
-                  i = other;
-                  break;
-                }
-            if (i == last)
-              return;
-          }
-      };
-      // open rows from their ends, then closed ones
-      for (unsigned int i = 0; i < pieces.size(); ++i)
-        for (const Point<dim> &p : {pieces[i].begin, pieces[i].end})
-          if (!is_used[i] && at[key(p)].size() == 1)
-            walk(i, p);
-      for (unsigned int i = 0; i < pieces.size(); ++i)
-        if (!is_used[i])
-          walk(i, pieces[i].begin);
-      return rows;
+        pieces.push_back({points[0], points[1], inward / inward.norm(), {}});
     }
 
     /** Across the outline and up in its plane, that of @p axis: unit vectors.
@@ -148,7 +81,7 @@ namespace Keyblock
       const auto [across, up] = across_and_up<dim>(axis);
       double left             = std::numeric_limits<double>::max(),
              right            = std::numeric_limits<double>::lowest();
-      for (const Piece<dim> &piece : row)
+      for (const OutlinePiece<dim> &piece : row)
         {
           left  = std::min(left, piece.begin * across);
           right = std::max(right, piece.begin * across);
@@ -156,11 +89,10 @@ namespace Keyblock
       const double middle = 0.5 * (left + right);
       double place = 0., passed = 0.,
              highest = std::numeric_limits<double>::lowest();
-      for (const Piece<dim> &piece : row)
+      for (const OutlinePiece<dim> &piece : row)
         {
-          const double here = piece.begin.distance(piece.end),
-                       a    = piece.begin * across - middle,
-                       b    = piece.end * across - middle;
+          const double here = piece.length(), a = piece.begin * across - middle,
+                       b = piece.end * across - middle;
           if ((a > 0.) != (b > 0.))
             {
               const double share = a / (a - b);
@@ -178,10 +110,10 @@ namespace Keyblock
     }
 
     /**
-     * Where the bolts of a row are: distances along it, ascending [m]. In a
-     * closed one they are equally far from each other, no more than the
-     * @p spacing, from the crown on; in an open one at the spacing, the first
-     * and the last as far from its ends.
+     * Where the bolts of a row are: distances along it [m]. In a closed one
+     * they are equally far from each other, no more than the @p spacing, from
+     * the crown on; in an open one at the spacing, the first and the last as
+     * far from its ends.
      */
     template <int dim>
     std::vector<double>
@@ -189,72 +121,49 @@ namespace Keyblock
                  const double spacing,
                  const Tensor<1, dim> &axis)
     {
-      double length = 0.;
-      for (const Piece<dim> &piece : row)
-        length += piece.begin.distance(piece.end);
-      const bool is_closed =
-        row.front().begin.distance(row.back().end) < 1e-6 * length;
+      const double length  = length_of(row);
+      const bool is_around = is_closed(row);
       std::vector<double> places(
         std::max(1.,
-                 is_closed
+                 is_around
                    ? std::ceil((1. - spacing_tolerance) * length / spacing)
                    : std::floor(length / spacing + 1e-9)));
       const unsigned int n  = places.size();
-      const double distance = is_closed ? length / n : spacing,
-                   first    = is_closed ? place_of_crown<dim>(row, axis)
+      const double distance = is_around ? length / n : spacing,
+                   first    = is_around ? place_of_crown<dim>(row, axis)
                                         : 0.5 * (length - (n - 1) * spacing);
       for (unsigned int k = 0; k < n; ++k)
         {
           places[k] = first + k * distance;
-          if (is_closed && places[k] >= length)
+          if (is_around && places[k] >= length)
             places[k] -= length;
         }
-      std::sort(places.begin(), places.end());
       return places;
     }
 
-    /** Bolts along a row. */
+    /** The bolt of a set, @p index in Scene::bolts, with its head at a place.
+     */
     template <int dim>
-    void
-    add_along(const Outline<dim> &row,
-              const BoltSet<dim> &set,
-              const unsigned int index,
-              const Tensor<1, dim> &axis,
-              std::vector<Bolt<dim>> &bolts)
+    Bolt<dim>
+    bolt_at(const OutlinePlace<dim> &place,
+            const BoltSet<dim> &set,
+            const unsigned int index,
+            const Tensor<1, dim> &axis)
     {
-      const std::vector<double> places =
-        places_along<dim>(row, set.spacing[0], axis);
-      double passed = 0.;
-      auto place    = places.begin();
-      for (const Piece<dim> &piece : row)
+      const double angle = set.inclination * dealii::numbers::PI / 180.;
+      Tensor<1, dim> across;
+      if (dim == 2)
         {
-          const double here = piece.begin.distance(piece.end);
-          for (;
-               place != places.end() &&
-               (*place <= passed + (1. + 1e-9) * here || &piece == &row.back());
-               ++place)
-            {
-              const double share =
-                std::min(1., std::max(0., (*place - passed) / here));
-              const Point<dim> head =
-                piece.begin + share * (piece.end - piece.begin);
-              const double angle = set.inclination * dealii::numbers::PI / 180.;
-              Tensor<1, dim> across;
-              if (dim == 2)
-                {
-                  across[0] = -piece.inward[1];
-                  across[1] = piece.inward[0];
-                }
-              else
-                across = axis;
-              Tensor<1, dim> way =
-                std::cos(angle) * piece.inward + std::sin(angle) * across;
-              if (set.direction.norm() > 0.)
-                way = set.direction / set.direction.norm();
-              bolts.emplace_back(index, head, head + set.length * way);
-            }
-          passed += here;
+          across[0] = -place.inward[1];
+          across[1] = place.inward[0];
         }
+      else
+        across = axis;
+      Tensor<1, dim> way =
+        std::cos(angle) * place.inward + std::sin(angle) * across;
+      if (set.direction.norm() > 0.)
+        way = set.direction / set.direction.norm();
+      return {index, place.point, place.point + set.length * way};
     }
 
     template <int dim>
@@ -302,7 +211,8 @@ namespace Keyblock
               const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
               rings[0].push_back({mesh.vertices[v[0]],
                                   mesh.vertices[v[1]],
-                                  -area / area.norm()});
+                                  -area / area.norm(),
+                                  {}});
             }
         }
       else
@@ -347,14 +257,14 @@ namespace Keyblock
         const Mesh<dim> &mesh     = ground.split.mesh;
         const Tensor<1, dim> axis = axis_of(set, mesh, faces);
         for (const Outline<dim> &ring : list_rings(set, mesh, faces, axis))
-          {
-            Outline<dim> wanted;
-            for (const Piece<dim> &piece : ring)
-              if (is_of_parts<dim>(piece.inward, set.parts))
-                wanted.push_back(piece);
-            for (const Outline<dim> &row : put_in_rows<dim>(wanted))
-              add_along<dim>(row, set, index, axis, pattern);
-          }
+          for (const Outline<dim> &row : select_from_rows(
+                 put_in_rows(ring, axis), [&](const OutlinePiece<dim> &piece) {
+                   return is_of_parts<dim>(piece.inward, set.parts);
+                 }))
+            for (const double place :
+                 places_along<dim>(row, set.spacing[0], axis))
+              pattern.push_back(
+                bolt_at(place_on(row, place), set, index, axis));
       }
     if (!set.region.empty())
       {

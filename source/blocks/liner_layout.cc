@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/blocks/excavation_parts.h>
 #include <keyblock/blocks/lined_faces.h>
 #include <keyblock/blocks/liner_layout.h>
 #include <keyblock/blocks/nodal_areas.h>
@@ -47,20 +48,6 @@ namespace Keyblock
           }
       }
     return found;
-  }
-
-
-
-  template <int dim>
-  bool
-  is_of_parts(const Tensor<1, dim> &inward,
-              const std::vector<std::string> &parts)
-  {
-    const double up        = inward[dim - 1];
-    const std::string part = std::abs(up) < std::sqrt(0.5) ? "walls"
-                             : up > 0.                     ? "roof"
-                                                           : "floor";
-    return std::find(parts.begin(), parts.end(), part) != parts.end();
   }
 
 
@@ -244,8 +231,6 @@ namespace Keyblock
 #define INSTANTIATE(dim)                                                       \
   template std::vector<CellFace> list_excavation_faces(                        \
     const Ground<dim> &, const std::vector<std::string> &);                    \
-  template bool is_of_parts(const Tensor<1, dim> &,                            \
-                            const std::vector<std::string> &);                 \
   template std::vector<LaidLiner<dim>> lay_out_liners(const Scene<dim> &,      \
                                                       const SplitMesh<dim> &);
   INSTANTIATE(2)

@@ -12,6 +12,10 @@ namespace Keyblock
     /** How far outside the unit cell a point still counts as inside [-]. */
     constexpr double margin = 1e-7;
 
+    /** How far beside a point a cell has to go on, in its own size, to be on
+     * that side: more than the margin in flat cells [-]. */
+    constexpr double beside = 1e-5;
+
     template <int dim>
     using Weights = std::array<double, Mesh<dim>::n_cell_vertices>;
 
@@ -112,8 +116,8 @@ namespace Keyblock
 
 
   template <int dim>
-  CellPoint<dim>
-  CellLocator<dim>::find(const Point<dim> &point) const
+  std::vector<CellPoint<dim>>
+  CellLocator<dim>::find_all(const Point<dim> &point) const
   {
     std::vector<Entry> near;
     tree.query(boost::geometry::index::intersects(point),
@@ -121,10 +125,40 @@ namespace Keyblock
     std::sort(near.begin(), near.end(), [](const Entry &a, const Entry &b) {
       return a.second < b.second;
     });
+    std::vector<CellPoint<dim>> found;
     for (const Entry &entry : near)
       if (const auto weight = weights_in<dim>(mesh, entry.second, point))
-        return {entry.second, *weight};
-    return {};
+        found.push_back({entry.second, *weight});
+    return found;
+  }
+
+
+
+  template <int dim>
+  CellPoint<dim>
+  CellLocator<dim>::find(const Point<dim> &point) const
+  {
+    const std::vector<CellPoint<dim>> found = find_all(point);
+    return found.empty() ? CellPoint<dim>() : found.front();
+  }
+
+
+
+  template <int dim>
+  CellPoint<dim>
+  CellLocator<dim>::find_towards(const Point<dim> &point,
+                                 const Tensor<1, dim> &way) const
+  {
+    const std::vector<CellPoint<dim>> found = find_all(point);
+    for (const CellPoint<dim> &here : found)
+      {
+        const auto &vertices = mesh.cells[here.cell];
+        const double size    = mesh.vertices[vertices.front()].distance(
+          mesh.vertices[vertices.back()]);
+        if (weights_in<dim>(mesh, here.cell, point + beside * size * way))
+          return here;
+      }
+    return found.empty() ? CellPoint<dim>() : found.front();
   }
 
   template class CellLocator<2>;

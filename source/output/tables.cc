@@ -3,6 +3,7 @@
 #include <keyblock/base/delimited_text.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/blocks/block_measures.h>
+#include <keyblock/blocks/excavation_parts.h>
 #include <keyblock/blocks/free_faces.h>
 #include <keyblock/output/output.h>
 #include <keyblock/scene/gravity.h>
@@ -184,10 +185,9 @@ namespace Keyblock
         const Tensor<1, dim> down = gravity.at(at, 0.);
         if (normal.norm() == 0. || down.norm() == 0.)
           return "";
-        const double along = normal * down / (normal.norm() * down.norm());
-        return along > std::sqrt(0.5)    ? "roof"
-               : along < -std::sqrt(0.5) ? "floor"
-                                         : "wall";
+        const double along     = normal * down / (normal.norm() * down.norm());
+        const std::string part = part_of_excavation(along);
+        return part == "walls" ? "wall" : part;
       }
 
       const Scene<dim> &scene;

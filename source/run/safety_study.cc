@@ -73,9 +73,7 @@ namespace Keyblock
   {
     if (!model.scene.safety.wants_critical_only() || blocks.empty())
       return blocks;
-    std::vector<bool> is_removed;
-    for (const unsigned int stage : record.present.removal_stage)
-      is_removed.push_back(stage > 0 && stage < record.present.number());
+    const std::vector<bool> is_removed = record.present.removed_before();
     const Ground<dim> ground{model.scene,
                              model.split,
                              record.present.number(),

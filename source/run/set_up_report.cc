@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/number_text.h>
-#include <keyblock/blocks/bolt_layout.h>
 #include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/law/joint_stiffness.h>
 #include <keyblock/mesh/place_digits.h>
+#include <keyblock/run/bolt_warnings.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/wave_resolution.h>
 #include <keyblock/safety/block_theory.h>
@@ -117,34 +117,6 @@ namespace Keyblock
                   ? ", or set 'Time stepping/Least step'"
                   : "")
             << ".\n";
-    }
-
-
-    /** Sets of which later stages dig something. */
-    template <int dim>
-    std::vector<std::string>
-    warnings_of_cut_bolts(const Scene<dim> &scene, const SplitMesh<dim> &split)
-    {
-      const Ground<dim> last = {
-        scene, split, 1 + static_cast<unsigned int>(scene.stages.size())};
-      std::vector<unsigned int> n_cut(scene.bolts.size(), 0);
-      std::vector<double> length(scene.bolts.size(), 0.);
-      for (const Bolt<dim> &bolt : split.bolts)
-        {
-          const double cut = find_remains(bolt, last).cut_length;
-          n_cut[bolt.set] += cut > 0.;
-          length[bolt.set] += cut;
-        }
-      std::vector<std::string> warnings;
-      for (unsigned int s = 0; s < scene.bolts.size(); ++s)
-        if (n_cut[s] > 0)
-          warnings.push_back("Later stages dig rock around " +
-                             std::to_string(n_cut[s]) + " of the bolts of '" +
-                             scene.bolts[s]->name + "' and cut off " +
-                             text_of(length[s], 3) +
-                             " m of them; only what is "
-                             "left in the rock bears from then on.");
-      return warnings;
     }
   } // namespace
 

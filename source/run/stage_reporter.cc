@@ -3,6 +3,7 @@
 #include <keyblock/law/joint_stiffness.h>
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/output/liner_output.h>
+#include <keyblock/run/bolt_warnings.h>
 #include <keyblock/run/stage_reporter.h>
 #include <keyblock/run/static_stage.h>
 
@@ -188,7 +189,9 @@ namespace Keyblock
     /** What a stage warns of, as sentences. */
     template <int dim>
     std::string
-    warning_of_stage(const Model<dim> &model, const StageReport &report)
+    warning_of_stage(const Model<dim> &model,
+                     const StageProgress<dim> &progress,
+                     const StageReport &report)
     {
       std::string text;
       const auto add = [&text](const std::string &sentence) {
@@ -197,6 +200,10 @@ namespace Keyblock
       for (const LinerLoads<dim> &loads :
            model.conditions->report_structural_liners())
         add(warning_of(list_figures(loads), *model.scene.liners[loads.liner]));
+      const std::vector<bool> is_removed = progress.removed_before();
+      for (const std::string &sentence : warnings_of_bolts_in_void(Ground<dim>{
+             model.scene, model.split, progress.number(), &is_removed}))
+        add(sentence);
       if (report.through_rock > 0)
         add(std::to_string(report.through_rock) +
             " contacts act through the rock of a block.");
@@ -256,7 +263,7 @@ namespace Keyblock
           largest = std::max(largest, square);
       }
     result.max_displacement = std::sqrt(model.communicator.max(largest));
-    result.warning          = warning_of_stage(model, result);
+    result.warning          = warning_of_stage(model, progress, result);
     return result;
   }
 

@@ -5,6 +5,8 @@
 
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/bolt_layout.h>
+#include <keyblock/mesh/cell_locator.h>
+#include <keyblock/run/bolt_warnings.h>
 
 #include <algorithm>
 #include <array>
@@ -263,6 +265,55 @@ BOOST_AUTO_TEST_CASE(bolt_grout_ends_where_rock_is_dug)
         BOOST_TEST(std::abs(length[0] - slope) < near);
         BOOST_TEST(length[1] == 0.);
         BOOST_TEST(std::abs(length[2] - slope) < near);
+      });
+}
+
+// A head or an end on the plane of a joint is in the rock along the bolt, so
+// that a block on the other side may have gone.
+BOOST_AUTO_TEST_CASE(bolt_begins_and_ends_on_joints)
+{
+  for (const bool is_down : {false, true})
+    {
+      const std::string low = "5.1, 8", high = "5.3, 8.5";
+      with_bolts<2>("  set Heads = " + (is_down ? high : low) +
+                      "\n  set Ends = " + (is_down ? low : high) + "\n",
+                    beds,
+                    [](const std::vector<Bolt<2>> &bolts,
+                       const SplitMesh<2> &split,
+                       const Scene<2> &) {
+                      const Bolt<2> &bolt = bolts[0];
+                      BOOST_TEST(bolt.crossings.empty());
+                      const unsigned int layer =
+                        split.block_of_cell[bolt.rock[10].cell];
+                      for (const CellPoint<2> &point : bolt.rock)
+                        BOOST_TEST(split.block_of_cell[point.cell] == layer);
+                    });
+    }
+}
+
+// Bolts that are put where a block has been taken away are told of.
+BOOST_AUTO_TEST_CASE(bolt_where_a_block_has_gone)
+{
+  for (const auto &[head, is_in_void] :
+       {std::make_pair("5, 8", false), {"5, 7.999", true}})
+    with_bolts<2>(
+      "  set Heads = " + std::string(head) +
+        "; 4.5, 8.1\n  set Ends = 5, 9; 4.5, 9.1\n  set Pretension = 100\n"
+        "  set Plate strength = 1e5\n",
+      beds,
+      [&, is_cut = is_in_void](const std::vector<Bolt<2>> &bolts,
+                               SplitMesh<2> split,
+                               const Scene<2> &scene) {
+        split.bolts = bolts;
+        std::vector<bool> is_removed(split.mesh.n_cells(), false);
+        const CellLocator<2> cells(split.mesh,
+                                   [](const unsigned int) { return true; });
+        is_removed[split.block_of_cell[cells.find({5., 7.5}).cell]] = true;
+        const auto warnings = warnings_of_bolts_in_void(
+          Ground<2>{scene, split, scene.stage_number("dig"), &is_removed});
+        BOOST_REQUIRE(warnings.size() == (is_cut ? 1u : 0u));
+        if (is_cut)
+          BOOST_TEST(warnings[0].find("1 of the 2 bolts of 'bar'") == 0u);
       });
 }
 

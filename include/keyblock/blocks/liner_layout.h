@@ -13,12 +13,6 @@ namespace Keyblock
   list_excavation_faces(const Ground<dim> &ground,
                         const std::vector<std::string> &names);
 
-  /** Whether a face with the unit normal @p inward, into the rock, is of one of
-   * the @p parts roof, walls and floor. */
-  template <int dim>
-  bool is_of_parts(const Tensor<1, dim> &inward,
-                   const std::vector<std::string> &parts);
-
   /**
    * The shotcrete of the scene as it is sprayed on the faces that are there
    * after its stage has excavated: what it weighs on each vertex, the traces of

@@ -22,7 +22,15 @@ namespace Keyblock
     /** Where @p point is, in the first of several cells. */
     CellPoint<dim> find(const Point<dim> &point) const;
 
+    /** Where @p point is, between several cells in the one on the side of @p
+     * way (unit vector). */
+    CellPoint<dim> find_towards(const Point<dim> &point,
+                                const Tensor<1, dim> &way) const;
+
   private:
+    /** All cells that @p point is in, ascending. */
+    std::vector<CellPoint<dim>> find_all(const Point<dim> &point) const;
+
     using Entry = std::pair<dealii::BoundingBox<dim>, unsigned int>;
 
     const Mesh<dim> &mesh;

@@ -35,6 +35,16 @@ namespace Keyblock
     {
       return index + 2;
     }
+
+    /** Blocks, by index, that were taken away before this stage. */
+    std::vector<bool>
+    removed_before() const
+    {
+      std::vector<bool> is_removed;
+      for (const unsigned int stage : removal_stage)
+        is_removed.push_back(stage > 0 && stage < number());
+      return is_removed;
+    }
   };
 
   /** What a run has come to. */

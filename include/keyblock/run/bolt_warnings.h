@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_run_bolt_warnings_h
+#define keyblock_run_bolt_warnings_h
+
+#include <keyblock/blocks/ground.h>
+
+#include <string>
+#include <vector>
+
+namespace Keyblock
+{
+  /** Sets of bolts of which later stages dig something, as sentences. */
+  template <int dim>
+  std::vector<std::string> warnings_of_cut_bolts(const Scene<dim> &scene,
+                                                 const SplitMesh<dim> &split);
+
+  /** Sets of bolts that the stage of @p ground installs partly where blocks
+   * have been taken away before, as sentences. */
+  template <int dim>
+  std::vector<std::string> warnings_of_bolts_in_void(const Ground<dim> &ground);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/bolt_warnings.h>
+
+#include <keyblock/base/number_text.h>
+#include <keyblock/blocks/bolt_layout.h>
+
+namespace Keyblock
+{
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_cut_bolts(const Scene<dim> &scene, const SplitMesh<dim> &split)
+  {
+    const Ground<dim> last = {
+      scene, split, 1 + static_cast<unsigned int>(scene.stages.size())};
+    std::vector<unsigned int> n_cut(scene.bolts.size(), 0);
+    std::vector<double> length(scene.bolts.size(), 0.);
+    for (const Bolt<dim> &bolt : split.bolts)
+      {
+        const double cut = find_remains(bolt, last).cut_length;
+        n_cut[bolt.set] += cut > 0.;
+        length[bolt.set] += cut;
+      }
+    std::vector<std::string> warnings;
+    for (unsigned int s = 0; s < scene.bolts.size(); ++s)
+      if (n_cut[s] > 0)
+        warnings.push_back("Later stages dig rock around " +
+                           std::to_string(n_cut[s]) + " of the bolts of '" +
+                           scene.bolts[s]->name + "' and cut off " +
+                           text_of(length[s], 3) +
+                           " m of them; only what is left in the rock bears "
+                           "from then on.");
+    return warnings;
+  }
+
+
+
+  namespace
+  {
+    /** What a set of bolts lacks in the ground into which it is put. */
+    struct Lack
+    {
+      unsigned int n_bolts = 0, n_cut = 0, n_heads = 0, n_ends = 0;
+      double cut_length = 0.; ///< of all of them [m]
+    };
+
+    std::string
+    warning_of(const Lack &lack,
+               const std::string &name,
+               const bool is_tensioned)
+    {
+      std::string text = std::to_string(lack.n_cut) + " of the " +
+                         std::to_string(lack.n_bolts) + " bolts of '" + name +
+                         "' are installed where blocks have been taken "
+                         "away: " +
+                         text_of(lack.cut_length, 3) +
+                         " m of them are in no rock";
+      if (lack.n_heads > 0)
+        text += ", " + std::to_string(lack.n_heads) + " have no rock under " +
+                "their plate" +
+                (is_tensioned ? " and lose their pretension" : "");
+      if (lack.n_ends > 0)
+        text += ", " + std::to_string(lack.n_ends) + " end in no rock";
+      return text + "; move their heads to the faces that are there then.";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_bolts_in_void(const Ground<dim> &ground)
+  {
+    const auto &sets = ground.scene.bolts;
+    std::vector<Lack> lacks(sets.size());
+    const Ground<dim> whole{ground.scene, ground.split, ground.stage_number};
+    for (const Bolt<dim> &bolt : ground.split.bolts)
+      {
+        if (ground.scene.stage_number(sets[bolt.set]->stage) !=
+            ground.stage_number)
+          continue;
+        const BoltRemains laid = find_remains(bolt, whole),
+                          left = find_remains(bolt, ground);
+        Lack &lack             = lacks[bolt.set];
+        ++lack.n_bolts;
+        lack.n_cut += left.cut_length > 0.;
+        lack.cut_length += left.cut_length;
+        lack.n_heads += laid.is_held.front() && !left.is_held.front();
+        lack.n_ends += laid.is_held.back() && !left.is_held.back();
+      }
+    std::vector<std::string> warnings;
+    for (unsigned int s = 0; s < sets.size(); ++s)
+      if (lacks[s].n_cut > 0)
+        warnings.push_back(
+          warning_of(lacks[s], sets[s]->name, sets[s]->pretension > 0.));
+    return warnings;
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template std::vector<std::string> warnings_of_cut_bolts(                     \
+    const Scene<dim> &, const SplitMesh<dim> &);                               \
+  template std::vector<std::string> warnings_of_bolts_in_void(                 \
+    const Ground<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Keyblock
