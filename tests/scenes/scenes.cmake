@@ -162,6 +162,10 @@ endforeach()
 keyblock_scene(verification/hanging_blocks RANKS 1 2)
 keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_weak
   RANKS 1 SET "Bolts/b/Plate strength=19e3")
+# plates of 60 kN/m in all that yield to both: passive, both have 60/1.8/40
+keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_passive
+  RANKS 1 2 SET "Bolts/b/Spacing=1, 1.8" "Safety factor/Blocks=all"
+  "Safety factor/Bolt convention=passive")
 keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_bare
   RANKS 1 SET "Bolts/Names=")
 keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_dug
