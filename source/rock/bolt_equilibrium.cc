@@ -197,16 +197,10 @@ namespace Keyblock
   {
     find_equilibrium(rock, jack);
     commit(rock);
-    // at the same place of the rock, so that all that is let go, in the grout
-    // and in other segments, too, stays here
-    while (true)
+    while (break_segments())
       {
-        const double energy = stored_energy() + dissipated;
-        if (!break_segments())
-          break;
         find_equilibrium(rock, jack);
         commit(rock);
-        dissipated = energy - stored_energy();
       }
     const auto all = [&](const std::vector<char> &is_elastic) {
       return std::find(is_elastic.begin(), is_elastic.end(), false) ==
@@ -256,7 +250,12 @@ namespace Keyblock
         plate_on_rock = is_plate_elastic ? force : 0.;
       }
     if (!is_elastic)
-      std::copy_n(start, n, w);
+      {
+        std::copy_n(start, n, w);
+        set_trial_forces(row(followed));
+        plate_on_rock =
+          is_plate_elastic ? trial_plate_force(row(followed)[0]) : 0.;
+      }
     return is_elastic;
   }
 
@@ -303,25 +302,12 @@ namespace Keyblock
                  *axial = row(axial_force), *stiffness = row(segment_stiffness);
     for (unsigned int i = 0; i < n; ++i)
       if (!bond_is_elastic[i])
-        {
-          const double slipped = rock[i] - w[i] - b[i] / row(bond_stiffness)[i];
-          dissipated += b[i] * (slipped - row(slip)[i]);
-          row(slip)[i] = slipped;
-        }
+        row(slip)[i] = rock[i] - w[i] - b[i] / row(bond_stiffness)[i];
     for (unsigned int j = 0; j + 1 < n; ++j)
       if (!segment_is_elastic[j])
-        {
-          const double longer = w[j + 1] - w[j] - axial[j] / stiffness[j];
-          dissipated += axial[j] * (longer - row(elongation)[j]);
-          row(elongation)[j] = longer;
-        }
+        row(elongation)[j] = w[j + 1] - w[j] - axial[j] / stiffness[j];
     if (is_plate_held && !is_plate_elastic && plate_on_rock > 0.)
-      {
-        const double shift =
-          w[0] - rock[0] - plate_on_rock / properties.plate_stiffness;
-        dissipated += plate_on_rock * (shift - plate_shift);
-        plate_shift = shift;
-      }
+      plate_shift = w[0] - rock[0] - plate_on_rock / properties.plate_stiffness;
   }
 
 
@@ -361,6 +347,25 @@ namespace Keyblock
   BoltChain::follow(const double *rock)
   {
     if (!follow_elastically(rock))
-      solve(rock, -1.);
+      {
+        // by the mean of the forces before and behind, as all work of a step;
+        // so what a break lets go, in the grout and in other segments, too,
+        // stays here
+        dissipated += stored_energy() + half_work_on_way(rock);
+        solve(rock, -1.);
+        dissipated += half_work_on_way(rock) - stored_energy();
+      }
+    std::copy_n(rock, n, row(followed));
+  }
+
+
+
+  double
+  BoltChain::half_work_on_way(const double *rock) const
+  {
+    double work = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      work -= 0.5 * force_on_rock(i) * (rock[i] - row(followed)[i]);
+    return work;
   }
 } // namespace Keyblock

@@ -11,6 +11,36 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Add those that support ties to a block of @p is_wanted: they may hang on
+     * it. */
+    template <int dim>
+    void
+    add_tied_blocks(const SplitMesh<dim> &split,
+                    const Blocks<dim> &blocks,
+                    std::vector<bool> &is_wanted)
+    {
+      const std::vector<bool> is_tried = is_wanted;
+      const auto add = [&](const std::array<unsigned int, 2> &tied) {
+        for (unsigned int side = 0; side < 2; ++side)
+          if (const unsigned int other = tied[1 - side];
+              tied[side] != none && is_tried[tied[side]] && other != none &&
+              !blocks.blocks[other].is_infinite &&
+              !blocks.blocks[other].is_rigid)
+            is_wanted[other] = true;
+      };
+      for (const Bolt<dim> &bolt : split.bolts)
+        for (const BoltCrossing<dim> &crossing : bolt.crossings)
+          add(crossing.block);
+      for (const LaidLiner<dim> &liner : split.liners)
+        for (const LinerTrace<dim> &trace : liner.traces)
+          add(trace.block);
+    }
+  } // namespace
+
+
+
   std::string
   describe_outcome(const SafetyFactor &factor)
   {
@@ -99,6 +129,7 @@ namespace Keyblock
         std::count(trials.companions.begin(), trials.companions.end(), b) > 0 ||
         (scene.safety.reduced_joints == ReducedJoints::all &&
          !blocks.blocks[b].is_infinite && !blocks.blocks[b].is_rigid);
+    add_tied_blocks(split, blocks, is_wanted);
     const std::vector<Tensor<1, dim>> ways =
       find_ways_without_support(ground, free, blocks, is_wanted, run.step.time);
     run.conditions.take_ways(ways);

@@ -105,19 +105,29 @@ namespace Keyblock
 
 
   template <int dim>
+  Tensor<1, dim>
+  BoltInRock<dim>::shear_of(const Dowel &dowel, Tensor<1, dim> jump) const
+  {
+    jump -= dowel.reference;
+    return jump - (jump * way) * way;
+  }
+
+
+
+  template <int dim>
   void
-  BoltInRock<dim>::follow(Dowel &dowel, Tensor<1, dim> jump) const
+  BoltInRock<dim>::follow(Dowel &dowel, const Tensor<1, dim> &shear) const
   {
     const BoltProperties &material = chain.material();
-    jump -= dowel.reference;
-    jump -= (jump * way) * way;
-    dowel.force       = material.dowel_stiffness * (jump - dowel.slip);
+    const Tensor<1, dim> before    = dowel.force;
+    dowel.force       = material.dowel_stiffness * (shear - dowel.slip);
     const double size = dowel.force.norm();
     if (size <= material.dowel_strength)
       return;
     dowel.force *= material.dowel_strength / size;
-    const Tensor<1, dim> slip = jump - dowel.force / material.dowel_stiffness;
-    dowel.dissipated += dowel.force * (slip - dowel.slip);
+    const Tensor<1, dim> slip = shear - dowel.force / material.dowel_stiffness;
+    // by the mean of the forces before and behind, as all work of a step
+    dowel.dissipated += 0.5 * (before + dowel.force) * (slip - dowel.slip);
     dowel.slip = slip;
   }
 
@@ -145,15 +155,18 @@ namespace Keyblock
   BoltInRock<dim>::follow_at_joint(const unsigned int k,
                                    const Tensor<1, dim> &jump)
   {
+    Dowel &dowel               = dowels[k];
+    const Tensor<1, dim> shear = shear_of(dowel, jump);
     if (is_whole_at_joint(k))
       {
-        follow(dowels[k], jump);
+        follow(dowel, shear);
         return;
       }
-    // what breaks dissipates what it has stored, what is dug takes it along
-    if (dowels[k].is_there)
-      dowels[k].dissipated += stored_energy_of(dowels[k]);
-    dowels[k].force = Tensor<1, dim>();
+    // what breaks dissipates what it has stored and what the rock does in the
+    // step against half its force, what is dug takes it along
+    if (dowel.is_there)
+      dowel.dissipated += 0.5 * dowel.force * (shear - dowel.slip);
+    dowel.force = Tensor<1, dim>();
   }
 
 

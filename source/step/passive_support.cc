@@ -13,7 +13,8 @@ namespace Keyblock
     const double left = reduction.share_between(blocks[0], blocks[1], joint);
     if (left == 1.)
       return {};
-    // of two blocks that move, that which is held more
+    // of two blocks that move, that which is held more; one that is not itself
+    // tried hangs on the other by the same joint, whose strength is divided
     bool is_any_known = false;
     double most       = 0.;
     Tensor<1, dim> against;
@@ -21,8 +22,7 @@ namespace Keyblock
       {
         const unsigned int block = blocks[side];
         if (block == none || block >= ways.size() ||
-            ways[block].norm_square() == 0. ||
-            reduction.share_between(block, none, joint) == 1.)
+            ways[block].norm_square() == 0.)
           continue;
         is_any_known         = true;
         const double on_side = (side == 0 ? 1. : -1.) * (force * ways[block]);

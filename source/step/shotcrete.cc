@@ -143,13 +143,17 @@ namespace Keyblock
     const double strength  = strength_of(section);
     const Tensor<1, dim> stretch =
       section.trace.in_section(opening - section.rest) - section.slip;
-    section.force       = -stiffness * stretch;
-    const double excess = section.force.norm() - strength;
+    const Tensor<1, dim> before = section.force;
+    section.force               = -stiffness * stretch;
+    const double excess         = section.force.norm() - strength;
     if (excess <= 0.)
       return;
-    section.slip += excess / (stiffness * stretch.norm()) * stretch;
-    section.dissipated += strength * excess / stiffness;
+    const Tensor<1, dim> slipped =
+      excess / (stiffness * stretch.norm()) * stretch;
+    section.slip += slipped;
     section.force *= strength / section.force.norm();
+    // by the mean of the forces before and behind, as all work of a step
+    section.dissipated -= 0.5 * (before + section.force) * slipped;
   }
 
 

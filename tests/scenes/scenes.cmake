@@ -169,6 +169,14 @@ endforeach()
 keyblock_scene(verification/hanging_blocks RANKS 1 2)
 keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_weak
   RANKS 1 SET "Bolts/b/Plate strength=19e3")
+# plates of 60 kN/m in all that yield to both: passive, both have 60/1.8/40
+keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_passive
+  RANKS 1 2 SET "Bolts/b/Spacing=1, 1.8" "Safety factor/Blocks=all"
+  "Safety factor/Bolt convention=passive")
+# plates and grout that slip have their share in the energy, but for round-off
+keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_slip
+  RANKS 1 2 SET "Bolts/b/Plate strength=5e3" "Bolts/b/Bond strength=20e3"
+  "Bolts/b/Free length=0")
 keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_bare
   RANKS 1 SET "Bolts/Names=")
 keyblock_scene(verification/hanging_blocks REFERENCES hanging_blocks_dug

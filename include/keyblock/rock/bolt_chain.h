@@ -183,6 +183,7 @@ namespace Keyblock
       broken,       ///< 1 or 0, of segments
       bond_force,   ///< of the rock on nodes [N]
       axial_force,  ///< of segments [N]
+      followed,     ///< displacement of the rock that was followed last [m]
       n_remembered,
       bond_stiffness = n_remembered, ///< 0: there is no rock [N/m]
       bond_strength,                 ///< [N]
@@ -211,8 +212,12 @@ namespace Keyblock
     void set_segments();
 
     /** Follow if all springs are elastic before and behind, by one solution;
-     * otherwise false, and nothing has changed but forces. */
+     * otherwise false, and nothing has changed. */
     bool follow_elastically(const double *rock);
+
+    /** Half the work of the rock against the present forces of the bolt on its
+     * way from where it was followed last [J]. */
+    double half_work_on_way(const double *rock) const;
 
     /** Set forces to those at the present displacement of springs that neither
      * slip nor yield any further. */

@@ -174,8 +174,12 @@ namespace Keyblock
                            const Tensor<1, dim> &on_first,
                            std::vector<double> &forces) const;
 
-    /** Follow the jump of the rock across a joint [m]. */
-    void follow(Dowel &dowel, Tensor<1, dim> jump) const;
+    /** Of the @p jump of the rock across a joint the part since the bolt was
+     * installed and across it [m]. */
+    Tensor<1, dim> shear_of(const Dowel &dowel, Tensor<1, dim> jump) const;
+
+    /** Follow a shear of the rock [m]. */
+    void follow(Dowel &dowel, const Tensor<1, dim> &shear) const;
 
     double stored_energy_of(const Dowel &dowel) const; ///< of one bolt [J]
 
