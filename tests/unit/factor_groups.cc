@@ -8,16 +8,17 @@ using namespace Keyblock;
 
 namespace
 {
-  /** Factor of a block (index) that moves with a group, or of one alone. */
+  /** Factor 3 of a block (index) that moves with a group, or of one alone. */
   SafetyFactor
   factor_of(const unsigned int block,
             const std::vector<unsigned int> &group = {},
             const double value                     = 0.)
   {
     SafetyFactor factor;
-    factor.block       = block;
-    factor.stage       = "rest";
-    factor.group       = group;
+    factor.block = block;
+    factor.stage = "rest";
+    factor.lower = factor.upper = 3.;
+    factor.group                = group;
     factor.group_lower = factor.group_upper = value;
     factor.trials.resize(1);
     factor.trials[0].is_of_group = !group.empty();
@@ -54,4 +55,16 @@ BOOST_AUTO_TEST_CASE(blocks_have_the_factor_of_their_group)
   factors.back().stage = "later";
   BOOST_TEST(share_last_group(blocks, factors).empty());
   BOOST_TEST(factors[2].value_of_group() == 1.5);
+}
+
+BOOST_AUTO_TEST_CASE(blocks_that_fail_before_their_group_do_not_have_its_factor)
+{
+  Blocks<2> blocks;
+  blocks.blocks.resize(2);
+  for (unsigned int b = 0; b < 2; ++b)
+    blocks.blocks[b].id = b + 1;
+  std::vector<SafetyFactor> factors = {factor_of(0, {1, 2}, 1.8), factor_of(1)};
+  factors[1].lower = factors[1].upper = 1.5;
+  BOOST_TEST(share_last_group(blocks, factors).empty());
+  BOOST_TEST(factors[1].group.empty());
 }
