@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <sstream>
 
 namespace Keyblock
 {
@@ -251,7 +252,10 @@ namespace Keyblock
       return;
     std::ofstream out(file_name,
                       n_appended > 0 ? std::ios::app : std::ios::trunc);
-    write_rows(history, n_appended, out);
+    // at once: a run that is killed meanwhile leaves no half a line
+    std::ostringstream rows;
+    write_rows(history, n_appended, rows);
+    out << rows.str() << std::flush;
     n_appended = history.rows.size();
   }
 
