@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace Keyblock
 {
@@ -136,11 +137,8 @@ namespace Keyblock
         const char *between = "";
         for (const BlockFace<dim> &face : around.faces)
           if (face.is_lost)
-            {
-              last << between << face.area << (dim == 2 ? " m" : " m2")
-                   << " on " << face.name;
-              between = " and ";
-            }
+            last << std::exchange(between, " and ") << face.area
+                 << (dim == 2 ? " m" : " m2") << " on " << face.name;
         last << ", which the mesh has lost";
       }
 
@@ -356,15 +354,17 @@ namespace Keyblock
     remarks.add_loads(time);
     remarks.add_support();
     remarks.add_rotation(motion.rotation, motion.factor_of_sliding);
-    BlockSurroundings<dim> in_mesh = statics.around;
-    auto &faces                    = in_mesh.faces;
-    faces.erase(std::remove_if(faces.begin(),
-                               faces.end(),
-                               [](const auto &face) { return face.is_lost; }),
-                faces.end());
-    if (faces.size() < statics.around.faces.size())
-      remarks.add_lost_faces(
-        find_motion<dim>(in_mesh, statics.support, is_passive));
+    const auto is_lost = [](const auto &face) { return face.is_lost; };
+    const auto &all    = statics.around.faces;
+    if (std::any_of(all.begin(), all.end(), is_lost))
+      {
+        BlockSurroundings<dim> in_mesh = statics.around;
+        auto &faces                    = in_mesh.faces;
+        faces.erase(std::remove_if(faces.begin(), faces.end(), is_lost),
+                    faces.end());
+        remarks.add_lost_faces(
+          find_motion<dim>(in_mesh, statics.support, is_passive));
+      }
     remarks.add_faces();
     remarks.add_neighbors();
     remarks.add_obstacle();
