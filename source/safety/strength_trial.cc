@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// One trial of strength reduction, and how it is decided.
+// One trial of strength reduction: strength changes, the first phase, and how
+// the two phases decide. The second one: trial_watch.cc.
 #include <keyblock/base/stop_request.h>
 #include <keyblock/safety/slow_mode.h>
 #include <keyblock/safety/strength_trial.h>
@@ -13,17 +14,6 @@ namespace Keyblock
 {
   namespace
   {
-    // what counts as rest (method: see doc/theory.md, section 12)
-    constexpr double rest_unbalanced = 1e-5; ///< over the weight [-]
-    constexpr double rest_slip       = 1e-6; ///< per period, over the size [-]
-
-    /** Share of the bracket that a resultant over the weight may have that is
-     * not told from rest [-]. */
-    constexpr double resolution = 0.02;
-
-    /** Slip over the size at which a growing motion is a failure [-]. */
-    constexpr double failure_slip = 1e-3;
-
     /** Length of the change of strength, in periods of the block's lowest mode:
      * shorter ones start slip waves that shake the block loose [-]. */
     constexpr unsigned int ramp_periods = 4;
@@ -42,27 +32,11 @@ namespace Keyblock
      * then goes back to the first one, which damps [-]. */
     constexpr double watch_periods = 20.;
 
-    // acceleration of slip over that of the block [-]
-    constexpr double least_share = 0.3; ///< what the block slips on moves along
-    constexpr double free_share  = 0.8; ///< the block moves by itself
-    constexpr double most_share  = 1.25;
-
-    // loss of acceleration of a block on its way to failure [-]
-    constexpr double steady_alone = 0.1;  ///< of a block that moves by itself
-    constexpr double steady_along = 0.01; ///< of one whose neighbours go along
-
-    /** Slip over the block's compression by its load, before which speeding up
-     * may be no more than strength that is not yet mobilised [-]. */
-    constexpr double mobilising_slip = 0.02;
-
     /** Resultant over the load of a group of blocks that fails at once; a
      * smaller one may be that of rock which still relaxes, and is damped once
      * more before a motion counts as failure. A block by itself fails at the
      * beginning of its motion, though it may be caught further on [-]. */
     constexpr double plain_unbalanced = 0.02;
-
-    /** Windows over which such an acceleration must stay. */
-    constexpr unsigned int n_steady = 6;
 
     /** Times that a block which neither rests nor speeds up is looked at. */
     constexpr unsigned int n_rounds = 5;
@@ -155,6 +129,17 @@ namespace Keyblock
 
 
   template <int dim>
+  double
+  StrengthTrials<dim>::way_between(const Motion &from, const Motion &to)
+  {
+    return std::min(norm<dim>(add<dim>(to.slip, -1., from.slip)),
+                    norm<dim>(
+                      add<dim>(to.displacement, -1., from.displacement)));
+  }
+
+
+
+  template <int dim>
   bool
   StrengthTrials<dim>::settle(const unsigned int block,
                               const double full_damping,
@@ -165,7 +150,8 @@ namespace Keyblock
     const unsigned int period = period_of(block);
     const unsigned int window =
       std::max(1., std::round(scene.safety.window * period));
-    Vector<dim> before   = run.contact->report().mean_slip(block);
+    const Motion begin   = measure(block);
+    Motion before        = begin;
     double least         = std::numeric_limits<double>::max();
     unsigned int n_stuck = 0;
     SlowMode<dim> creep(communicator, run.fields, nodes_of_block[block]);
@@ -186,20 +172,20 @@ namespace Keyblock
                 ? std::min(full_damping, 2. * creep_damping * slowest)
                 : full_damping);
           }
-        const Motion now = measure(block);
-        const double moved =
-          norm<dim>(add<dim>(now.slip, -1., before)) * period / window;
-        trial.unbalanced = now.unbalanced;
-        trial.slip       = norm<dim>(add<dim>(now.slip, -1., first));
-        trial.velocity   = moved / (period * run.step.dt);
+        const Motion now   = measure(block);
+        const double moved = way_between(before, now) * period / window;
+        trial.unbalanced   = now.unbalanced;
+        trial.slip         = norm<dim>(add<dim>(now.slip, -1., first));
+        trial.velocity     = moved / (period * run.step.dt);
         if (now.unbalanced < rest_unbalanced && moved < rest_slip * size)
           return true;
         n_stuck = now.unbalanced < 0.8 * least ? 0 : n_stuck + 1;
         if (n_stuck == 0)
           least = now.unbalanced;
-        if (n_stuck >= patience)
+        if (n_stuck >= patience ||
+            has_passed(block, norm<dim>(add<dim>(now.slip, -1., begin.slip))))
           break;
-        before = now.slip;
+        before = now;
       }
     return is_as_good_as_at_rest(trial);
   }
@@ -211,90 +197,6 @@ namespace Keyblock
   StrengthTrials<dim>::is_as_good_as_at_rest(const Trial &trial) const
   {
     return trial.unbalanced < resolution * scene.safety.bracket;
-  }
-
-
-
-  template <int dim>
-  typename StrengthTrials<dim>::Verdict
-  StrengthTrials<dim>::watch(const unsigned int block,
-                             const double periods,
-                             const Vector<dim> &first,
-                             Trial &trial)
-  {
-    const double size = blocks.blocks[block].size;
-    const unsigned int window =
-      std::max(1.,
-               std::ceil(scene.safety.window *
-                         (scene.safety.true_masses
-                            ? 4. * size / (wave_speed(block) * run.step.dt)
-                            : period_of(block))));
-    const double seconds = window * run.step.dt;
-    const unsigned int n_windows =
-      std::max(n_steady + 1.,
-               std::min(periods, scene.safety.maximum_periods) /
-                 scene.safety.window);
-    const Vector<dim> at_rest = run.contact->report().mean_slip(block);
-    const double mass         = mass_in_use(block);
-    displacement_before       = run.fields.displacement;
-    joint_force.assign(scene.joints.size() + 1, 0.);
-    Vector<dim> before = at_rest;
-    std::vector<double> velocity(1, 0.);
-    std::vector<Vector<dim>> block_velocity(1);
-    for (unsigned int w = 1; w <= n_windows; ++w)
-      {
-        stop_if_asked(communicator);
-        for (unsigned int step = 0; step < window; ++step)
-          run.step.advance(false);
-        trial.n_steps += window;
-        const Motion now = measure(block);
-        const auto sums  = run.contact->report().sum_over_block(block);
-        for (unsigned int j = 0; j < sums.size(); ++j)
-          joint_force[j] += sums[j].normal;
-        const Vector<dim> way   = add<dim>(now.slip, -1., at_rest);
-        const Vector<dim> moved = add<dim>(now.slip, -1., before);
-        const double slip       = norm<dim>(way);
-        trial.slip              = norm<dim>(add<dim>(now.slip, -1., first));
-        trial.unbalanced        = now.unbalanced;
-        // of the slip along the way so far
-        velocity.push_back(slip > 0. ? dot<dim>(moved, way) / (slip * seconds)
-                                     : 0.);
-        block_velocity.push_back(now.velocity);
-        trial.velocity     = velocity[w];
-        trial.acceleration = (velocity[w] - velocity[w - 1]) / seconds;
-        before             = now.slip;
-        if (now.unbalanced < rest_unbalanced &&
-            norm<dim>(moved) < rest_slip * size)
-          return Verdict::holds;
-        const bool grows = w >= 3 && velocity[w] > velocity[w - 1] &&
-                           velocity[w - 1] > velocity[w - 2] &&
-                           velocity[w - 2] > 0.;
-        if (grows && slip > failure_slip * size)
-          return Verdict::fails;
-        if (w > n_steady)
-          {
-            // forces that stay and move the block as they would a free body;
-            // one whose neighbours go along may be held by their stiffness
-            // later
-            const double span = n_steady * seconds;
-            const double early =
-              velocity[w - n_steady / 2] - velocity[w - n_steady];
-            const double late = velocity[w] - velocity[w - n_steady / 2];
-            const double own  = norm<dim>(
-              add<dim>(now.velocity, -1., block_velocity[w - n_steady]));
-            const double share = own > 0. ? (early + late) / own : 0.;
-            const double loss =
-              share > free_share ? steady_alone : steady_along;
-            if (slip > mobilising_slip * compression(block, now.load) &&
-                velocity[w - n_steady] >= 0. && early > 0. &&
-                late > (1. - loss) * early && share > least_share &&
-                share < most_share &&
-                mass * own / span >
-                  resolution * scene.safety.bracket * now.load)
-              return Verdict::fails;
-          }
-      }
-    return Verdict::open;
   }
 
 

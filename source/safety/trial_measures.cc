@@ -19,7 +19,8 @@ namespace Keyblock
     /** Share of its load that what holds a block bears at least [-]. */
     constexpr double holding_share = 0.1;
 
-    /** Way over the size of a block from which on it has left its place [-]. */
+    /** Way over the size of a block from which on it, or what it touches, has
+     * left its place [-]. */
     constexpr double far_off = 0.05;
   } // namespace
 
@@ -29,9 +30,9 @@ namespace Keyblock
   typename StrengthTrials<dim>::Motion
   StrengthTrials<dim>::measure(const unsigned int block) const
   {
-    // resultant of everything but damping and supports, loads, and size of
-    // contact forces
-    std::vector<double> sums(3 * dim + 2, 0.);
+    // resultant of everything but damping and supports, loads, size of contact
+    // forces, mass, momentum, and mass times displacement
+    std::vector<double> sums(4 * dim + 2, 0.);
     const Fields<dim> &fields = run.fields;
     for (const unsigned int node : nodes_of_block[block])
       {
@@ -42,10 +43,10 @@ namespace Keyblock
                                     [](double, const auto &) {});
         for (unsigned int d = 0; d < dim; ++d)
           {
-            sums[2 * dim + 2 + d] +=
-              fields.mass[node] * fields.velocity[dim * node + d];
-            sums[2 * dim + 1] += fields.mass[node] / dim;
             const unsigned int i = dim * node + d;
+            sums[2 * dim + 1] += fields.mass[node] / dim;
+            sums[2 * dim + 2 + d] += fields.mass[node] * fields.velocity[i];
+            sums[3 * dim + 2 + d] += fields.mass[node] * fields.displacement[i];
             if (fields.inverse_mass[node] > 0.)
               sums[d] += force[d];
             sums[dim + d] += fields.load[i];
@@ -65,7 +66,10 @@ namespace Keyblock
     motion.unbalanced =
       motion.load > 0. ? std::sqrt(resultant) / motion.load : 0.;
     for (unsigned int d = 0; d < dim; ++d)
-      motion.velocity[d] = sums[2 * dim + 2 + d] / sums[2 * dim + 1];
+      {
+        motion.velocity[d]     = sums[2 * dim + 2 + d] / sums[2 * dim + 1];
+        motion.displacement[d] = sums[3 * dim + 2 + d] / sums[2 * dim + 1];
+      }
     return motion;
   }
 
@@ -77,6 +81,16 @@ namespace Keyblock
   {
     const double way = run.contact->motions().measure()[block].way();
     return way > far_off * blocks.blocks[block].size ? way : 0.;
+  }
+
+
+
+  template <int dim>
+  bool
+  StrengthTrials<dim>::has_passed(const unsigned int block,
+                                  const double slip) const
+  {
+    return slip > far_off * blocks.blocks[block].size;
   }
 
 

@@ -216,6 +216,10 @@ keyblock_scene(verification/factor_incline REFERENCES factor_incline_two_blocks
   "Excavations/slot/Corner=-0.05, 0" "Excavations/slot/Size=0.1, 0.1")
 # two blocks that lean on each other, and the factor of both
 keyblock_scene(verification/factor_group RANKS 1 2)
+# a block at rest under one that slides off
+keyblock_scene(verification/passed_block RANKS 1 2)
+keyblock_scene(verification/passed_block REFERENCES passed_block_soft RANKS 1
+  SET "Materials/rock/Young modulus=1e8")
 keyblock_scene(verification/row RANKS 1)
 keyblock_scene(verification/row_3d RANKS 1)
 keyblock_scene(verification/row_3d REFERENCES row_3d_leans RANKS 1

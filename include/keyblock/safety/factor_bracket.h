@@ -36,7 +36,7 @@ namespace Keyblock
     {}
 
     /** Try @p factor; with warm starts the next trial goes on from the highest
-     * factor that held. */
+     * factor that held with all neighbours still in place. */
     bool
     holds_at(const double factor)
     {
@@ -52,7 +52,8 @@ namespace Keyblock
       trials.push_back(trial);
       if (trial.is_stable)
         {
-          if (owner.scene.safety.warm_start && factor > stable)
+          if (owner.scene.safety.warm_start && factor > stable &&
+              !owner.trials.has_passed(block, trial.slip))
             {
               warm = std::make_unique<Snapshot<dim>>(take_snapshot(owner.run));
               warm_start = factor;

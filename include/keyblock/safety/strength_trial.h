@@ -91,6 +91,11 @@ namespace Keyblock
      * [m]; 0: by less than a twentieth of its size (collective). */
     double way_from_place(const unsigned int block) const;
 
+    /** Whether @p block and what it touches are no more where they were, by a
+     * mean slip of @p slip [m] on its contacts: if the block did not move, a
+     * neighbour has. */
+    bool has_passed(const unsigned int block, const double slip) const;
+
     /** What holds @p block against @p way (unit vector; zero: its load) now, in
      * words: every kind of support that bears a tenth of its load, and, if that
      * is left a tenth, clamping, or what it lies on if it has left its place
@@ -106,16 +111,30 @@ namespace Keyblock
     }
 
   private:
+    // what counts as rest (method: see doc/theory.md, section 12)
+    static constexpr double rest_unbalanced = 1e-5; ///< over the weight [-]
+    static constexpr double rest_slip = 1e-6; ///< per period, over the size [-]
+
+    /** Share of the bracket that a resultant over the weight may have that is
+     * not told from rest [-]. */
+    static constexpr double resolution = 0.02;
+
     struct Motion
     {
-      Vector<dim> slip;
-      Vector<dim> velocity{}; ///< of the block's masses, mean [m/s]
-      double unbalanced = 0.; ///< everything but damping over the loads [-]
-      double load       = 0.; ///< these [N]
+      Vector<dim> slip;           ///< mean over its contacts [m]
+      Vector<dim> displacement{}; ///< of its masses, mean [m]
+      Vector<dim> velocity{};     ///< of its masses, mean [m/s]
+      double unbalanced = 0.;     ///< everything but damping over the loads [-]
+      double load       = 0.;     ///< these [N]
     };
 
-    /** Mean slip of the block, and the forces on it. */
+    /** Mean slip and displacement of the block, and the forces on it. */
     Motion measure(const unsigned int block) const;
+
+    /** How far a block has moved against what it touches between two states:
+     * the slip on its contacts, but no more than its own displacement, since a
+     * neighbour that slides past a block at rest slips on it, too [m]. */
+    static double way_between(const Motion &from, const Motion &to);
 
     enum class Verdict
     {

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The second phase of a trial of strength reduction: does the block speed up?
+#include <keyblock/base/stop_request.h>
+#include <keyblock/safety/strength_trial.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Way over the size at which a growing motion is a failure [-]. */
+    constexpr double failure_slip = 1e-3;
+
+    // acceleration of slip over that of the block [-]
+    constexpr double least_share = 0.3; ///< what the block slips on moves along
+    constexpr double free_share  = 0.8; ///< the block moves by itself
+    constexpr double most_share  = 1.25; ///< a neighbour slides past it
+
+    // loss of acceleration of a block on its way to failure [-]
+    constexpr double steady_alone = 0.1;  ///< of a block that moves by itself
+    constexpr double steady_along = 0.01; ///< of one whose neighbours go along
+
+    /** Slip over the block's compression by its load, before which speeding up
+     * may be no more than strength that is not yet mobilised [-]. */
+    constexpr double mobilising_slip = 0.02;
+
+    /** Windows over which such an acceleration must stay. */
+    constexpr unsigned int n_steady = 6;
+
+    /** What a block and its slip have gained in speed over the last windows. */
+    struct SpeedGain
+    {
+      double of_block; ///< size of the gain of its masses' velocity [m/s]
+      bool is_passed;  ///< its neighbours slide past it: its slip tells nothing
+      bool is_steady;  ///< it speeds up as a free body would
+    };
+
+    /** Of the last n_steady windows, from the speed of slip [m/s] and the
+     * velocity of the block [m/s] at the ends of all of them. */
+    template <int dim>
+    SpeedGain
+    last_gain(const std::vector<double> &slip,
+              const std::vector<Vector<dim>> &block)
+    {
+      const unsigned int end    = slip.size() - 1;
+      const unsigned int middle = end - n_steady / 2;
+      const unsigned int begin  = end - n_steady;
+      const Vector<dim> gained  = add<dim>(block[end], -1., block[begin]);
+      SpeedGain gain;
+      gain.of_block = norm<dim>(gained);
+      const double share =
+        gain.of_block > 0. ? (slip[end] - slip[begin]) / gain.of_block : 0.;
+      gain.is_passed            = share > most_share;
+      const auto gained_between = [&](const unsigned int from,
+                                      const unsigned int to) {
+        return gain.is_passed
+                 ? dot<dim>(add<dim>(block[to], -1., block[from]), gained) /
+                     gain.of_block
+                 : slip[to] - slip[from];
+      };
+      const double early = gained_between(begin, middle);
+      const double loss  = share > free_share ? steady_alone : steady_along;
+      gain.is_steady     = share > least_share && early > 0. &&
+                       gained_between(middle, end) > (1. - loss) * early;
+      return gain;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  typename StrengthTrials<dim>::Verdict
+  StrengthTrials<dim>::watch(const unsigned int block,
+                             const double periods,
+                             const Vector<dim> &first,
+                             Trial &trial)
+  {
+    const double size = blocks.blocks[block].size;
+    const unsigned int window =
+      std::max(1.,
+               std::ceil(scene.safety.window *
+                         (scene.safety.true_masses
+                            ? 4. * size / (wave_speed(block) * run.step.dt)
+                            : period_of(block))));
+    const double seconds = window * run.step.dt;
+    const unsigned int n_windows =
+      std::max(n_steady + 1.,
+               std::min(periods, scene.safety.maximum_periods) /
+                 scene.safety.window);
+    const Motion at_rest = measure(block);
+    const double mass    = mass_in_use(block);
+    displacement_before  = run.fields.displacement;
+    joint_force.assign(scene.joints.size() + 1, 0.);
+    Motion before = at_rest;
+    std::vector<double> velocity(1, 0.);
+    std::vector<Vector<dim>> block_velocity(1);
+    for (unsigned int w = 1; w <= n_windows; ++w)
+      {
+        stop_if_asked(communicator);
+        for (unsigned int step = 0; step < window; ++step)
+          run.step.advance(false);
+        trial.n_steps += window;
+        const Motion now = measure(block);
+        const auto sums  = run.contact->report().sum_over_block(block);
+        for (unsigned int j = 0; j < sums.size(); ++j)
+          joint_force[j] += sums[j].normal;
+        const Vector<dim> way   = add<dim>(now.slip, -1., at_rest.slip);
+        const Vector<dim> moved = add<dim>(now.slip, -1., before.slip);
+        const double slip       = norm<dim>(way);
+        trial.slip              = norm<dim>(add<dim>(now.slip, -1., first));
+        trial.unbalanced        = now.unbalanced;
+        // of the slip along the way so far
+        velocity.push_back(slip > 0. ? dot<dim>(moved, way) / (slip * seconds)
+                                     : 0.);
+        block_velocity.push_back(now.velocity);
+        trial.velocity     = velocity[w];
+        trial.acceleration = (velocity[w] - velocity[w - 1]) / seconds;
+        const bool rests   = now.unbalanced < rest_unbalanced &&
+                           way_between(before, now) < rest_slip * size;
+        before = now;
+        if (rests)
+          return Verdict::holds;
+        const bool grows = w >= 3 && velocity[w] > velocity[w - 1] &&
+                           velocity[w - 1] > velocity[w - 2] &&
+                           velocity[w - 2] > 0.;
+        const double own_way =
+          norm<dim>(add<dim>(now.displacement, -1., at_rest.displacement));
+        const double squeezed = compression(block, now.load);
+        const bool has_moved =
+          slip > failure_slip * size &&
+          own_way > std::max(failure_slip * size, squeezed);
+        if (grows && has_moved)
+          return Verdict::fails;
+        if (w > n_steady)
+          {
+            // forces that stay and move the block as they would a free body;
+            // one whose neighbours go along may be held by their stiffness
+            // later
+            const SpeedGain gain = last_gain<dim>(velocity, block_velocity);
+            const bool is_driven = mass * gain.of_block / (n_steady * seconds) >
+                                   resolution * scene.safety.bracket * now.load;
+            if (slip > mobilising_slip * squeezed &&
+                (!gain.is_passed || own_way > squeezed) &&
+                velocity[w - n_steady] >= 0. && gain.is_steady && is_driven)
+              return Verdict::fails;
+            if (!has_moved && !is_driven && has_passed(block, slip))
+              return Verdict::holds;
+          }
+      }
+    return Verdict::open;
+  }
+
+
+
+  template StrengthTrials<2>::Verdict
+  StrengthTrials<2>::watch(const unsigned int,
+                           const double,
+                           const Vector<2> &,
+                           Trial &);
+  template StrengthTrials<3>::Verdict
+  StrengthTrials<3>::watch(const unsigned int,
+                           const double,
+                           const Vector<3> &,
+                           Trial &);
+} // namespace Keyblock
