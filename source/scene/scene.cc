@@ -13,6 +13,7 @@
 #include <keyblock/scene/joint_table.h>
 #include <keyblock/scene/joints.h>
 #include <keyblock/scene/shape_files.h>
+#include <keyblock/scene/stage_defaults.h>
 #include <keyblock/scene/study_entries.h>
 #include <keyblock/scene/text.h>
 #include <keyblock/scene/unit_warnings.h>
@@ -275,6 +276,7 @@ namespace Keyblock
     note_joints(*prm, joints);
     for (const auto &stage : stages)
       stage->complete();
+    damp_beside_rigid_bodies(*this);
     read_histories();
     cross_check();
   }

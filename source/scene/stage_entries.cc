@@ -159,13 +159,15 @@ namespace Keyblock
       "Ratio of the unbalanced force to the driving force below which the "
       "stage ends [-]; 0: it does not end by it, in quasi-static stages 1e-5.",
       not_negative);
-    prm.add_parameter("Damping ratio",
-                      damping_ratio,
-                      "Stiffness-proportional damping: fraction of critical at "
-                      "each cell's highest frequency [-]. Without mass and "
-                      "local damping it damps also the deformation of finite "
-                      "blocks that slide, critically from 0.3 on.",
-                      Double(0., 10.));
+    prm.add_parameter(
+      "Damping ratio",
+      damping_ratio,
+      "Stiffness-proportional damping: fraction of critical at "
+      "each cell's highest frequency [-]; quasi-static stages "
+      "beside rigid bodies take 0.02 at least. Without mass and "
+      "local damping it damps also the deformation of finite "
+      "blocks that slide, critically from 0.3 on.",
+      Double(0., 10.));
     prm.add_parameter("Mass damping",
                       mass_damping,
                       "Mass-proportional damping [1/s].",

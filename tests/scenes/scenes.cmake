@@ -221,6 +221,7 @@ keyblock_scene(verification/passed_block RANKS 1 2)
 keyblock_scene(verification/passed_block REFERENCES passed_block_soft RANKS 1
   SET "Materials/rock/Young modulus=1e8")
 keyblock_scene(verification/row RANKS 1)
+keyblock_scene(verification/oblique_slide RANKS 1)
 keyblock_scene(verification/row_3d RANKS 1)
 keyblock_scene(verification/row_3d REFERENCES row_3d_leans RANKS 1
   SET "Joints/upper/Friction angle=10" "Joints/lower/Friction angle=30"

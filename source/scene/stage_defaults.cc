@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/scene/stage_defaults.h>
+
+#include <algorithm>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Least damping ratio beside rigid bodies [-]. */
+    constexpr double least_ratio = 0.02;
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  damp_beside_rigid_bodies(Scene<dim> &scene)
+  {
+    if (std::none_of(scene.materials.begin(),
+                     scene.materials.end(),
+                     [](const auto &material) { return material->is_rigid(); }))
+      return;
+    for (const auto &stage : scene.stages)
+      if (stage->is_quasi_static() && stage->local_damping > 0.)
+        stage->damping_ratio = std::max(stage->damping_ratio, least_ratio);
+  }
+
+
+
+  template void damp_beside_rigid_bodies<2>(Scene<2> &);
+  template void damp_beside_rigid_bodies<3>(Scene<3> &);
+} // namespace Keyblock
