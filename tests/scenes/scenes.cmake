@@ -1,24 +1,25 @@
-keyblock_scene(tutorial/sliding_block SLOW_RANKS 4)
+keyblock_scene(tutorial/sliding_block)
 keyblock_scene(tutorial/joint_network)
-keyblock_scene(tutorial/roof_wedge RANKS 1 REFERENCES tutorial_roof_wedge)
+# as the manual's page has it
+keyblock_scene(tutorial/roof_wedge RANKS 1 SLOW REFERENCES tutorial_roof_wedge)
 keyblock_scene(tutorial/first_tunnel RANKS 1 SLOW
   SET "Safety factor/Blocks=critical" "Safety factor/Stages=heading"
   "Safety factor/Bracket=0.02")
 keyblock_scene(verification/resting)
-keyblock_scene(verification/incline_25 SLOW_RANKS 4)
+keyblock_scene(verification/incline_25)
 keyblock_scene(verification/incline_30)
-keyblock_scene(verification/incline_35 SLOW_RANKS 4)
+keyblock_scene(verification/incline_35)
 # one cell of the block, at the top, is quartered and does not set the step
 keyblock_scene(verification/incline_30 REFERENCES incline_30_scaled RANKS 1 2
   SET "Mesh/Refinement levels=(x > 0.325)*(x < 0.36)*(y > 0)*(y < 0.04)"
   "Time stepping/Least step=1.3e-4")
-keyblock_scene(verification/incline_3d)
+keyblock_scene(verification/incline_3d RANKS 1 2 4)
 keyblock_scene(verification/bar_impact)
 keyblock_scene(verification/oblique_impact)
 keyblock_scene(verification/oblique_impact_stick)
-keyblock_scene(verification/newmark SLOW_RANKS 4)
-keyblock_scene(verification/newmark_rectangular SLOW_RANKS 4)
-keyblock_scene(verification/shaken_incline SLOW_RANKS 4)
+keyblock_scene(verification/newmark)
+keyblock_scene(verification/newmark_rectangular)
+keyblock_scene(verification/shaken_incline)
 keyblock_scene(verification/shaken_incline REFERENCES shaken_incline_8 RANKS 1
   SET "Domain/Corner=-1, -0.0625" "Domain/Size=3, 0.5625" "Mesh/Cells=48, 9")
 keyblock_scene(verification/shaken_incline REFERENCES shaken_incline_damped
@@ -28,16 +29,13 @@ foreach(case e1 e2a e2b e3a e3b e3c e3d sets_2d lines tunnel_15 tunnel_20
     tunnel_25 tunnel_30 cube_3 cube_4 sets_3d planes_4 planes_5 planes_6)
   keyblock_scene(verification/blocks_${case})
 endforeach()
-keyblock_scene(verification/rotation SLOW_RANKS 4)
+keyblock_scene(verification/rotation)
 foreach(case slides_and_topples topples_rough topples_steep
-    slides_and_topples_steep)
+    slides_and_topples_steep stays_friction slides_friction stays_slender
+    topples_slender slides_slender)
   keyblock_scene(verification/toppling_${case})
 endforeach()
-foreach(case stays_friction slides_friction stays_slender topples_slender
-    slides_slender)
-  keyblock_scene(verification/toppling_${case} SLOW_RANKS 4)
-endforeach()
-keyblock_scene(verification/crossing)
+keyblock_scene(verification/crossing RANKS 1 2 4)
 keyblock_scene(verification/pile)
 # cells at rest: left out or not, with a tolerance, in large displacements; the
 # values of "regression" are those without skips
@@ -108,7 +106,7 @@ keyblock_scene(verification/bond_break_fast)
 keyblock_scene(verification/gravity_column)
 keyblock_scene(verification/kirsch)
 keyblock_scene(verification/kirsch_refined)
-keyblock_scene(verification/kirsch_far_field)
+keyblock_scene(verification/kirsch_far_field RANKS 1 2 4)
 keyblock_scene(verification/salencon RANKS 1 2)
 keyblock_scene(verification/salencon_associated RANKS 2)
 keyblock_scene(verification/footing RANKS 2)
@@ -133,7 +131,7 @@ keyblock_scene(verification/slope_crack REFERENCES slope_crack_filled RANKS 1
   "Joints/plane/Water pressure=9810*14.01*max(0, min(1, x/65.680527))"
   "Stages/rest/Seismic coefficient=-0.08, 0")
 keyblock_scene(verification/material_change)
-keyblock_scene(verification/geostress)
+keyblock_scene(verification/geostress RANKS 1 2 4)
 keyblock_scene(verification/order_at_once RANKS 1 2)
 keyblock_scene(verification/order_left_first)
 keyblock_scene(verification/order_stepped)
