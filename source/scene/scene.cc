@@ -265,8 +265,9 @@ namespace Keyblock
     check_domain(*this);
     read_shape_files(communicator, *this);
     joints = make_joints(*this, read_names(names, "Joints"), text);
-    for (const auto &warnings :
-         {warnings_of_table(*this), warnings_of_drawings(*this)})
+    for (const auto &warnings : {warnings_of_table(*this),
+                                 warnings_of_drawings(*this),
+                                 warnings_of_nested_solids(*this)})
       old_names.insert(old_names.end(), warnings.begin(), warnings.end());
     make_facets(communicator, *this);
     for (const auto &variable : study_variables)

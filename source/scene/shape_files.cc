@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 namespace Keyblock
@@ -215,6 +216,35 @@ namespace Keyblock
         ShapeFileReader<dim>(communicator, scene, *excavation).read();
   }
 
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_nested_solids(const Scene<dim> &scene)
+  {
+    std::vector<std::string> found;
+    for (const auto &excavation : scene.excavations)
+      for (const auto &inner : excavation->solids)
+        for (const auto &outer : excavation->solids)
+          if (inner != outer && std::all_of(inner->surface.vertices.begin(),
+                                            inner->surface.vertices.end(),
+                                            [&](const Point<3> &p) {
+                                              return outer->depth_inside(p) >
+                                                     0.;
+                                            }))
+            {
+              std::ostringstream place;
+              place << inner->surface.vertices.front();
+              found.push_back(
+                "The file of 'Excavations/" + excavation->name +
+                "/File' has a closed surface at (" + place.str() +
+                ") m inside another: rock within it would float, and is "
+                "excavated, too; draw rock that stays, such as a pillar, as "
+                "part of the outer surface.");
+            }
+    return found;
+  }
+
+  template std::vector<std::string> warnings_of_nested_solids(const Scene<2> &);
+  template std::vector<std::string> warnings_of_nested_solids(const Scene<3> &);
   template void read_shape_files(const Communicator &, Scene<2> &);
   template void read_shape_files(const Communicator &, Scene<3> &);
 } // namespace Keyblock

@@ -14,6 +14,7 @@
 #include <keyblock/scene/dxf.h>
 #include <keyblock/scene/plane_faces.h>
 #include <keyblock/scene/plane_facets.h>
+#include <keyblock/scene/shape_files.h>
 #include <keyblock/scene/solid_file.h>
 
 #include <algorithm>
@@ -400,6 +401,35 @@ BOOST_AUTO_TEST_CASE(cylinder_from_step)
       BOOST_TEST(lost.back() < 1. - std::sin(angle) / angle);
     }
   BOOST_TEST(lost[1] < lost[0] / 3.);
+}
+
+
+
+// a closed surface inside another is told of, one beside it is none
+BOOST_AUTO_TEST_CASE(nested_solids_are_named)
+{
+  for (const double shift : {0.5, 5.})
+    {
+      auto triangles         = make_angle();
+      const unsigned int one = triangles.size();
+      for (unsigned int t = 0; t < one; ++t)
+        {
+          auto small = triangles[t];
+          for (Point<3> &p : small)
+            p = Point<3>(0.2 * p + shift * Point<3>(1., 0.8, 0.8));
+          triangles.push_back(small);
+        }
+      const std::string name = own("nested.stl");
+      if (world.is_root())
+        std::ofstream(name) << ascii_stl(triangles);
+      const auto scene =
+        read_scene(scene_of_cylinder, {"Excavations/tunnel/File=" + name});
+      BOOST_TEST(scene->excavations[0]->solids.size() == 2u);
+      const auto sentences = warnings_of_nested_solids(*scene);
+      BOOST_TEST(sentences.size() == (shift < 1. ? 1u : 0u));
+      for (const std::string &sentence : sentences)
+        BOOST_TEST(sentence.find("inside another") != std::string::npos);
+    }
 }
 
 

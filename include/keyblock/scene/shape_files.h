@@ -4,6 +4,9 @@
 
 #include <keyblock/scene/scene.h>
 
+#include <string>
+#include <vector>
+
 namespace Keyblock
 {
   /**
@@ -14,6 +17,11 @@ namespace Keyblock
    */
   template <int dim>
   void read_shape_files(const Communicator &communicator, Scene<dim> &scene);
+
+  /** Closed surfaces inside others of the same excavation, one sentence each:
+   * rock within them would float, and is excavated, too. */
+  template <int dim>
+  std::vector<std::string> warnings_of_nested_solids(const Scene<dim> &scene);
 } // namespace Keyblock
 
 #endif
