@@ -6,6 +6,7 @@
 #include <keyblock/blocks/excavation_parts.h>
 #include <keyblock/blocks/liner_layout.h>
 #include <keyblock/blocks/section_outline.h>
+#include <keyblock/scene/gravity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,16 +49,16 @@ namespace Keyblock
         pieces.push_back({points[0], points[1], inward / inward.norm(), {}});
     }
 
-    /** Across the outline and up in its plane, that of @p axis: unit vectors.
-     * Around a shaft the direction of y is up. */
+    /** Across the outline and up in its plane, that of @p axis: unit vectors,
+     * as upward() is @p upward. Around a shaft the direction of y is up. */
     template <int dim>
     std::array<Tensor<1, dim>, 2>
-    across_and_up(const Tensor<1, dim> &axis)
+    across_and_up(const Tensor<1, dim> &axis, const Tensor<1, dim> &upward)
     {
-      Tensor<1, dim> across, up;
-      up[dim - 1] = 1.;
-      across[0]   = 1.;
-      if constexpr (dim == 3)
+      Tensor<1, dim> across, up = upward;
+      if constexpr (dim == 2)
+        across = cross_product_2d(up);
+      else
         {
           up -= (up * axis) * axis;
           if (up.norm() < 0.1)
@@ -76,9 +77,11 @@ namespace Keyblock
      * sides: distance along it [m]. */
     template <int dim>
     double
-    place_of_crown(const Outline<dim> &row, const Tensor<1, dim> &axis)
+    place_of_crown(const Outline<dim> &row,
+                   const Tensor<1, dim> &axis,
+                   const Tensor<1, dim> &upward)
     {
-      const auto [across, up] = across_and_up<dim>(axis);
+      const auto [across, up] = across_and_up<dim>(axis, upward);
       double left             = std::numeric_limits<double>::max(),
              right            = std::numeric_limits<double>::lowest();
       for (const OutlinePiece<dim> &piece : row)
@@ -119,7 +122,8 @@ namespace Keyblock
     std::vector<double>
     places_along(const Outline<dim> &row,
                  const double spacing,
-                 const Tensor<1, dim> &axis)
+                 const Tensor<1, dim> &axis,
+                 const Tensor<1, dim> &upward)
     {
       const double length  = length_of(row);
       const bool is_around = is_closed(row);
@@ -130,7 +134,7 @@ namespace Keyblock
                    : std::floor(length / spacing + 1e-9)));
       const unsigned int n  = places.size();
       const double distance = is_around ? length / n : spacing,
-                   first    = is_around ? place_of_crown<dim>(row, axis)
+                   first    = is_around ? place_of_crown<dim>(row, axis, upward)
                                         : 0.5 * (length - (n - 1) * spacing);
       for (unsigned int k = 0; k < n; ++k)
         {
@@ -170,7 +174,8 @@ namespace Keyblock
     Tensor<1, dim>
     axis_of(const BoltSet<dim> &set,
             const Mesh<dim> &mesh,
-            const std::vector<CellFace> &faces)
+            const std::vector<CellFace> &faces,
+            const Tensor<1, dim> &up)
     {
       if (set.axis.norm() > 0.)
         return set.axis / set.axis.norm();
@@ -183,9 +188,13 @@ namespace Keyblock
             low[d]         = std::min(low[d], x);
             high[d]        = std::max(high[d], x);
           }
-      unsigned int longest = 0;
-      for (unsigned int d = 0; d + 1 < dim; ++d) // not upwards
-        if (high[d] - low[d] > high[longest] - low[longest])
+      unsigned int upright = dim - 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (std::abs(up[d]) > std::abs(up[upright]))
+          upright = d;
+      unsigned int longest = (upright + 1) % dim;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (d != upright && high[d] - low[d] > high[longest] - low[longest])
           longest = d;
       Tensor<1, dim> axis;
       axis[longest] = 1.;
@@ -255,14 +264,15 @@ namespace Keyblock
     if (!faces.empty())
       {
         const Mesh<dim> &mesh     = ground.split.mesh;
-        const Tensor<1, dim> axis = axis_of(set, mesh, faces);
+        const Tensor<1, dim> up   = upward(ground.scene);
+        const Tensor<1, dim> axis = axis_of(set, mesh, faces, up);
         for (const Outline<dim> &ring : list_rings(set, mesh, faces, axis))
           for (const Outline<dim> &row : select_from_rows(
                  put_in_rows(ring, axis), [&](const OutlinePiece<dim> &piece) {
-                   return is_of_parts<dim>(piece.inward, set.parts);
+                   return is_of_parts<dim>(piece.inward, up, set.parts);
                  }))
             for (const double place :
-                 places_along<dim>(row, set.spacing[0], axis))
+                 places_along<dim>(row, set.spacing[0], axis, up))
               pattern.push_back(
                 bolt_at(place_on(row, place), set, index, axis));
       }

@@ -148,12 +148,13 @@ namespace Keyblock
 
 
   template <int dim>
+  template <typename IsWanted>
   std::optional<typename FreeFaces<dim>::Meeting>
-  FreeFaces<dim>::first_ahead(const Point<dim> &from,
-                              const Tensor<1, dim> &direction,
-                              const double behind,
-                              const double reach,
-                              const unsigned int own) const
+  FreeFaces<dim>::first_hit(const Point<dim> &from,
+                            const Tensor<1, dim> &direction,
+                            const double behind,
+                            const double reach,
+                            const IsWanted &is_wanted) const
   {
     std::optional<Meeting> first;
     std::vector<Entry> near;
@@ -164,13 +165,92 @@ namespace Keyblock
     for (const Entry &entry : near)
       {
         const CellFace &face = faces[entry.second];
-        if (split.block_of_cell[face.cell] == own ||
+        if (!is_wanted(face) ||
             split.mesh.face_area_vector(face.cell, face.face) * direction >= 0.)
           continue;
         const auto way = cut(from, direction, corners(split.mesh, face));
         if (way && *way >= -behind && *way <= reach &&
             (!first || *way < first->distance))
           first = Meeting{*way, face};
+      }
+    return first;
+  }
+
+
+
+  template <int dim>
+  std::optional<typename FreeFaces<dim>::Meeting>
+  FreeFaces<dim>::first_ahead(const Point<dim> &from,
+                              const Tensor<1, dim> &direction,
+                              const double behind,
+                              const double reach,
+                              const unsigned int own) const
+  {
+    return first_hit(from, direction, behind, reach, [&](const CellFace &face) {
+      return split.block_of_cell[face.cell] != own;
+    });
+  }
+
+
+
+  template <int dim>
+  std::vector<Point<dim>>
+  FreeFaces<dim>::probes_of(const CellFace &face) const
+  {
+    constexpr double drawn_in    = 0.01;
+    const Point<dim> center      = split.mesh.face_center(face.cell, face.face);
+    std::vector<Point<dim>> list = {center};
+    for (const Point<dim> &corner : corners(split.mesh, face))
+      list.push_back(corner + drawn_in * (center - corner));
+    return list;
+  }
+
+
+
+  template <int dim>
+  std::optional<typename FreeFaces<dim>::Meeting>
+  FreeFaces<dim>::first_met(const unsigned int block,
+                            const Tensor<1, dim> &direction,
+                            const double reach) const
+  {
+    std::optional<Meeting> first;
+    const auto keep_nearer = [&](const std::optional<Meeting> &meeting) {
+      if (meeting && (!first || meeting->distance < first->distance))
+        first = meeting;
+    };
+    const auto left = [&]() { return first ? first->distance : reach; };
+    // the way of the block's faces
+    std::vector<Point<dim>> swept;
+    for (const unsigned int i : of_block(block))
+      {
+        const Tensor<1, dim> area =
+          split.mesh.face_area_vector(faces[i].cell, faces[i].face);
+        if (area * direction <= 1e-6 * area.norm())
+          continue;
+        for (const Point<dim> &probe : probes_of(faces[i]))
+          {
+            keep_nearer(first_ahead(probe, direction, 0., left(), block));
+            swept.insert(swept.end(), {probe, probe + reach * direction});
+          }
+      }
+    if (swept.empty())
+      return first;
+    // corners ahead, on the way back
+    std::vector<Entry> ahead;
+    tree.query(boost::geometry::index::intersects(
+                 dealii::BoundingBox<dim>(swept)),
+               std::back_inserter(ahead));
+    for (const Entry &entry : ahead)
+      {
+        const CellFace &face = faces[entry.second];
+        if (split.block_of_cell[face.cell] == block)
+          continue;
+        for (const Point<dim> &probe : probes_of(face))
+          if (const auto back =
+                first_hit(probe, -direction, 0., left(), [&](const auto &own) {
+                  return split.block_of_cell[own.cell] == block;
+                }))
+            keep_nearer(Meeting{back->distance, face});
       }
     return first;
   }

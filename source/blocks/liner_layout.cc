@@ -7,6 +7,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/base/expression.h>
 #include <keyblock/mesh/excavation_region.h>
+#include <keyblock/scene/gravity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,19 +67,18 @@ namespace Keyblock
           liner.region, 1, "Shotcrete/" + liner.name + "/Region");
       std::vector<CellFace> faces =
         list_excavation_faces(ground, liner.excavations);
+      const Tensor<1, dim> up = upward(ground.scene);
       faces.erase(
-        std::remove_if(faces.begin(),
-                       faces.end(),
-                       [&](const CellFace &f) {
-                         const Tensor<1, dim> area =
-                           mesh.face_area_vector(f.cell, f.face);
-                         return !is_of_parts<dim>(-area / area.norm(),
-                                                  liner.parts) ||
-                                (region &&
-                                 region->value(mesh.face_center(f.cell, f.face),
-                                               0.,
-                                               0) <= 0.);
-                       }),
+        std::remove_if(
+          faces.begin(),
+          faces.end(),
+          [&](const CellFace &f) {
+            const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
+            return !is_of_parts<dim>(-area / area.norm(), up, liner.parts) ||
+                   (region &&
+                    region->value(mesh.face_center(f.cell, f.face), 0., 0) <=
+                      0.);
+          }),
         faces.end());
       AssertThrow(!faces.empty(),
                   InputError("The shotcrete 'Shotcrete/" + liner.name +

@@ -222,24 +222,7 @@ namespace Keyblock
         if (limit.direction.norm() == 0. ||
             limit.mode == LimitEquilibrium<dim>::Mode::rotating)
           return;
-        const Mesh<dim> &mesh = ground.split.mesh;
-        std::optional<typename FreeFaces<dim>::Meeting> first;
-        for (const unsigned int i : free.of_block(index))
-          {
-            const CellFace &own = free.faces[i];
-            const Tensor<1, dim> area =
-              mesh.face_area_vector(own.cell, own.face);
-            if (area * limit.direction <= 1e-6 * area.norm())
-              continue;
-            const auto meeting =
-              free.first_ahead(mesh.face_center(own.cell, own.face),
-                               limit.direction,
-                               0.,
-                               first ? first->distance : block.size,
-                               index);
-            if (meeting && (!first || meeting->distance < first->distance))
-              first = meeting;
-          }
+        const auto first = free.first_met(index, limit.direction, block.size);
         if (!first)
           return;
         const unsigned int other = ground.split.block_of_cell[first->face.cell];

@@ -43,7 +43,8 @@ namespace Keyblock
       "Parts",
       parts,
       "Parts of the excavations' faces with a pattern: roof, walls, floor; "
-      "faces up to 45 degrees from the horizontal are roof or floor.",
+      "faces up to 45 degrees from the horizontal, across gravity, are roof "
+      "or floor.",
       dealii::Patterns::List(dealii::Patterns::Selection("roof|walls|floor")));
     prm.add_parameter("Region",
                       region,

@@ -9,6 +9,7 @@
 #include <keyblock/scene/boundary_names.h>
 #include <keyblock/scene/check.h>
 #include <keyblock/scene/entries.h>
+#include <keyblock/scene/gravity.h>
 #include <keyblock/scene/scene.h>
 #include <keyblock/scene/text.h>
 
@@ -154,6 +155,24 @@ namespace Keyblock
           set_entries(prm, section, {entry});
     }
 
+    /** Size of gravity, which must be down the last axis, as the depth is
+     * [m/s2]. */
+    template <int dim>
+    double
+    downward_gravity(const Scene<dim> &scene)
+    {
+      const Tensor<1, dim> gravity = Gravity<dim>(scene).at(Point<dim>(), 0.);
+      const double down            = -gravity[dim - 1];
+      require(down > 0. && gravity.norm() - down <= 1e-9 * down,
+              "The entry 'Initial state/Gravity' is '" +
+                scene.initial_state.gravity + "', not down the axis " +
+                std::string(1, "xyz"[dim - 1]) +
+                ", along which 'Ground/Depth' makes stress and overburden; "
+                "leave one of them out: without 'Ground', give the stress and "
+                "the loads of the scene by 'Initial state' and 'Tractions'.");
+      return down;
+    }
+
     /** Put rollers on the sides and the bottom where nothing else holds. */
     template <int dim>
     void
@@ -219,10 +238,11 @@ namespace Keyblock
                   "Initial state",
                   {{"Gravity",
                     none_across + "-" + exact_text(standard_gravity)}});
-    double pressure = standard_gravity * density * (ground.depth - top);
+    const double unit_weight = density * downward_gravity(*this);
+    double pressure          = unit_weight * (ground.depth - top);
     if (initial_state.stress.empty() && initial_state.measured_points.empty())
       {
-        complete_stress(*prm, text, ground, standard_gravity * density);
+        complete_stress(*prm, text, ground, unit_weight);
         pressure = initial_state.surface_stress +
                    initial_state.vertical_stress_gradient *
                      (initial_state.surface_elevation - top);

@@ -439,6 +439,35 @@ BOOST_AUTO_TEST_CASE(what_it_meets_on_its_way)
   BOOST_TEST(site.judge(1 - uphill).remark() == "");
 }
 
+BOOST_AUTO_TEST_CASE(corners_meet_first)
+{
+  // the lower side of a roof block, from 2.75 m at x = -1 down to 2.25 m at
+  // x = 1, above a floor at 1.5 m, flat or with a step of 0.3 m below the other
+  // end, whose corner is 0.56875 m below the roof
+  for (const auto &[floor, way] :
+       {std::make_pair("-2, 1.5; 2, 1.5", 0.75),
+        std::make_pair("-2, 1.9; 0.125, 1.9; 0.125, 1.5; 2, 1.5", 0.56875)})
+    {
+      const Site<2> site(
+        "subsection Domain\n set Corner = -5, -1\n set Size = 10, 8\nend\n"
+        "subsection Mesh\n set Generator = gmsh\n set Size = 0.5\nend\n"
+        "subsection Excavations\n set Names = room\n subsection room\n  set "
+        "Vertices = " +
+        std::string(floor) +
+        "; 2, 2; -2, 3\n end\nend\nsubsection Joints\n set Names = left, "
+        "right, top\n subsection left\n  set Vertices = -1, 2; -1, 4\n end\n "
+        "subsection right\n  set Vertices = 1, 2; 1, 4\n end\n subsection "
+        "top\n  set Vertices = -1, 4; 1, 4\n end\nend\nsubsection Materials\n "
+        "set Names = rock\nend\nsubsection Initial state\n set Gravity = 0; "
+        "-9.81\nend\n" +
+        stage);
+      const std::string remark = site.judge(0).remark();
+      const auto place         = remark.find("meets the rock after ");
+      BOOST_REQUIRE(place != std::string::npos);
+      BOOST_TEST(is_near(std::stod(remark.substr(place + 21)), way, 5e-3));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(sheared_support_never_drives)
 {
   // a dowel along the plane's normal on a block of 5000 N: as it gets stronger,

@@ -163,6 +163,33 @@ BOOST_AUTO_TEST_CASE(bolt_pattern_around_the_section)
     }
 }
 
+// Where gravity points to -x, the roof is at x = 7 and the walls are at y = 4
+// and y = 7: turned by a right angle, clockwise.
+BOOST_AUTO_TEST_CASE(bolt_pattern_in_turned_axes)
+{
+  const auto turned = [](const std::string &gravity) {
+    return "subsection Initial state\n  set Gravity = " + gravity + "\nend\n";
+  };
+  const auto roof =
+    bolts_of<2>(pattern + "  set Parts = roof\n", turned("-9.81; 0"));
+  BOOST_TEST(roof.size() == 3u);
+  for (const Bolt<2> &bolt : roof)
+    BOOST_TEST(std::abs(bolt.head[0] - 7.) < 1e-12);
+  const auto ring =
+    bolts_of<3>(pattern + "  set Parts = roof, walls\n", turned("0; 0; 9.81"));
+  BOOST_TEST(ring.size() == 100u);
+  for (const Bolt<3> &bolt : ring)
+    BOOST_TEST(bolt.direction()[2] < 1e-12);
+  // from the middle of the roof on
+  const auto around =
+    bolts_of<2>("  set Excavations = cavern\n  set Length = 2\n"
+                "  set Parts = roof, walls, floor\n"
+                "  set Spacing = 20, 20\n",
+                turned("-9.81; 0"));
+  BOOST_REQUIRE(around.size() == 1u);
+  BOOST_TEST(around[0].head.distance(Point<2>(7., 5.5)) < 1e-9);
+}
+
 BOOST_AUTO_TEST_CASE(bolt_pattern_in_rings)
 {
   for (const auto &[parts, number] :

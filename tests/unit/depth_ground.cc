@@ -71,6 +71,16 @@ namespace
   const std::string overburden = exact_text(-9.81 * 2500. * 170.);
 } // namespace
 
+// the gravity of the scene, not that of the earth
+BOOST_AUTO_TEST_CASE(ground_under_given_gravity)
+{
+  const auto scene = read<2>("", {"Initial state/Gravity=0; -10"});
+  BOOST_TEST(scene->initial_state.vertical_stress_gradient == 10. * 2500.);
+  BOOST_REQUIRE(scene->tractions.size() == 1u);
+  BOOST_TEST(scene->tractions[0]->expression ==
+             "0; " + exact_text(-10. * 2500. * 170.));
+}
+
 BOOST_AUTO_TEST_CASE(ground_gives_all_that_is_open)
 {
   const auto scene = read<2>("");

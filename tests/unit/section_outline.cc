@@ -109,8 +109,10 @@ namespace
         BOOST_TEST(is_closed(rows[0]));
         BOOST_TEST(rows[0].size() == 9u);
         BOOST_TEST(std::abs(length_of(rows[0]) - 12. - 6. * chord) < 1e-9);
-        const auto roof = select_from_rows(rows, [](const auto &piece) {
-          return is_of_parts<dim>(piece.inward, {"roof"});
+        Tensor<1, dim> up;
+        up[dim - 1]     = 1.;
+        const auto roof = select_from_rows(rows, [&up](const auto &piece) {
+          return is_of_parts<dim>(piece.inward, up, {"roof"});
         });
         // chords at 45 degrees are of the roof, which begins on the left
         BOOST_REQUIRE(roof.size() == 1u);

@@ -27,15 +27,16 @@ namespace Keyblock
   }
 
   /** Whether a face with the unit normal @p inward, into the rock, is of one of
-   * the @p parts. */
+   * the @p parts, as upward() is @p up. */
   template <int dim>
   bool
   is_of_parts(const Tensor<1, dim> &inward,
+              const Tensor<1, dim> &up,
               const std::vector<std::string> &parts)
   {
     return std::find(parts.begin(),
                      parts.end(),
-                     part_of_excavation(inward[dim - 1])) != parts.end();
+                     part_of_excavation(inward * up)) != parts.end();
   }
 } // namespace Keyblock
 

@@ -37,6 +37,15 @@ namespace Keyblock
                                        const double reach,
                                        const unsigned int own) const;
 
+    /**
+     * The first face of another block that the free faces of @p block (index)
+     * meet on the way along @p direction (unit vector), at most @p reach [m]:
+     * by their corners and centres, and by the corners of what is ahead.
+     */
+    std::optional<Meeting> first_met(const unsigned int block,
+                                     const Tensor<1, dim> &direction,
+                                     const double reach) const;
+
     const std::vector<CellFace> faces;
 
     /** Indices into faces, by block. */
@@ -53,6 +62,19 @@ namespace Keyblock
 
   private:
     using Entry = std::pair<dealii::BoundingBox<dim>, unsigned int>;
+
+    /** The first face for which @p is_wanted(CellFace) holds and that faces a
+     * motion along @p direction: as first_ahead(). */
+    template <typename IsWanted>
+    std::optional<Meeting> first_hit(const Point<dim> &from,
+                                     const Tensor<1, dim> &direction,
+                                     const double behind,
+                                     const double reach,
+                                     const IsWanted &is_wanted) const;
+
+    /** Corners of a face, drawn a little towards its centre, so that they are
+     * on no other, and the centre. */
+    std::vector<Point<dim>> probes_of(const CellFace &face) const;
 
     const SplitMesh<dim> &split;
     using ByBlock = std::vector<std::vector<unsigned int>>;

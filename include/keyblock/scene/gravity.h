@@ -41,6 +41,20 @@ namespace Keyblock
   private:
     std::unique_ptr<Expression<dim>> formula;
   };
+
+  /** Unit vector against gravity at the origin and time zero; along the last
+   * axis if there is none. */
+  template <int dim>
+  Tensor<1, dim>
+  upward(const Scene<dim> &scene)
+  {
+    const Tensor<1, dim> gravity = Gravity<dim>(scene).at(Point<dim>(), 0.);
+    if (gravity.norm() > 0.)
+      return -gravity / gravity.norm();
+    Tensor<1, dim> up;
+    up[dim - 1] = 1.;
+    return up;
+  }
 } // namespace Keyblock
 
 #endif
