@@ -20,6 +20,10 @@ namespace Keyblock
      * of [-]. */
     constexpr double largest_difference = 0.05;
 
+    /** Difference of volumes from which on their first order says no number
+     * [-]. */
+    constexpr double far_off = 0.5;
+
     constexpr unsigned int most_names = 5;
 
     /** Where the mesh has a face of a block off its joint. */
@@ -216,10 +220,17 @@ namespace Keyblock
         return "";
       const Block<dim> &block = blocks.blocks[most];
       const std::string unit  = dim == 2 ? " m2" : " m3";
+      // to first order only
+      const bool is_far_off = difference(most) > far_off;
       return "The mesh has moved faces off their joints and gives block " +
              std::to_string(block.id) + " " + text_of(block.volume, 4) + unit +
-             " instead of about " +
-             text_of(std::max(0., block.volume - surplus[most]), 2) + unit +
+             (is_far_off
+                ? std::string(surplus[most] > 0. ? ", far more"
+                                                 : ", far less") +
+                    " than there is between them, so that its volume and "
+                    "factors mean nothing"
+                : " instead of about " +
+                    text_of(block.volume - surplus[most], 2) + unit) +
              (ids.size() > 1
                 ? " (more than 5 % off are blocks " + list_some(ids) + ")"
                 : "") +

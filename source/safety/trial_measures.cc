@@ -61,7 +61,6 @@ namespace Keyblock
         weight += sums[dim + d] * sums[dim + d];
       }
     Motion motion;
-    motion.slip = run.contact->report().mean_slip(block);
     motion.load = std::max(std::sqrt(weight), 1e-3 * sums[2 * dim]);
     motion.unbalanced =
       motion.load > 0. ? std::sqrt(resultant) / motion.load : 0.;
@@ -70,6 +69,10 @@ namespace Keyblock
         motion.velocity[d]     = sums[2 * dim + 2 + d] / sums[2 * dim + 1];
         motion.displacement[d] = sums[3 * dim + 2 + d] / sums[2 * dim + 1];
       }
+    // where all joints are reduced, what it touches may go along
+    motion.slip = scene.safety.reduced_joints == ReducedJoints::all
+                    ? motion.displacement
+                    : run.contact->report().mean_slip(block);
     return motion;
   }
 

@@ -27,7 +27,7 @@ namespace Keyblock
       , block(block)
       , number(number)
       , start(known.start)
-      , first_slip(owner.run.contact->report().mean_slip(block))
+      , first_slip(owner.trials.slip_of(block))
       , way(owner.tell_ways(block))
       , before(take_snapshot(owner.run))
       , state(owner.freeze_beyond_reach(block) ? take_snapshot(owner.run)

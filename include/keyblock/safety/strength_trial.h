@@ -63,6 +63,14 @@ namespace Keyblock
                      const double factor,
                      const Vector<dim> &first);
 
+    /** Mean slip of @p block on its contacts, or, where the strength of all
+     * joints is reduced, its mean displacement [m] (collective). */
+    Vector<dim>
+    slip_of(const unsigned int block) const
+    {
+      return measure(block).slip;
+    }
+
     /** Divide the strength of the joints of the block, and of its companions,
      * by @p factor. */
     void reduce(const unsigned int block, const double factor);
@@ -121,7 +129,7 @@ namespace Keyblock
 
     struct Motion
     {
-      Vector<dim> slip;           ///< mean over its contacts [m]
+      Vector<dim> slip{};         ///< as slip_of() [m]
       Vector<dim> displacement{}; ///< of its masses, mean [m]
       Vector<dim> velocity{};     ///< of its masses, mean [m/s]
       double unbalanced = 0.;     ///< everything but damping over the loads [-]
