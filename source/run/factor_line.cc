@@ -80,7 +80,6 @@ namespace Keyblock
     if (!factor.group.empty())
       out << "; " << describe_group(factor);
     out << "; limit equilibrium "
-        << (scene.safety.joints.empty() ? "" : "with all joints reduced ")
         << (has_initial_stress(scene) ? "without in-situ clamping " : "");
     if (std::isfinite(factor.limit_factor))
       out << factor.limit_factor << " ";

@@ -55,9 +55,11 @@ namespace Keyblock
         case SafetyFactor::Outcome::immovable:
           return "immovable";
         case SafetyFactor::Outcome::clamped:
-          return above.str() + (factor.limit_factor < factor.lower
-                                  ? ", held by " + factor.held_by
-                                  : "");
+          // by limit equilibrium the block may hold there, too
+          return above.str() + (std::isfinite(factor.limit_factor) &&
+                                    factor.limit_factor >= factor.lower
+                                  ? ""
+                                  : ", held by " + factor.held_by);
         case SafetyFactor::Outcome::undecided:
           return "undecided";
         case SafetyFactor::Outcome::met:
@@ -106,6 +108,7 @@ namespace Keyblock
         result.limit_remark += text.str();
       }
     result.limit_factor   = statics.limit.factor;
+    result.limit_moves    = statics.limit.direction.norm() > 0.;
     result.support_demand = statics.demand;
     result.stress_ratio =
       stress_ratio<dim>(scene,

@@ -287,6 +287,9 @@ foreach(angle 20 30 35)
   keyblock_scene(verification/footing_${angle} RANKS 1 SLOW)
 endforeach()
 keyblock_scene(verification/wedge_3d RANKS 2)
+# the factor divides the friction of one of its planes
+keyblock_scene(verification/wedge_3d REFERENCES wedge_3d_reduced_a RANKS 2
+  SET "Safety factor/Joints=A")
 keyblock_scene(verification/wedge_slides RANKS 2)
 keyblock_scene(verification/roof_wedge RANKS 2)
 # its weight grows to 0.98 and 1.02 of what pulls it out
