@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace Keyblock
 {
@@ -262,6 +263,9 @@ namespace Keyblock
     trial.is_stable            = verdict == Verdict::holds;
     trial.is_undecided         = verdict == Verdict::open;
     trial.n_broken             = n_bonds - std::min(n_bonds, n_intact(block));
+    const std::vector<double> weakened =
+      run.contact->report().weakened_area(block);
+    trial.weakened_area = std::accumulate(weakened.begin(), weakened.end(), 0.);
     for (; trial.n_steps < scene.safety.trial_steps; ++trial.n_steps)
       run.step.advance(false);
     if (verdict == Verdict::fails)
