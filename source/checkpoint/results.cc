@@ -24,6 +24,7 @@ namespace Keyblock
     action(trial.is_stable);
     action(trial.is_undecided);
     action(trial.n_broken);
+    action(trial.weakened_area);
     action(trial.phase);
     action(trial.slip);
     action(trial.velocity);

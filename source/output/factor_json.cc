@@ -18,6 +18,7 @@ namespace Keyblock
                         {"stable", trial.is_stable},
                         {"undecided", trial.is_undecided},
                         {"broken_bonds", trial.n_broken},
+                        {"weakened_area", trial.weakened_area},
                         {"phase", trial.phase},
                         {"slip", trial.slip},
                         {"velocity", trial.velocity},

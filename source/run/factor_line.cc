@@ -80,7 +80,6 @@ namespace Keyblock
     if (!factor.group.empty())
       out << "; " << describe_group(factor);
     out << "; limit equilibrium "
-        << (scene.safety.joints.empty() ? "" : "with all joints reduced ")
         << (has_initial_stress(scene) ? "without in-situ clamping " : "");
     if (std::isfinite(factor.limit_factor))
       out << factor.limit_factor << " ";
@@ -91,12 +90,18 @@ namespace Keyblock
     if (factor.stress_ratio > 0.)
       out << ", stress ratio " << factor.stress_ratio;
     const Block<dim> &block = blocks.blocks[factor.block];
-    unsigned int n_broken   = 0;
+    Trial last; // that held
     for (const Trial &trial : factor.trials)
       if (trial.is_stable && !trial.is_of_group && trial.factor == factor.lower)
-        n_broken = trial.n_broken;
-    if (n_broken > 0)
-      out << "; " << n_broken << " bonds broke in the last that held";
+        last = trial;
+    if (last.n_broken > 0)
+      out << "; " << last.n_broken << " bonds broke in the last that held";
+    if (last.weakened_area > 0.)
+      out << "; cohesion lost on " << last.weakened_area
+          << (dim == 2 ? " m" : " m2") << " by the last that held"
+          << (std::isfinite(factor.limit_factor)
+                ? ", counted by limit equilibrium"
+                : "");
     if (is_too_coarse(block, scene))
       out << "; only " << std::setprecision(2) << block.cells_across()
           << " cells across, not " << scene.meshing.cells_across;

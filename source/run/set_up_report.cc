@@ -5,6 +5,7 @@
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/run/bolt_warnings.h>
 #include <keyblock/run/set_up_report.h>
+#include <keyblock/run/wanted_blocks.h>
 #include <keyblock/run/wave_resolution.h>
 #include <keyblock/safety/block_theory.h>
 #include <keyblock/step/initial_tension.h>
@@ -226,6 +227,7 @@ namespace Keyblock
           warnings_of_short_waves(model.scene, model.split),
           warnings_of_free_fields(model.scene, model.split.mesh),
           warnings_of_cut_bolts(model.scene, model.split),
+          warnings_of_attached_blocks(model.scene, model.split, model.blocks),
           warnings_of_coarse_mesh(model.scene, model.split, model.blocks)})
       warnings.insert(warnings.end(), more.begin(), more.end());
     return warnings;

@@ -3,6 +3,7 @@
 #include <keyblock/base/expression.h>
 #include <keyblock/law/joint_law.h>
 #include <keyblock/safety/block_faces.h>
+#include <keyblock/safety/reduced_joints.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,7 @@ namespace Keyblock
         , index(block.id - 1)
         , time(time)
         , pressure(ground.scene.joints.size())
+        , reduced(list_reduced_joints(ground.scene))
       {}
 
       void
@@ -175,7 +177,8 @@ namespace Keyblock
       unsigned int
       new_entry(const Tensor<1, dim> &inward,
                 const std::string &name,
-                const std::shared_ptr<const JointLaw> &law)
+                const std::shared_ptr<const JointLaw> &law,
+                const unsigned int joint)
       {
         const StrengthEnvelope strength = law->envelope(JointPointState());
         BlockFace<dim> face;
@@ -184,6 +187,7 @@ namespace Keyblock
         face.tangent_friction = strength.static_tangent;
         face.cohesion         = strength.cohesion;
         face.tensile_strength = strength.tensile_strength;
+        face.is_reduced       = has_reduced(reduced, joint);
         if (law->depends_on_pressure())
           face.law = law;
         result.faces.push_back(face);
@@ -201,7 +205,8 @@ namespace Keyblock
         const unsigned int entry =
           new_entry((is_plus ? 1. : -1.) * joint.normal(),
                     joint.name,
-                    make_joint_law(joint));
+                    make_joint_law(joint),
+                    j);
         return entries[{j, is_plus}] = entry;
       }
 
@@ -285,7 +290,8 @@ namespace Keyblock
           new_entry(-outward,
                     "a free face",
                     make_friction_law(
-                      ground.scene.contact.default_friction_angle));
+                      ground.scene.contact.default_friction_angle),
+                    none);
         add_area(entry,
                  own,
                  area.norm(),
@@ -308,6 +314,7 @@ namespace Keyblock
       const unsigned int index;
       const double time;
       std::vector<std::unique_ptr<Expression<dim>>> pressure; ///< by joint
+      const std::vector<bool> reduced; ///< joints, list_reduced_joints()
       std::vector<WetFace> wet_faces;
       std::set<unsigned int> bare_joints; ///< one side is excavated in places
 

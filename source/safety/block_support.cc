@@ -2,6 +2,7 @@
 #include <keyblock/safety/block_support.h>
 
 #include <keyblock/blocks/bolt_layout.h>
+#include <keyblock/safety/reduced_joints.h>
 #include <keyblock/scene/gravity.h>
 
 #include <algorithm>
@@ -50,9 +51,13 @@ namespace Keyblock
       forces.push_back(
         {pull.force * pull.along,
          against(direction - (direction * pull.along) * pull.along,
-                 pull.dowel_strength)});
-    for (const auto &[trace, strength] : sections)
-      forces.push_back({{}, against(trace.in_section(direction), strength)});
+                 pull.dowel_strength),
+         pull.is_reduced});
+    for (const Section &section : sections)
+      forces.push_back(
+        {{},
+         against(section.trace.in_section(direction), section.strength),
+         section.is_reduced});
     return forces;
   }
 
@@ -106,8 +111,9 @@ namespace Keyblock
                   const double time,
                   BlockSupport<dim> &support)
     {
-      const Scene<dim> &scene = ground.scene;
-      double mass             = 0.;
+      const Scene<dim> &scene         = ground.scene;
+      const std::vector<bool> reduced = list_reduced_joints(scene);
+      double mass                     = 0.;
       for (unsigned int i = 0; i < ground.split.liners.size(); ++i)
         {
           const Liner &liner = *scene.liners[i];
@@ -122,7 +128,8 @@ namespace Keyblock
                   liner.shear_strength * liner.thickness * trace.length;
                 support.shotcrete_length += trace.length;
                 support.shotcrete_strength += strength;
-                support.sections.emplace_back(trace, strength);
+                support.sections.push_back(
+                  {trace, strength, has_reduced(reduced, trace.joint)});
               }
           for (const LinerArea &part : ground.split.liners[i].areas)
             if (part.block == block && !ground.is_excavated(part.cell))
@@ -153,6 +160,7 @@ namespace Keyblock
   {
     BlockSupport<dim> result;
     add_shotcrete(ground, block, time, result);
+    const std::vector<bool> reduced = list_reduced_joints(ground.scene);
     for (unsigned int b = 0; b < ground.split.bolts.size(); ++b)
       {
         const Bolt<dim> &bolt   = ground.split.bolts[b];
@@ -191,6 +199,7 @@ namespace Keyblock
             pull.force          = set.share() * capacity.force;
             pull.dowel_strength = set.share() * set.dowel_strength;
             pull.limit          = capacity.limit;
+            pull.is_reduced     = has_reduced(reduced, crossing.joint);
             result.pulls.push_back(pull);
           }
       }
@@ -243,7 +252,7 @@ namespace Keyblock
         return solve();
       };
       const LimitEquilibrium<dim> without = with(0.);
-      if (!std::isfinite(without.factor))
+      if (without.mode == LimitEquilibrium<dim>::Mode::stable)
         return;
       // the greatest share at which something is no worse than just below,
       // as it gets better with less to begin with or never
@@ -264,7 +273,7 @@ namespace Keyblock
       using Limit = LimitEquilibrium<dim>;
       const double driving_least =
         greatest(1., [&](const Limit &less, const Limit &more) {
-          return std::isfinite(more.factor) &&
+          return more.mode != Limit::Mode::stable &&
                  (more.n_pressed > 0 || without.n_pressed == 0) &&
                  more.driving_force <= (1. + round_off) * less.driving_force;
         });
@@ -287,18 +296,21 @@ namespace Keyblock
       std::vector<double> shares(forces.size(), 0.);
       const auto solve = [&]() {
         Tensor<1, dim> loading = load;
-        double resisting       = 0.;
+        std::vector<double> resisting(forces.size());
         for (unsigned int i = 0; i < forces.size(); ++i)
           {
             const Tensor<1, dim> force =
               forces[i].pull + shares[i] * forces[i].reaction;
             const double against = std::max(0., -(force * way));
             loading += force + against * way;
-            resisting += against;
+            resisting[i] = against;
           }
         LimitEquilibrium<dim> held = solve_with_laws<dim>(faces, loading);
-        if (held.driving_force > 0. && std::isfinite(held.factor))
-          held.factor += resisting / held.driving_force;
+        if (held.mode == LimitEquilibrium<dim>::Mode::stable)
+          return held;
+        for (unsigned int i = 0; i < forces.size(); ++i)
+          held.add_resistance(resisting[i], forces[i].is_reduced);
+        held.set_factor();
         return held;
       };
       for (unsigned int i = 0; i < forces.size(); ++i)

@@ -37,6 +37,27 @@ namespace Keyblock
         for (const LinerTrace<dim> &trace : liner.traces)
           add(trace.block);
     }
+
+    /** Say on how much of the faces cohesion counts which the run has lost.
+     * @param area ContactReport::weakened_area() */
+    template <int dim>
+    void
+    remark_on_weakened_area(const Scene<dim> &scene,
+                            const std::vector<double> &area,
+                            BlockStatics<dim> &statics)
+    {
+      for (const unsigned int i : statics.limit.faces)
+        for (unsigned int j = 0; j < area.size(); ++j)
+          if (area[j] > 0. &&
+              scene.joints[j]->name == statics.around.faces[i].name)
+            {
+              std::ostringstream text;
+              text << "cohesion of " << scene.joints[j]->name << " counted on "
+                   << std::setprecision(4) << area[j]
+                   << (dim == 2 ? " m" : " m2") << " that have lost it";
+              statics.remarks.push_back(text.str());
+            }
+    }
   } // namespace
 
 
@@ -55,9 +76,11 @@ namespace Keyblock
         case SafetyFactor::Outcome::immovable:
           return "immovable";
         case SafetyFactor::Outcome::clamped:
-          return above.str() + (factor.limit_factor < factor.lower
-                                  ? ", held by " + factor.held_by
-                                  : "");
+          // by limit equilibrium the block may hold there, too
+          return above.str() + (std::isfinite(factor.limit_factor) &&
+                                    factor.limit_factor >= factor.lower
+                                  ? ""
+                                  : ", held by " + factor.held_by);
         case SafetyFactor::Outcome::undecided:
           return "undecided";
         case SafetyFactor::Outcome::met:
@@ -87,25 +110,27 @@ namespace Keyblock
                                                   SafetyFactor &result) const
   {
     const Ground<dim> ground = run.conditions.active_cells.ground();
-    const BlockStatics<dim> statics =
+    BlockStatics<dim> statics =
       judge_block<dim>(ground,
                        FreeFaces<dim>(ground),
                        blocks,
                        block,
                        run.step.time,
                        run.conditions.broken_segments());
-    result.limit_mode   = statics.mode();
-    result.limit_remark = statics.remark();
     if (const double way = trials.way_from_place(block); way > 0.)
       {
         std::ostringstream text;
         text << "judged where it was before it moved by "
              << std::setprecision(3) << way << " m";
-        if (!result.limit_remark.empty())
-          result.limit_remark += "; ";
-        result.limit_remark += text.str();
+        statics.remarks.push_back(text.str());
       }
+    remark_on_weakened_area(scene,
+                            run.contact->report().weakened_area(block),
+                            statics);
+    result.limit_mode     = statics.mode();
+    result.limit_remark   = statics.remark();
     result.limit_factor   = statics.limit.factor;
+    result.limit_moves    = statics.limit.direction.norm() > 0.;
     result.support_demand = statics.demand;
     result.stress_ratio =
       stress_ratio<dim>(scene,

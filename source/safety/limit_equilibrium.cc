@@ -43,24 +43,23 @@ namespace Keyblock
     }
 
     /** Add to @p result the faces that it moves along without pressing on
-     * them: cohesion resists there. Returns their resistance [N]. */
+     * them: cohesion resists there. */
     template <int dim>
-    double
+    void
     add_side_faces(const std::vector<BlockFace<dim>> &faces,
                    LimitEquilibrium<dim> &result)
     {
       const std::vector<unsigned int> pressed = result.faces;
-      double resistance                       = 0.;
       for (unsigned int i = 0; i < faces.size(); ++i)
         if (std::abs(faces[i].inward * result.direction) <= rounding &&
             faces[i].cohesion > 0. &&
             std::find(pressed.begin(), pressed.end(), i) == pressed.end())
           {
-            resistance += faces[i].cohesion * faces[i].area;
+            result.add_resistance(faces[i].cohesion * faces[i].area,
+                                  faces[i].is_reduced);
             result.faces.push_back(i);
             result.normal_forces.push_back(0.);
           }
-      return resistance;
     }
 
     /** Let @p planes be pressed, and all faces parallel to them, which share
@@ -124,15 +123,16 @@ namespace Keyblock
     {
       result.driving_force = resultant * result.direction;
       press(faces, planes, normal_forces_on(faces, planes, resultant), result);
-      double resistance = 0.;
       for (unsigned int i = 0; i < result.faces.size(); ++i)
         {
           const BlockFace<dim> &face = faces[result.faces[i]];
-          resistance += face.cohesion * face.area +
-                        face.tangent_friction * result.normal_forces[i];
+          result.add_resistance(face.cohesion * face.area +
+                                  face.tangent_friction *
+                                    result.normal_forces[i],
+                                face.is_reduced);
         }
-      resistance += add_side_faces(faces, result);
-      result.factor = resistance / result.driving_force;
+      add_side_faces(faces, result);
+      result.set_factor();
     }
   } // namespace
 
@@ -161,7 +161,8 @@ namespace Keyblock
         down[dim - 1] = -1.;
         result.orient(down);
         result.driving_force = resultant.norm();
-        result.factor = add_side_faces(faces, result) / result.driving_force;
+        add_side_faces(faces, result);
+        result.set_factor();
         return result;
       }
     for (unsigned int i = 0; i < faces.size(); ++i)
@@ -202,6 +203,17 @@ namespace Keyblock
           }
     result.factor = std::numeric_limits<double>::infinity();
     return result;
+  }
+
+
+
+  template <int dim>
+  void
+  LimitEquilibrium<dim>::set_factor()
+  {
+    factor = is_held_by_fixed()
+               ? std::numeric_limits<double>::infinity()
+               : reduced_resistance / (driving_force - fixed_resistance);
   }
 
 

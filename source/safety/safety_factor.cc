@@ -51,7 +51,7 @@ namespace Keyblock
     if (result.outcome != SafetyFactor::Outcome::immovable)
       result.failure_mode =
         result.outcome == SafetyFactor::Outcome::met ? "" : trials.failure();
-    else if (std::isfinite(result.limit_factor))
+    else if (result.limit_moves)
       result.outcome = SafetyFactor::Outcome::clamped;
     if (result.outcome == SafetyFactor::Outcome::bracketed &&
         scene.safety.reduced_joints != ReducedJoints::all)

@@ -2,6 +2,7 @@
 // One trial of strength reduction: strength changes, the first phase, and how
 // the two phases decide. The second one: trial_watch.cc.
 #include <keyblock/base/stop_request.h>
+#include <keyblock/safety/reduced_joints.h>
 #include <keyblock/safety/slow_mode.h>
 #include <keyblock/safety/strength_trial.h>
 #include <keyblock/step/measured_steps.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace Keyblock
 {
@@ -71,12 +73,8 @@ namespace Keyblock
         reduction.blocks = companions;
         reduction.blocks.push_back(block);
       }
-    if (!scene.safety.joints.empty())
-      reduction.joints.assign(scene.joints.size(), false);
-    for (const std::string &name : scene.safety.joints)
-      for (const unsigned int joint : scene.joints_called(name))
-        reduction.joints[joint] = true;
-    reduction.share = 1. / factor;
+    reduction.joints = list_reduced_joints(scene);
+    reduction.share  = 1. / factor;
     run.contact->reduce_strength(reduction);
     run.conditions.reduce_strength(reduction);
     if (scene.safety.reduces_rock)
@@ -265,6 +263,9 @@ namespace Keyblock
     trial.is_stable            = verdict == Verdict::holds;
     trial.is_undecided         = verdict == Verdict::open;
     trial.n_broken             = n_bonds - std::min(n_bonds, n_intact(block));
+    const std::vector<double> weakened =
+      run.contact->report().weakened_area(block);
+    trial.weakened_area = std::accumulate(weakened.begin(), weakened.end(), 0.);
     for (; trial.n_steps < scene.safety.trial_steps; ++trial.n_steps)
       run.step.advance(false);
     if (verdict == Verdict::fails)

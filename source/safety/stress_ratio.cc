@@ -24,7 +24,7 @@ namespace Keyblock
   {
     const bool moves      = limit.direction.norm() > 0.;
     const bool leaves_all = moves && limit.n_pressed == 0;
-    double strength       = 0.;
+    double reduced = 0., fixed = 0.; // strength
     Tensor<1, dim> shear;
     for (const BlockFace<dim> &face : faces)
       {
@@ -54,12 +54,13 @@ namespace Keyblock
                 }
               const double cohesion =
                 face.cohesion * face.area * n_closed / (sum.n_open + n_closed);
-              strength += along * std::max(0., cohesion + tangent * normal);
+              (face.is_reduced ? reduced : fixed) +=
+                along * std::max(0., cohesion + tangent * normal);
             }
       }
     const double force =
       leaves_all ? std::abs(shear * limit.direction) : shear.norm();
-    return force > 0. && strength > 0. ? strength / force : 0.;
+    return force > fixed && reduced > 0. ? reduced / (force - fixed) : 0.;
   }
 
   template double stress_ratio(const Scene<2> &,

@@ -55,8 +55,8 @@ namespace Keyblock
     prm.add_parameter(
       "Joints",
       joints,
-      "Names of the joints, or sets of joints, to which the reduction of "
-      "strength is restricted; empty: no restriction.");
+      "Names of the joints, or sets of joints, whose strength alone a factor "
+      "divides, by trials and by limit equilibrium; empty: no restriction.");
     prm.add_parameter("Reduce rock",
                       reduces_rock,
                       "Whether trials divide the strength of mohr_coulomb rock "

@@ -731,6 +731,56 @@ def blocks_that_lean():
     assert "once block 1 has gone" in rows[20]["2"]
 
 
+def attached_block():
+    """A block that is one with rock which is dug later has no factor until then; after
+    that it has that of what is left."""
+    scene = PRM / "verification/cohesive_incline.prm"
+    settings = ["Excavations/Names=beside, part", "Excavations/part/Shape=formula",
+                "Excavations/part/Formula=if(y > 0.05, 1, -1)",
+                "Excavations/part/Stage=later", "Stages/Names=rest, later",
+                "Stages/later/Kind=quasi-static", "Stages/later/Unbalanced ratio=1e-7"]
+    done = run([scene, "--output", "o"] + [w for s in settings for w in ("--set", s)])
+    assert done.returncode == 0, done.stderr
+    summary = json.loads(pathlib.Path("o/summary.json").read_text(encoding="utf-8"))
+    warning = ("Block 1 has no safety factor after 'rest': it is one with rock there that "
+               "a later stage digs")
+    assert sum(warning in text for text in summary["warnings"]) == 1, summary["warnings"]
+    assert warning in done.stdout.decode("utf-8")
+    block = summary["blocks"][0]
+    limit, = block["limit_equilibrium"]
+    dip = math.radians(30.)
+    weight = block["weight"]
+    factor = ((1000. * 0.5 + weight * math.cos(dip) * math.tan(dip))
+              / (weight * math.sin(dip)))
+    print(limit, factor)
+    assert limit["stage"] == "later" and math.isclose(limit["value"], factor, rel_tol=1e-9)
+    text = validate(scene, ["Stages/Names=rest, later"]).stdout.decode("utf-8")
+    assert "no safety factor" not in text, text
+
+
+def lost_cohesion():
+    """A heel that water opens has no cohesion, which limit equilibrium counts: a block of
+    1 m and 23 kN beside 1.7 m of water."""
+    settings = ["Mesh/Cells=32, 24", "Joints/crack/Water level=1.7",
+                "Joints/base/Cohesion=10e3", "Joints/base/Friction angle=20",
+                "Materials/rock/Young modulus=50e6"]
+    done = run([PRM / "verification/crack_water.prm", "--output", "o"]
+               + [w for s in settings for w in ("--set", s)])
+    assert done.returncode == 0, done.stderr
+    text = done.stdout.decode("utf-8")
+    print(text)
+    summary = json.loads(pathlib.Path("o/summary.json").read_text(encoding="utf-8"))
+    block = summary["blocks"][0]
+    factor, limit = block["safety_factor"][0], block["limit_equilibrium"][0]
+    lost, = {t["weakened_area"] for t in factor["trials"]}
+    driving, friction = 9810. * 1.7**2 / 2., 23e3 * math.tan(math.radians(20.))
+    assert math.isclose(limit["value"], (friction + 10e3) / driving, rel_tol=1e-6)
+    assert math.isclose(factor["value"], (friction + 10e3 * (1. - lost)) / driving,
+                        rel_tol=2e-3), (factor["value"], lost)
+    assert f"cohesion of base counted on {lost} m that have lost it" in limit["remark"]
+    assert f"cohesion lost on {lost} m by the last that held, counted by limit" in text
+
+
 def monitor_of_all_joints():
     """Of one joint the same as of all."""
     done = run([INCLINE, "--output", "o", *SHORT, "--set", "Monitors/Names=one, every",

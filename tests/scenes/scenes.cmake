@@ -247,6 +247,17 @@ set(free_0 0.12)
 set(free_30 0.14)
 set(free_60 0.22)
 keyblock_scene(verification/bolted_incline RANKS 1 2)
+# a weak dowel slips beside a strong one; what it dissipates is in the energy but for
+# round-off
+keyblock_scene(verification/bolted_incline REFERENCES bolted_incline_slip RANKS 1 2
+  SET "Safety factor/Blocks=none" "Stages/rest/Friction angle override=-1"
+  "Bolts/Names=anchor, pin" "Bolts/anchor/Ends=0.05, -0.08"
+  "Bolts/anchor/Free length=0.12" "Bolts/anchor/Dowel stiffness=1e6"
+  "Bolts/anchor/Dowel strength=30" "Bolts/pin/Stage=rest"
+  "Bolts/pin/Heads=-0.05, 0.1" "Bolts/pin/Ends=-0.05, -0.08"
+  "Bolts/pin/Area=1e-9" "Bolts/pin/Young modulus=200e9" "Bolts/pin/Yield force=1e3"
+  "Bolts/pin/Bond stiffness=1e6" "Bolts/pin/Bond strength=1e5"
+  "Bolts/pin/Dowel stiffness=1e6" "Bolts/pin/Dowel strength=1e3")
 foreach(angle 0 60)
   keyblock_scene(verification/bolted_incline REFERENCES bolted_incline_${angle}
     RANKS 1 SET "Bolts/anchor/Ends=${end_${angle}}"
@@ -285,6 +296,9 @@ foreach(angle 20 30 35)
   keyblock_scene(verification/footing_${angle} RANKS 1 SLOW)
 endforeach()
 keyblock_scene(verification/wedge_3d RANKS 2)
+# the factor divides the friction of one of its planes
+keyblock_scene(verification/wedge_3d REFERENCES wedge_3d_reduced_a RANKS 2
+  SET "Safety factor/Joints=A")
 keyblock_scene(verification/wedge_slides RANKS 2)
 keyblock_scene(verification/roof_wedge RANKS 2)
 # its weight grows to 0.98 and 1.02 of what pulls it out
@@ -338,6 +352,13 @@ keyblock_scene(verification/lined_roof REFERENCES lined_roof_twice RANKS 1 2
   "Shotcrete/more/Stage=again" "Shotcrete/more/Excavations=room"
   "Shotcrete/more/Thickness=0.05" "Shotcrete/more/Shear strength=0.4e6"
   "Shotcrete/more/Shear modulus=1e8" "Shotcrete/more/Density=0")
+# a weak layer slips until another one holds, the same
+keyblock_scene(verification/lined_roof REFERENCES lined_roof_slip RANKS 1 2
+  SET "Safety factor/Blocks=none" "Shotcrete/Names=shell, more"
+  "Shotcrete/shell/Shear strength=0.05e6" "Shotcrete/more/Stage=dig"
+  "Shotcrete/more/Excavations=room" "Shotcrete/more/Thickness=0.05"
+  "Shotcrete/more/Shear strength=0.4e6" "Shotcrete/more/Shear modulus=1e8"
+  "Shotcrete/more/Density=0")
 # seismic forces act on its mass, too
 keyblock_scene(verification/lined_roof REFERENCES lined_roof_shaken RANKS 1 2
   SET "Shotcrete/shell/Density=2400" "Stages/dig/Seismic coefficient=0, -0.5")
@@ -356,6 +377,12 @@ keyblock_scene(verification/lined_tunnel_3d RANKS 1 2)
 keyblock_scene(verification/bolted_roof_3d RANKS 1 2)
 # slabs one under the other on the same bolts
 keyblock_scene(verification/hanging_slabs RANKS 1 2)
+# or each on bolts that end in the one above it
+keyblock_scene(verification/hanging_chain RANKS 1 2)
+# blocks one behind the other on an incline, each on a bolt into the one behind it
+keyblock_scene(verification/bolted_row RANKS 1 2)
+keyblock_scene(verification/bolted_row REFERENCES bolted_row_active RANKS 1
+  SET "Safety factor/Bolt convention=active")
 keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_all RANKS 1
   SET "Safety factor/Reduced joints=all")
 # a bolt that breaks counts no more, and lets nothing go without a trace

@@ -605,6 +605,46 @@ BOOST_AUTO_TEST_CASE(demand_of_a_block_that_water_lifts)
   BOOST_TEST(is_near(floor(0., "active").demand.force, 30e3, 1e-6));
 }
 
+BOOST_AUTO_TEST_CASE(joints_that_are_not_reduced)
+{
+  // 20 kN in the roof (upside down) between two joints, 10 kN of cohesion on
+  // the one that is reduced
+  const auto roof = [](const double right, const std::string &safety) {
+    std::ostringstream text;
+    text << "subsection Domain\n set Corner = -2, -2\n set Size = 4, 2\n set "
+            "Truncated boundaries = left, right, bottom\nend\nsubsection "
+            "Mesh\n set Cells = 8, 4\nend\nsubsection Joints\n set Names = "
+            "left, right, base\n subsection left\n  set Vertices = -0.5, 0; "
+            "-0.5, -1\n  set Cohesion = 10e3\n end\n subsection right\n  set "
+            "Vertices = 0.5, 0; 0.5, -1\n  set Cohesion = "
+         << right
+         << "\n end\n subsection base\n  set Vertices = -0.5, -1; 0.5, -1\n "
+            "end\nend\nsubsection Materials\n set Names = rock\n subsection "
+            "rock\n  set Density = 2000\n end\nend\nsubsection Initial "
+            "state\n set Gravity = 0; 10\nend\n"
+         << stage << "subsection Safety factor\n"
+         << safety << "end\n";
+    return Site<2>(text.str()).judge();
+  };
+  const std::string left    = " set Joints = left\n",
+                    wanted  = " set Wanted = 1.5\n",
+                    passive = " set Bolt convention = passive\n";
+  BOOST_TEST(is_near(roof(6e3, "").limit.factor, 16. / 20., 1e-9));
+  const auto split = roof(6e3, left);
+  BOOST_TEST(is_near(split.limit.factor, 10. / (20. - 6.), 1e-9));
+  BOOST_TEST(has_remark(split.remark(), "strength of right not reduced"));
+  BOOST_TEST(is_near(roof(6e3, left + wanted).demand.force,
+                     20e3 - 6e3 - 10e3 / 1.5,
+                     1e-9));
+  BOOST_TEST(is_near(roof(6e3, left + wanted + passive).demand.force,
+                     1.5 * (20e3 - 6e3) - 10e3,
+                     1e-9));
+  const auto held = roof(21e3, left);
+  BOOST_TEST(std::isinf(held.limit.factor));
+  BOOST_TEST(held.mode() == "falling");
+  BOOST_TEST(has_remark(held.remark(), "which bears all that drives it"));
+}
+
 BOOST_AUTO_TEST_CASE(stress_ratio_of_a_block_that_leaves_its_faces)
 {
   // in a roof between two sides that lean outwards by @p lean [deg] upwards,

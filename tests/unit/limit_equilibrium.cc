@@ -344,4 +344,51 @@ BOOST_AUTO_TEST_CASE(blocks_in_the_plane)
                      1e-14));
 }
 
+BOOST_AUTO_TEST_CASE(factors_divide_the_strength_of_reduced_faces_alone)
+{
+  // a trough between two planes at 50 degrees about its line, with friction and
+  // cohesion of their own; what drives along the line is 3, what presses 4
+  const double steep              = 50. * radian;
+  std::vector<BlockFace<3>> faces = {
+    face(Tensor<1, 3>({std::sin(steep), 0., std::cos(steep)}), 30., "A"),
+    face(Tensor<1, 3>({-std::sin(steep), 0., std::cos(steep)}), 20., "B")};
+  faces[0].cohesion = 0.5;
+  faces[1].cohesion = 0.2;
+  const Tensor<1, 3> load({0., 3., -4.});
+  const double normal     = 4. / (2. * std::cos(steep));
+  const double resists[2] = {0.5 + normal * std::tan(30. * radian),
+                             0.2 + normal * std::tan(20. * radian)};
+  for (const unsigned int fixed : {0, 1})
+    {
+      faces[fixed].is_reduced     = false;
+      faces[1 - fixed].is_reduced = true;
+      const auto result           = solve_limit_equilibrium<3>(faces, load);
+      BOOST_TEST((result.mode == Mode::two_planes));
+      BOOST_TEST(is_near(result.factor,
+                         resists[1 - fixed] / (3. - resists[fixed]),
+                         1e-12));
+    }
+  // one that bears all
+  faces[1].cohesion = 2.;
+  const auto held   = solve_limit_equilibrium<3>(faces, load);
+  BOOST_TEST((held.mode == Mode::two_planes));
+  BOOST_TEST(held.is_held_by_fixed());
+  BOOST_TEST(std::isinf(held.factor));
+
+  // a slab on a plane beside a wall that it moves along
+  std::vector<BlockFace<3>> slab = {
+    face(Tensor<1, 3>({0., 0., 1.}), 30., "base"),
+    face(Tensor<1, 3>({1., 0., 0.}), 0., "wall")};
+  slab[1].cohesion   = 1.;
+  slab[1].is_reduced = false;
+  const double base  = 4. * std::tan(30. * radian);
+  BOOST_TEST(is_near(solve_limit_equilibrium<3>(slab, load).factor,
+                     base / (3. - 1.),
+                     1e-12));
+  std::swap(slab[0].is_reduced, slab[1].is_reduced);
+  BOOST_TEST(is_near(solve_limit_equilibrium<3>(slab, load).factor,
+                     1. / (3. - base),
+                     1e-12));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -29,6 +29,11 @@ namespace Keyblock
      * (collective). */
     std::vector<JointSums<dim>> sum_over_block(const unsigned int block) const;
 
+    /** Area of a block's pairs, by joint, whose cohesion is less than that of
+     * the intact joint: they have opened, or slid where it is brittle
+     * [m^(dim-1)] (collective). */
+    std::vector<double> weakened_area(const unsigned int block) const;
+
     /** Sums over the points of @p joints, shear being the sum of what each of
      * them bears; without any joint over all points, shear being that of all
      * joints. */

@@ -3,8 +3,10 @@
 #define keyblock_run_wanted_blocks_h
 
 #include <keyblock/blocks/blocks.h>
+#include <keyblock/blocks/interface.h>
 
 #include <string>
+#include <vector>
 
 namespace Keyblock
 {
@@ -13,6 +15,14 @@ namespace Keyblock
   template <int dim>
   void check_wanted_blocks(const std::string &wanted,
                            const Blocks<dim> &blocks);
+
+  /** Wanted blocks that have no factor at the end of a stage, because they are
+   * one with rock that a later stage digs then, as sentences. */
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_attached_blocks(const Scene<dim> &scene,
+                              const SplitMesh<dim> &split,
+                              const Blocks<dim> &blocks);
 } // namespace Keyblock
 
 #endif

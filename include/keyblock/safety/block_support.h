@@ -22,6 +22,7 @@ namespace Keyblock
       double force                     = 0.; ///< its capacity there [N]
       double dowel_strength            = 0.; ///< across it [N]
       BoltChain::Capacity::Limit limit = BoltChain::Capacity::Limit::yield;
+      bool is_reduced = true; ///< BlockFace::is_reduced of the joint
     };
     std::vector<Pull> pulls;
 
@@ -34,8 +35,13 @@ namespace Keyblock
     double shotcrete_length   = 0.; ///< of traces under it [m]
     double shotcrete_strength = 0.; ///< of its sections along them [N]
 
-    /** Sections by their normals, and the strength of each [N]. */
-    std::vector<std::pair<LinerTrace<dim>, double>> sections;
+    struct Section
+    {
+      LinerTrace<dim> trace;
+      double strength = 0.;   ///< [N]
+      bool is_reduced = true; ///< BlockFace::is_reduced of the joint under it
+    };
+    std::vector<Section> sections;
 
     Tensor<1, dim> shotcrete_load; ///< of that on the block: weight, and
                                    ///< seismic [N]
@@ -56,6 +62,7 @@ namespace Keyblock
     {
       Tensor<1, dim> pull;     ///< along a bolt [N]
       Tensor<1, dim> reaction; ///< across it, or in a section, at most [N]
+      bool is_reduced;         ///< in the passive convention
     };
 
     /** Those of all as the block moves along @p direction (unit vector). */

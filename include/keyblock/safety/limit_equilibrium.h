@@ -28,7 +28,8 @@ namespace Keyblock
     /** Set if friction depends on the normal stress. */
     std::shared_ptr<const JointLaw> law{};
 
-    bool is_lost = false; ///< between the planes, but not in the mesh
+    bool is_lost    = false; ///< between the planes, but not in the mesh
+    bool is_reduced = true;  ///< the factor divides its strength
 
     // only for judge_rotation()
     double tensile_strength = 0.;               ///< [Pa]
@@ -60,12 +61,35 @@ namespace Keyblock
     std::vector<double> normal_forces;
     double driving_force = 0.; ///< along the direction [N]
 
-    /** Resistance over driving force; cohesion alone resists falling and
-     * lifting; 0 if rotating, infinite if stable [-]. */
+    // against it; cohesion alone resists falling and lifting [N]
+    double reduced_resistance = 0.; ///< what the factor divides
+    double fixed_resistance   = 0.; ///< of faces that are not reduced
+
+    /** Number by which the reduced resistance is divided when both together
+     * are the driving force; 0 if rotating, infinite if stable or held by faces
+     * that are not reduced [-]. */
     double factor = 0.;
 
     /** Stable because support bears all that drives the block. */
     bool is_borne = false;
+
+    /** Add the resistance of one face, or of support on it [N]; set_factor() is
+     * to follow. */
+    void
+    add_resistance(const double force, const bool is_reduced)
+    {
+      (is_reduced ? reduced_resistance : fixed_resistance) += force;
+    }
+
+    void set_factor();
+
+    /** Whether faces that are not reduced bear all that drives the block. */
+    bool
+    is_held_by_fixed() const
+    {
+      return mode != Mode::stable && mode != Mode::rotating &&
+             driving_force <= fixed_resistance;
+    }
 
     /** Tell falling from lifting by the block's @p weight [N], which need not
      * be along an axis; nothing changes if there is none. */

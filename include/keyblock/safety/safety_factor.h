@@ -48,6 +48,7 @@ namespace Keyblock
     // the two cheap answers
     std::string limit_mode, limit_remark;
     double limit_factor = 0.;
+    bool limit_moves    = false;  ///< it finds a way; known in the search only
     double stress_ratio = 0.;     ///< on the faces it slides on; 0: none
     SupportDemand support_demand; ///< by limit equilibrium
 

@@ -9,17 +9,19 @@ namespace Keyblock
   /** One run with reduced strength, and what it showed. */
   struct Trial
   {
-    double factor          = 0.;
-    double start           = 0.; ///< factor of the equilibrium it started from
-    bool is_of_group       = false; ///< of all blocks that move together
-    bool is_stable         = false;
-    bool is_undecided      = false; ///< neither at rest nor failing
-    unsigned int phase     = 1;     ///< that decided
-    double slip            = 0.;    ///< mean, since the stage [m]
-    double velocity        = 0.;    ///< of the slip, last window [m/s]
-    double acceleration    = 0.;    ///< fitted to the last windows [m/s2]
-    double unbalanced      = 0.; ///< resultant on the block over its weight [-]
-    unsigned int n_broken  = 0;  ///< bonds of the block's joints, in the trial
+    double factor         = 0.;
+    double start          = 0.; ///< factor of the equilibrium it started from
+    bool is_of_group      = false; ///< of all blocks that move together
+    bool is_stable        = false;
+    bool is_undecided     = false; ///< neither at rest nor failing
+    unsigned int phase    = 1;     ///< that decided
+    double slip           = 0.;    ///< mean, since the stage [m]
+    double velocity       = 0.;    ///< of the slip, last window [m/s]
+    double acceleration   = 0.;    ///< fitted to the last windows [m/s2]
+    double unbalanced     = 0.;  ///< resultant on the block over its weight [-]
+    unsigned int n_broken = 0;   ///< bonds of the block's joints, in the trial
+    double weakened_area  = 0.;  ///< of them that have lost cohesion by its
+                                 ///< end [m^(dim-1)]
     unsigned int n_steps   = 0;  ///< of both phases
     double seconds         = 0.; ///< wall time
     double phase_1_seconds = 0.;

@@ -13,7 +13,8 @@ namespace Keyblock
    * faces that it moves along by @p limit; if it leaves all of them, as one
    * that falls, of each the part along its way; if it cannot move, on all.
    * Friction that depends on pressure is that of the mean one of now, cohesion
-   * that of the points that are not open.
+   * that of the points that are not open. Strength of faces that are not
+   * reduced is taken from the force instead.
    */
   template <int dim>
   double stress_ratio(const Scene<dim> &scene,
