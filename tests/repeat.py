@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Run a scene twice and compare the two histories byte by byte.
 
+What is said goes to a pipe, and has no carriage returns.
+
 usage: repeat.py KEYBLOCK SCENE RANKS FOLDER
 """
 import subprocess
@@ -17,6 +19,9 @@ for run in ("first", "second"):
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"the run failed: {done.stdout}{done.stderr}")
+    # mpirun gives its ranks a terminal, though this is none
+    if "\r" in done.stdout.replace("\r\n", "\n"):
+        sys.exit("the output has the line of progress of a terminal")
     with open(f"{folder}_{run}/history.csv", "rb") as file:
         histories.append(file.read())
 if histories[0] != histories[1]:

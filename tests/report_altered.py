@@ -139,6 +139,23 @@ def check_demand():
             "early") in row, row
 
 
+def check_tie():
+    """Of stages with equal factors the row has the most dangerous one."""
+    def change(_, block):
+        limit, = block["limit_equilibrium"]
+        factor, = block["safety_factor"]
+        set_factor(block, outcome="above 1.2, as wanted", lower=1.2)
+        falls = {**limit, "outcome": "factor", "value": 0., "mode": "falling"}
+        stable = {**limit, "outcome": "stable", "mode": "stable"}
+        del stable["value"]
+        block["limit_equilibrium"] = [{**falls, "stage": "early"}, stable]
+        block["safety_factor"] = [{**factor, "stage": "early"}, factor]
+
+    row = row_of(altered(change)[1], 1)
+    assert all(text in row for text in (
+        "0 (falls)", "as wanted after early", "<td>yes</td>")), row
+
+
 def check_lost():
     """A part that cannot be made is told; the rest and the tables are there."""
     def change(summary, _):
@@ -179,7 +196,7 @@ def main():
                     "Output/Write VTU=true"],
                    check=True, stdout=subprocess.DEVNULL)
     for case in (check_open, check_support, check_moving, check_held,
-                 check_demand, check_lost, check_unjudged, check_pipe):
+                 check_demand, check_tie, check_lost, check_unjudged, check_pipe):
         case()
         print(f"{case.__name__}: as it should be")
 

@@ -83,6 +83,33 @@ def faults_of_groups(keyblock, scene, folder):
     return faults
 
 
+def faults_of_joints(keyblock, folder):
+    """What is wrong where variables are strengths of a set, of a bent joint and
+    of a pattern, which are changed in place: samples are those of scenes that
+    are read anew, as another variable demands."""
+    scene = str(pathlib.Path(__file__).with_name("scenes")
+                / "study_joints.prm")
+    table, results = study(keyblock, scene, folder / "joints")
+    faults = []
+    if results["seconds"] > 2:
+        faults.append(f"1000 samples of strengths took {results['seconds']} s")
+    slow = study(keyblock, scene, folder / "joints_read", "Study/Samples=40",
+                 "Study/Names=set, bent, pattern, idle",
+                 "Study/idle/Entry=Safety factor/Bracket",
+                 "Study/idle/Distribution=uniform", "Study/idle/Minimum=0.01",
+                 "Study/idle/Maximum=0.02")[0]
+    for row, expected in zip(table.splitlines()[1:42], slow.splitlines()[1:]):
+        values = expected.split(",")
+        if row.split(",") != values[:4] + values[5:]:
+            faults.append(f"row '{row}' is not '{expected}'")
+            break
+    if study(keyblock, scene, folder / "joints_2", ranks=2)[0] != table:
+        faults.append("2 ranks have other samples of strengths")
+    if [block["id"] for block in results["blocks"]] != [1, 2]:
+        faults.append("infinite rock is among the blocks of a study")
+    return faults
+
+
 def faults_of_going_on(keyblock, scene, folder):
     """What is wrong where there are more or fewer samples, another threshold,
     or other settings."""
@@ -203,6 +230,7 @@ def main():
     if "factor_1" in drawn[1] or abs(float(drawn[2].split(",")[2]) / factor - 1) > 1e-6:
         faults.append(f"a dip that varies has '{drawn[1]}' and '{drawn[2]}'")
     faults += faults_of_going_on(keyblock, scene, folder)
+    faults += faults_of_joints(keyblock, folder)
     faults += faults_of_runs(keyblock, scene, folder)
     faults += faults_of_groups(keyblock, scene, folder)
     if faults:

@@ -6,7 +6,7 @@ usage: vtu.py KEYBLOCK PRM FOLDER CASE
 
 column: a point for each node and the closed form's stress as a tensor at cells,
 on one rank and on two. wedge: a block on two joints in space, its vectors,
-states and factor, and files of less than 120 bytes a cell. stages: plastic rock
+states and factor, also one that is as wanted, and files of less than 120 bytes a cell. stages: plastic rock
 that is dug in two stages, their names, and the same files by a run that goes on
 from a checkpoint. bolts: a bolt that is tensioned. vtk: VTK reads all of that;
 77 where it is not installed.
@@ -142,6 +142,7 @@ def assert_wedge():
         assert outcome == ("value" if block == 1 else "none")
         assert abs(value - factor) < 1e-6 if block == 1 else math.isnan(value)
     assert_faces(scene, Grid(FOLDER / name.replace("rock", "interface")))
+    assert_wanted()
     planes = Grid(FOLDER / "joints.vtu")
     assert planes.called("joint") == ["A", "B"]
     assert set(planes.cell_types) == {POLYGON}
@@ -170,6 +171,17 @@ def assert_faces(scene, joints):
                 assert abs(across) <= 1e-6 * math.hypot(*vector), name
     assert min(joints.at_points["pressure (Pa)"]) >= 0.
     assert max(math.hypot(*s) for s in joints.at_points["shear (Pa)"]) > 1.
+
+
+def assert_wanted():
+    """A search that ends at the wanted factor has no value, but a name."""
+    summary, entries = run("verification/wedge_3d", FOLDER / "wanted",
+                           "Output/Write VTU=true", "Safety factor/Wanted=0.8")
+    factor, = summary["blocks"][0]["safety_factor"]
+    assert factor["outcome"] == "above 0.8, as wanted"
+    rock = Grid(FOLDER / "wanted" / rocks(entries)[-1][0])
+    assert set(rock.called("safety factor outcome")) == {"as wanted", "none"}
+    assert all(map(math.isnan, rock.at_cells["safety factor"]))
 
 
 def assert_stages():

@@ -75,9 +75,21 @@ def size_alone(result):
     return result.get("value", result.get("lower", math.inf))
 
 
-def least(results):
-    """The result with the least factor, or None; of equal ones the last."""
-    return min(reversed(results), key=size_of) if results else None
+def least(results, limits=()):
+    """The result with the least factor, or None.
+
+    Of equal ones that of the stage with the least limit equilibrium, as
+    "limits" has it, then of that which asks for most support, then the last."""
+    def order_of(result):
+        limit = of_stage(limits, result.get("stage"))
+        return (size_of(result), size_of(limit) if limit else math.inf,
+                -force_of(demand_of(limit)))
+    return min(reversed(results), key=order_of) if results else None
+
+
+def force_of(demand):
+    """The force that a demand for support asks for; infinite: none does."""
+    return demand.get("force", math.inf) if demand else 0.
 
 
 def of_stage(results, stage):
@@ -152,7 +164,7 @@ def largest_demand(limits):
     """The largest support that a stage asks for, with its name; or None."""
     demands = [{**demand_of(limit), "stage": limit.get("stage")}
                for limit in limits if demand_of(limit)]
-    return max(demands, key=lambda d: d.get("force", math.inf), default=None)
+    return max(demands, key=force_of, default=None)
 
 
 def row_of(run, geometry, n, moved_off, moving):
@@ -160,8 +172,9 @@ def row_of(run, geometry, n, moved_off, moving):
     block = run.blocks[n]
     factors, limits = (block.get(key, []) for key in
                        ("safety_factor", "limit_equilibrium"))
-    worst = least(factors)
-    limit = of_stage(limits, worst["stage"]) if worst else least(limits)
+    worst = least(factors, limits)
+    limit = (of_stage(limits, worst["stage"]) if worst else
+             least(limits, limits))
     exposed = block.get("exposed_stage")
     row = {"block": n, "exposed": exposed is not None,
            "since": None if exposed is None else run.stage_name(exposed),

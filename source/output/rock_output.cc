@@ -97,6 +97,8 @@ namespace Keyblock
     /** Safety factors by block: value, and SafetyFactor::Outcome from 1 on. */
     class FactorArrays
     {
+      using Outcome = SafetyFactor::Outcome;
+
     public:
       VtuArray factor  = VtuArray::scalar("safety factor");
       VtuArray outcome = VtuArray::ids("safety factor outcome");
@@ -110,27 +112,53 @@ namespace Keyblock
           last[one.block] = &one;
       }
 
+      /** Names of the ids, in their order. */
       static std::vector<std::string>
       outcomes()
       {
-        return {
-          "none", "value", "falls freely", "immovable", "clamped", "undecided"};
+        std::vector<std::string> names = {"none"};
+        for (std::string name = name_of(Outcome()); !name.empty();
+             name             = name_of(static_cast<Outcome>(names.size() - 1)))
+          names.push_back(name);
+        return names;
       }
 
       /** Add what is known of @p block, or not a number. */
       void
       add(const unsigned int block)
       {
-        using Outcome             = SafetyFactor::Outcome;
         const SafetyFactor *found = block == none ? nullptr : last[block];
-        const bool is_number = found && found->outcome != Outcome::clamped &&
-                               found->outcome != Outcome::undecided;
+        const bool is_number =
+          found && (found->outcome == Outcome::bracketed ||
+                    found->outcome == Outcome::falls_freely ||
+                    found->outcome == Outcome::immovable);
         factor.add(is_number ? found->value()
                              : std::numeric_limits<double>::quiet_NaN());
         outcome.add_id(found ? static_cast<int>(found->outcome) + 1 : 0);
       }
 
     private:
+      static std::string
+      name_of(const Outcome outcome)
+      {
+        switch (outcome) // (no default: the compiler asks for new ones)
+          {
+            case Outcome::bracketed:
+              return "value";
+            case Outcome::falls_freely:
+              return "falls freely";
+            case Outcome::immovable:
+              return "immovable";
+            case Outcome::clamped:
+              return "clamped";
+            case Outcome::undecided:
+              return "undecided";
+            case Outcome::met:
+              return "as wanted";
+          }
+        return "";
+      }
+
       std::vector<const SafetyFactor *> last;
     };
 

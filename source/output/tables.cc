@@ -6,12 +6,11 @@
 #include <keyblock/blocks/excavation_parts.h>
 #include <keyblock/blocks/free_faces.h>
 #include <keyblock/output/output.h>
+#include <keyblock/safety/least_factor.h>
 #include <keyblock/scene/gravity.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <map>
 
 namespace Keyblock
@@ -20,8 +19,6 @@ namespace Keyblock
   {
     using Outcome = SafetyFactor::Outcome;
     using Fields  = std::vector<std::string>;
-
-    constexpr double infinity = std::numeric_limits<double>::infinity();
 
     /** A number, or nothing if it is not positive. */
     std::string
@@ -38,44 +35,10 @@ namespace Keyblock
                : "stable";
     }
 
-    /** A number by which the most dangerous factor of a block is found. */
-    double
-    size_of(const SafetyFactor &factor)
-    {
-      double alone = infinity;
-      if (factor.outcome == Outcome::falls_freely)
-        alone = 0.;
-      else if (factor.outcome == Outcome::bracketed)
-        alone = factor.value();
-      else if (factor.outcome == Outcome::undecided)
-        alone =
-          factor.undecided_lower > 0. ? factor.undecided_lower : factor.lower;
-      else if (factor.outcome != Outcome::immovable)
-        alone = factor.lower;
-      return factor.group.empty() ? alone
-                                  : std::min(alone, factor.value_of_group());
-    }
-
-    /** The least factor of a block (index), of equal ones the last; null: none
-     * was looked for. */
-    const SafetyFactor *
-    least_factor(const std::vector<SafetyFactor> &factors,
-                 const unsigned int block)
-    {
-      const SafetyFactor *least = nullptr;
-      for (const SafetyFactor &factor : factors)
-        if (factor.block == block &&
-            (least == nullptr || size_of(factor) <= size_of(*least)))
-          least = &factor;
-      return least;
-    }
-
-    /** Titles of what factor_fields() and demand_fields() give. */
-    template <int dim>
+    /** Titles of what factor_fields() gives. */
     Fields
     factor_titles()
     {
-      const std::string per_metre = dim == 2 ? " per m" : "";
       return {"outcome",
               "factor",
               "lower",
@@ -90,9 +53,16 @@ namespace Keyblock
               "group",
               "group factor",
               "group lower",
-              "group upper",
-              "support for factor",
-              "support (N" + per_metre + ")",
+              "group upper"};
+    }
+
+    /** Titles of what demand_fields() gives. */
+    template <int dim>
+    Fields
+    demand_titles()
+    {
+      return {"support for factor",
+              std::string("support (N") + (dim == 2 ? " per m)" : ")"),
               "support pressure (Pa)",
               "support bolts"};
     }
@@ -121,26 +91,28 @@ namespace Keyblock
       std::string group;
       for (const unsigned int id : factor.group)
         group += (group.empty() ? "" : " ") + std::to_string(id);
-      Fields fields = {describe_outcome(factor),
-                       is_closed ? exact_text(factor.value()) : "",
-                       positive(factor.lower),
-                       is_closed ? positive(factor.upper) : "",
-                       factor.undecided_upper > 0.
-                         ? positive(factor.undecided_lower)
-                         : "",
-                       positive(factor.undecided_upper),
-                       factor.failure_mode,
-                       limit_factor_of(factor),
-                       factor.limit_mode,
-                       factor.limit_remark,
-                       positive(factor.stress_ratio),
-                       group,
-                       group.empty() ? "" : positive(factor.value_of_group()),
-                       group.empty() ? "" : positive(factor.group_lower),
-                       group.empty() ? "" : positive(factor.group_upper)};
-      for (const std::string &field : demand_fields(factor.support_demand))
-        fields.push_back(field);
-      return fields;
+      return {describe_outcome(factor),
+              is_closed ? exact_text(factor.value()) : "",
+              positive(factor.lower),
+              is_closed ? positive(factor.upper) : "",
+              factor.undecided_upper > 0. ? positive(factor.undecided_lower)
+                                          : "",
+              positive(factor.undecided_upper),
+              factor.failure_mode,
+              limit_factor_of(factor),
+              factor.limit_mode,
+              factor.limit_remark,
+              positive(factor.stress_ratio),
+              group,
+              group.empty() ? "" : positive(factor.value_of_group()),
+              group.empty() ? "" : positive(factor.group_lower),
+              group.empty() ? "" : positive(factor.group_upper)};
+    }
+
+    void
+    append(Fields &fields, const Fields &more)
+    {
+      fields.insert(fields.end(), more.begin(), more.end());
     }
 
     /** Size and place of a block's free faces in the stage that exposes it. */
@@ -233,8 +205,9 @@ namespace Keyblock
                                      "joints",
                                      "removed in",
                                      "factor after"};
-      const Fields more           = factor_titles<dim>();
-      titles.insert(titles.end(), more.begin(), more.end());
+      append(titles, factor_titles());
+      append(titles, demand_titles<dim>());
+      titles.emplace_back("support after");
       std::string text    = csv_line(titles);
       const double weight = weight_per_mass(scene);
       Exposure<dim> exposure(scene, split);
@@ -256,8 +229,7 @@ namespace Keyblock
                                         exposed[1],
                                         exposed[0],
                            block.is_removable ? "yes" : "no",
-                                        exact_text(block.exact.is_known ? block.exact.volume
-                                                           : block.volume),
+                                        exact_text(best_volume(block)),
                                         exact_text(block.volume),
                                         exact_text(weight * block.exact_mass()),
                                         exact_text(block.width),
@@ -267,9 +239,14 @@ namespace Keyblock
                                           ? name_of_stage(scene, removal_stage[b])
                                           : "",
                            factor == nullptr ? "" : factor->stage};
-          const Fields found =
-            factor == nullptr ? Fields(more.size()) : factor_fields(*factor);
-          fields.insert(fields.end(), found.begin(), found.end());
+          append(fields,
+                 factor == nullptr ? Fields(factor_titles().size())
+                                   : factor_fields(*factor));
+          const SafetyFactor *asking = largest_demand(factors, b);
+          append(fields,
+                 demand_fields(asking == nullptr ? SupportDemand()
+                                                 : asking->support_demand));
+          fields.push_back(asking == nullptr ? "" : asking->stage);
           text += csv_line(fields);
         }
       return text;
@@ -280,19 +257,19 @@ namespace Keyblock
     factors_table(const Blocks<dim> &blocks,
                   const std::vector<SafetyFactor> &factors)
     {
-      Fields titles     = {"block", "stage"};
-      const Fields more = factor_titles<dim>();
-      titles.insert(titles.end(), more.begin(), more.end());
+      Fields titles = {"block", "stage"};
+      append(titles, factor_titles());
+      append(titles, demand_titles<dim>());
       titles.emplace_back("trials");
       std::string text = csv_line(titles);
       for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
         for (const SafetyFactor &factor : factors)
           if (factor.block == b)
             {
-              Fields fields      = {std::to_string(blocks.blocks[b].id),
-                                    factor.stage};
-              const Fields found = factor_fields(factor);
-              fields.insert(fields.end(), found.begin(), found.end());
+              Fields fields = {std::to_string(blocks.blocks[b].id),
+                               factor.stage};
+              append(fields, factor_fields(factor));
+              append(fields, demand_fields(factor.support_demand));
               fields.push_back(std::to_string(factor.trials.size()));
               text += csv_line(fields);
             }

@@ -4,13 +4,10 @@
 #include <keyblock/base/stop_request.h>
 #include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/run/probability_study.h>
-#include <keyblock/scene/check_parts.h>
 #include <keyblock/scene/entries.h>
 #include <keyblock/scene/solid.h>
 #include <keyblock/scene/study_entries.h>
-#include <keyblock/scene/text.h>
 
-#include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +51,10 @@ namespace Keyblock
       "/";
     draw();
     check_study_values(scene, values);
-    find_joints();
+    strengths = std::make_unique<VariedStrengths<dim>>(
+      scene, values, [&](const std::vector<double> &drawn, Scene<dim> &sample) {
+        sample.read(communicator, scene_file, overrides_of(drawn));
+      });
   }
 
 
@@ -68,58 +68,6 @@ namespace Keyblock
                        [](const auto &v) {
                          return !leaves_geometry(v->entry);
                        });
-  }
-
-
-
-  template <int dim>
-  void
-  ProbabilityStudy<dim>::find_joints()
-  {
-    for (const auto &variable : scene.study_variables)
-      {
-        const std::string name = last_of(variable->entry);
-        for (const auto &joint : scene.joints)
-          if (variable->entry == "Joints/" + joint->name + "/" + name &&
-              is_strength(name))
-            joints.push_back(joint.get());
-      }
-    // all of them, or nothing is gained
-    if (joints.size() < scene.study_variables.size())
-      joints.clear();
-    for (const Joint<dim> *joint : joints)
-      strengths.push_back(*joint);
-  }
-
-
-
-  template <int dim>
-  void
-  ProbabilityStudy<dim>::set_strengths(const unsigned int index) const
-  {
-    for (unsigned int v = 0; v < values.size(); ++v)
-      {
-        const std::string &entry = scene.study_variables[v]->entry;
-        dealii::ParameterHandler prm;
-        joints[v]->declare_strength(prm);
-        parse_entries(prm,
-                      "set " + last_of(entry) + " = " +
-                        exact_text(values[v][index]),
-                      scene_file,
-                      "the variable '" + scene.study_variables[v]->name + "'");
-      }
-    for (const Joint<dim> *joint : joints)
-      check_joint(*joint);
-  }
-
-
-
-  template <int dim>
-  void
-  ProbabilityStudy<dim>::reset_strengths() const
-  {
-    for (unsigned int j = 0; j < joints.size(); ++j)
-      static_cast<JointStrength &>(*joints[j]) = strengths[j];
   }
 
 
@@ -141,13 +89,25 @@ namespace Keyblock
 
   template <int dim>
   std::vector<std::string>
-  ProbabilityStudy<dim>::overrides_of(const unsigned int index) const
+  ProbabilityStudy<dim>::overrides_of(const std::vector<double> &drawn) const
   {
     std::vector<std::string> list = overrides;
-    for (unsigned int v = 0; v < values.size(); ++v)
+    for (unsigned int v = 0; v < drawn.size(); ++v)
       list.push_back(scene.study_variables[v]->entry + "=" +
-                     exact_text(values[v][index]));
+                     exact_text(drawn[v]));
     return list;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  ProbabilityStudy<dim>::overrides_of(const unsigned int index) const
+  {
+    std::vector<double> drawn;
+    for (const std::vector<double> &all : values)
+      drawn.push_back(all[index]);
+    return overrides_of(drawn);
   }
 
 
@@ -227,7 +187,7 @@ namespace Keyblock
     // what no sample can be made of is said before anything is written
     if (results.empty())
       judge_named(0, false);
-    reset_strengths();
+    strengths->reset();
     n_resumed = results.size();
     communicator.on_root([&]() {
       std::error_code error;

@@ -3,7 +3,6 @@
 #include <keyblock/run/progress_line.h>
 
 #include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,14 +44,9 @@ namespace Keyblock
 
 
   unsigned int
-  terminal_width()
+  terminal_width(const int file_descriptor)
   {
-    if (!isatty(STDOUT_FILENO))
-      return 0;
     winsize size{};
-    constexpr unsigned int usual = 80;
-    return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0
-             ? size.ws_col
-             : usual;
+    return ioctl(file_descriptor, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
   }
 } // namespace Keyblock

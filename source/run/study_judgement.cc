@@ -102,13 +102,13 @@ namespace Keyblock
                                const bool may_run) const
   {
     Scene<dim> changed;
-    if (!joints.empty())
-      set_strengths(index);
+    if (strengths->are_all())
+      strengths->set(index);
     else
       changed.read(Communicator(MPI_COMM_SELF),
                    scene_file,
                    overrides_of(index));
-    const Scene<dim> &sample = joints.empty() ? changed : scene;
+    const Scene<dim> &sample = strengths->are_all() ? scene : changed;
     BlockGeometry<dim> own;
     if (!geometry)
       own = make_geometry(sample);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/blocks/block_measures.h>
 #include <keyblock/mesh/size_remedy.h>
 #include <keyblock/run/study_report.h>
 
@@ -102,10 +103,8 @@ namespace Keyblock
     for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
       if (factors[b] < threshold)
         {
-          const auto &block = blocks.blocks[b];
           ++result.n_failed;
-          result.failed_volume +=
-            block.exact.is_known ? block.exact.volume : block.volume;
+          result.failed_volume += best_volume(blocks.blocks[b]);
         }
   }
 
@@ -285,6 +284,31 @@ namespace Keyblock
 
 
   template <int dim>
+  nlohmann::ordered_json
+  StudyReport<dim>::describe_blocks() const
+  {
+    Json list = Json::array();
+    for (unsigned int b = 0; blocks && b < blocks->blocks.size(); ++b)
+      {
+        const Block<dim> &block = blocks->blocks[b];
+        if (block.is_infinite || block.is_rigid)
+          continue;
+        std::vector<double> factors;
+        for (const SampleResult &result : results)
+          if (std::isfinite(result.factors[b]))
+            factors.push_back(result.factors[b]);
+        Json json = {{"id", block.id},
+                     {"volume", best_volume(block)},
+                     {"probability", as_json(probability_of_block(b))}};
+        put_statistics(factors, "factor", json);
+        list.push_back(json);
+      }
+    return list;
+  }
+
+
+
+  template <int dim>
   bool
   StudyReport<dim>::write(const std::string &file_name) const
   {
@@ -341,22 +365,8 @@ namespace Keyblock
             root["convergence"].push_back(point);
           }
       }
-    if (blocks)
-      {
-        root["blocks"] = Json::array();
-        for (unsigned int b = 0; b < blocks->blocks.size(); ++b)
-          {
-            std::vector<double> factors;
-            for (const SampleResult &result : results)
-              if (std::isfinite(result.factors[b]))
-                factors.push_back(result.factors[b]);
-            Json block = {{"id", blocks->blocks[b].id},
-                          {"volume", blocks->blocks[b].volume},
-                          {"probability", as_json(probability_of_block(b))}};
-            put_statistics(factors, "factor", block);
-            root["blocks"].push_back(block);
-          }
-      }
+    if (const Json list = describe_blocks(); !list.empty())
+      root["blocks"] = list;
     std::ofstream out(file_name);
     out << root.dump(2) << '\n';
     return static_cast<bool>(out.flush());

@@ -4,7 +4,12 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <cmath>
+#include <cstdlib>
 
 BOOST_AUTO_TEST_SUITE(progress_line)
 
@@ -47,6 +52,26 @@ BOOST_AUTO_TEST_CASE(durations_for_people)
   BOOST_TEST(duration_text(99.) == "99 s");
   BOOST_TEST(duration_text(210.) == "3.5 min");
   BOOST_TEST(duration_text(7560.) == "2.1 h");
+}
+
+BOOST_AUTO_TEST_CASE(terminals_without_a_size_are_none)
+{
+  const int main_end = posix_openpt(O_RDWR | O_NOCTTY);
+  BOOST_REQUIRE(main_end >= 0);
+  BOOST_REQUIRE((grantpt(main_end) == 0 && unlockpt(main_end) == 0));
+  const int terminal = open(ptsname(main_end), O_RDWR | O_NOCTTY);
+  BOOST_REQUIRE(isatty(terminal));
+  BOOST_TEST(terminal_width(terminal) == 0u);
+  winsize size{};
+  size.ws_col = 133;
+  BOOST_REQUIRE(ioctl(main_end, TIOCSWINSZ, &size) == 0);
+  BOOST_TEST(terminal_width(terminal) == 133u);
+  close(terminal);
+  BOOST_TEST(terminal_width(terminal) == 0u); // no file
+  const int pipe_like = open("/dev/null", O_WRONLY);
+  BOOST_TEST(terminal_width(pipe_like) == 0u);
+  close(pipe_like);
+  close(main_end);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -26,6 +26,15 @@ namespace Keyblock
                        const Mesh<dim> &mesh,
                        const Scene<dim> &scene);
 
+  /** Volume between the planes, if it is known, or else that of the mesh
+   * [m^dim]. */
+  template <int dim>
+  double
+  best_volume(const Block<dim> &block)
+  {
+    return block.exact.is_known ? block.exact.volume : block.volume;
+  }
+
   /** Weight of a mass in the scene, at its origin and time zero; in a scene
    * without gravity standard gravity [m/s2]. */
   template <int dim>

@@ -4,6 +4,7 @@
 
 #include <keyblock/blocks/block_geometry.h>
 #include <keyblock/run/study_report.h>
+#include <keyblock/run/varied_strengths.h>
 
 #include <memory>
 #include <string>
@@ -17,8 +18,9 @@ namespace Keyblock
    * equilibrium of rigid blocks after every stage that changes something; no
    * step is taken. At the level full those with a critical block are run, too,
    * each by one rank, and their critical blocks judged by strength reduction.
-   * Ranks share the samples. Meshes are made anew only where a
-   * variable changes more than strengths and loads. samples.csv grows as the
+   * Ranks share the samples. Meshes are made anew only where a variable changes
+   * more than strengths and loads, and the scene is read anew only where one
+   * changes more than strengths of joints. samples.csv grows as the
    * study goes, and a study of the same scene in the same folder goes on from
    * there, also with more or fewer random samples; results of another one are
    * moved into a folder of their own. study.json has the results.
@@ -45,18 +47,11 @@ namespace Keyblock
     /** Whether a variable changes more than strengths and loads. */
     bool changes_geometry() const;
 
-    /** Look for the joints whose strengths the variables are. */
-    void find_joints();
-
-    /** Put the values of a sample into the joints of `scene`: where all
-     * variables are strengths of joints nothing else has to be read anew.
-     * Throws InputError. */
-    void set_strengths(const unsigned int index) const;
-
-    /** Put those of the scene back, which used.prm has to have. */
-    void reset_strengths() const;
-
     BlockGeometry<dim> make_geometry(const Scene<dim> &sample) const;
+
+    /** Overrides that give the variables these values. */
+    std::vector<std::string>
+    overrides_of(const std::vector<double> &drawn) const;
 
     /** Overrides that make a sample of the scene. */
     std::vector<std::string> overrides_of(const unsigned int index) const;
@@ -125,10 +120,7 @@ namespace Keyblock
     Scene<dim> scene;
     std::string folder;
 
-    /** Of the scene, by variable, where all variables are strengths of joints;
-     * else empty. */
-    std::vector<Joint<dim> *> joints;
-    std::vector<JointStrength> strengths; ///< those of the scene, of `joints`
+    std::unique_ptr<VariedStrengths<dim>> strengths; ///< of the scene
     std::string header;
     std::unique_ptr<BlockGeometry<dim>> geometry; ///< null: one for each sample
     std::vector<std::vector<double>> values;

@@ -29,8 +29,13 @@ namespace Keyblock
   /** That many seconds for people: 45 s, 3.5 min, 2.1 h. */
   std::string duration_text(const double seconds);
 
-  /** Columns of the terminal that standard output is, or 0 if it is none. */
-  unsigned int terminal_width();
+  /**
+   * Columns of the terminal that a file (standard output) is, or 0 if it is
+   * none or has no size: Open MPI gives its ranks pseudo-terminals with the
+   * size of its own terminal, and without one if its output goes to a file or a
+   * pipe.
+   */
+  unsigned int terminal_width(const int file_descriptor = 1);
 } // namespace Keyblock
 
 #endif

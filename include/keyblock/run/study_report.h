@@ -5,6 +5,8 @@
 #include <keyblock/blocks/blocks.h>
 #include <keyblock/safety/sample_statistics.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -80,6 +82,9 @@ namespace Keyblock
 
     /** Probability that a block (by index) fails, over all samples. */
     ProbabilityEstimate probability_of_block(const unsigned int block) const;
+
+    /** Size, probability and factors of the finite blocks. */
+    nlohmann::ordered_json describe_blocks() const;
 
     /** What the mesh, or those of samples, have changed of blocks. */
     std::vector<std::string> warnings() const;
