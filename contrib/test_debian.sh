@@ -20,11 +20,13 @@ if [ ! -e "$system/etc/debian_version" ]; then
 fi
 
 leave() {
-  umount "$system/sys" "$system/proc" "$system/dev/shm" "$system/dev" 2>/dev/null || true
+  umount "$system/sys" "$system/proc" "$system/dev/pts" "$system/dev/shm" \
+    "$system/dev" 2>/dev/null || true
 }
 trap leave EXIT
 mount --bind /dev "$system/dev"
 mount -t tmpfs none "$system/dev/shm"
+mount --bind /dev/pts "$system/dev/pts"
 mount -t proc none "$system/proc"
 mount -t sysfs none "$system/sys"
 
@@ -34,7 +36,7 @@ find "$system/keyblock" -mindepth 1 -maxdepth 1 ! -name 'build*' \
   -exec rm -rf {} +
 tar -C "$root" --exclude='./build*' --exclude='./.git' -c . |
   tar -C "$system/keyblock" -x
-chroot "$system" env JOBS="${JOBS:-$(nproc)}" HOME=/root LC_ALL=C.UTF-8 \
+chroot "$system" env JOBS="${JOBS:-$(nproc)}" HOME=/root LC_ALL=C.UTF-8 OMPI_MCA_btl=^tcp \
   TMPDIR=/tmp sh -c '
     cd /keyblock && PYTHON_MODULE=ON contrib/setup.sh && cd build &&
     ctest --output-on-failure -j "$JOBS" --timeout 120 "$@"' sh "$@"

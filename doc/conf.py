@@ -11,6 +11,7 @@ import pathlib
 import re
 import shutil
 
+import myst_parser
 from docutils import nodes
 from pygments.lexer import RegexLexer, bygroups
 from pygments.token import Comment, Keyword, Name, Operator, String, Text
@@ -36,6 +37,10 @@ highlight_language = "none"
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 myst_update_mathjax = False
+# newer releases warn of links to files of the repository that are no pages; the
+# test of documents looks whether they are there
+if int(myst_parser.__version__.split(".")[0]) >= 1:
+    suppress_warnings = ["myst.xref_missing"]
 # formulas have their own numbers, \tag{n}
 math_number_all = False
 suppress_warnings = ["myst.header"]

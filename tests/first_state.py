@@ -42,9 +42,10 @@ def assert_equilibrium():
     assert first["energy.kinetic"] == 0. and first["energy.residual"] == 0.
     assert first["energy.elastic"] > 0.
     assert first["unbalanced_ratio"] < 1e-8
-    # 2 x 4.72 m of joint; the least principal stress is a third of the other
-    depths = 26487. * 5. * 2. * 4.717
-    assert depths / 4. < first["all.normal_force"] < depths, first
+    # 2 x 4.717 m of joint under a hydrostatic stress, but for what the mesh makes
+    # of them
+    hydrostatic = 26487. * 5. * 2. * 4.717
+    assert abs(first["all.normal_force"] / hydrostatic - 1.) < 0.05, first
     # where a joint ends in rock that is dug later its sides are still welded
     joints = Grid(f"{folder}/interface_0000.vtu")
     pressure = [p for p, state in zip(joints.at_points["pressure (Pa)"],
