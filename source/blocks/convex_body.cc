@@ -31,6 +31,7 @@ namespace Keyblock
           const Tensor<1, dim> first  = once[0] - middle,
                                second = cross_product_3d(normal, first);
           std::vector<std::pair<double, Point<dim>>> turned;
+          turned.reserve(once.size());
           for (const Point<dim> &p : once)
             turned.emplace_back(std::atan2((p - middle) * second,
                                            (p - middle) * first),

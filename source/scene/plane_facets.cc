@@ -163,6 +163,7 @@ namespace Keyblock
     corners_of(const TriangleSurface &surface, const Loop &loop)
     {
       std::vector<Point<3>> corners;
+      corners.reserve(loop.size());
       for (const unsigned int v : loop)
         corners.push_back(surface.vertices[v]);
       return corners;

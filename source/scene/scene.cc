@@ -71,7 +71,7 @@ namespace Keyblock
     read_names(ParameterHandler &prm, const std::string &section)
     {
       prm.enter_subsection(section);
-      const std::vector<std::string> names =
+      std::vector<std::string> names =
         dealii::Utilities::split_string_list(prm.get("Names"));
       prm.leave_subsection();
       std::set<std::string> seen;

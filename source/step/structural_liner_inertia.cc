@@ -64,6 +64,7 @@ namespace Keyblock
     StepBound bound;
     const std::map<unsigned int, double> rows = row_sums();
     std::vector<unsigned int> vertices;
+    vertices.reserve(rows.size());
     for (const auto &[vertex, sum] : rows)
       vertices.push_back(vertex);
     if (vertices.empty())

@@ -10,8 +10,6 @@
 
 namespace Keyblock
 {
-  using dealii::SymmetricTensor;
-
   namespace
   {
     /** Circular hole of radius a in an elastic plate with stresses x and y far
