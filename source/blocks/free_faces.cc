@@ -230,11 +230,13 @@ namespace Keyblock
         for (const Point<dim> &probe : probes_of(faces[i]))
           {
             keep_nearer(first_ahead(probe, direction, 0., left(), block));
-            swept.insert(swept.end(), {probe, probe + reach * direction});
+            swept.push_back(probe);
           }
       }
     if (swept.empty())
       return first;
+    for (unsigned int i = swept.size(); i-- > 0;)
+      swept.push_back(swept[i] + left() * direction);
     // corners ahead, on the way back
     std::vector<Entry> ahead;
     tree.query(boost::geometry::index::intersects(

@@ -2,8 +2,6 @@
 // Closed forms of elastic and plastic rock.
 #include <keyblock/verification/polar_state.h>
 
-#include <deal.II/base/symmetric_tensor.h>
-
 #include <keyblock/scene/gravity.h>
 
 #include <array>
