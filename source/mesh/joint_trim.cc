@@ -3,6 +3,7 @@
 #include <keyblock/mesh/joint_cut_steps.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace Keyblock
@@ -12,6 +13,9 @@ namespace Keyblock
     /** Patches of a joint between other surfaces are dropped if less of them
      * lies inside its rim; from the second on their edges close. */
     constexpr double least_part_inside = 0.3, part_that_closes = 0.5;
+
+    /** So many facets are taken off an end that touches another joint. */
+    constexpr unsigned int most_facets_parted = 4;
 
 
 
@@ -24,6 +28,39 @@ namespace Keyblock
         : mesh(mesh)
         , sheets(sheets)
       {
+        find_facets();
+      }
+
+      void
+      run()
+      {
+        for (const auto &[surface, facets] : facets_of)
+          if (mesh.surfaces[surface].is_joint() &&
+              !sheet_of(surface).is_infinite())
+            trim(surface, facets);
+        bool is_parted = true;
+        for (unsigned int i = 0; i < most_facets_parted && is_parted; ++i)
+          {
+            is_parted = false;
+            find_facets();
+            for (const auto &[surface, facets] : facets_of)
+              if (mesh.surfaces[surface].is_joint() &&
+                  !sheet_of(surface).is_infinite() &&
+                  sheet_of(surface).is_plane())
+                is_parted = part_ends(surface, facets) || is_parted;
+          }
+        mesh.bind_vertices();
+      }
+
+    private:
+      using Facet = typename SimplexMesh<dim>::Facet;
+      using Ridge = std::array<unsigned int, dim - 1>;
+
+      void
+      find_facets()
+      {
+        facets_of.clear();
+        surfaces_at.clear();
         for (const Facet &facet : mesh.marked_facets())
           for (const auto &mark : mesh.marks.at(facet))
             {
@@ -36,20 +73,6 @@ namespace Keyblock
               });
             }
       }
-
-      void
-      run()
-      {
-        for (const auto &[surface, facets] : facets_of)
-          if (mesh.surfaces[surface].is_joint() &&
-              !sheet_of(surface).is_infinite())
-            trim(surface, facets);
-        mesh.bind_vertices();
-      }
-
-    private:
-      using Facet = typename SimplexMesh<dim>::Facet;
-      using Ridge = std::array<unsigned int, dim - 1>;
 
       const JointSheet<dim> &
       sheet_of(const unsigned int surface) const
@@ -117,6 +140,64 @@ namespace Keyblock
             if (part < least_part_inside || inside[i] <= limit)
               drop(facets[i], surface);
           }
+      }
+
+      /** Drop the facets at whose ridges a plane joint ends on another one that
+       * it does not reach: two that are nearly parallel may be nearer to each
+       * other than cells are large, share vertices, and meet far beyond a rim.
+       * Whether there were any. */
+      bool
+      part_ends(const unsigned int surface, const std::vector<Facet> &facets)
+      {
+        std::map<Ridge, unsigned int> n_facets_at;
+        for (const Facet &facet : facets)
+          for_each_ridge<dim>(facet, [&](const Ridge &ridge) {
+            ++n_facets_at[ridge];
+          });
+        bool is_parted = false;
+        for (const Facet &facet : facets)
+          {
+            const double gap = closing * mesh.size_at(facet);
+            bool is_apart    = false;
+            for_each_ridge<dim>(facet, [&](const Ridge &ridge) {
+              if (n_facets_at.at(ridge) == 1)
+                for (const unsigned int other : surfaces_at.at(ridge))
+                  is_apart = is_apart ||
+                             (other != surface &&
+                              !reaches(sheet_of(surface), other, ridge, gap));
+            });
+            if (is_apart)
+              drop(facet, surface);
+            is_parted = is_parted || is_apart;
+          }
+        return is_parted;
+      }
+
+      /** Whether a plane joint meets another surface near a ridge of the mesh
+       * on both not farther beyond its rim than @p gap [m]. */
+      bool
+      reaches(const JointSheet<dim> &sheet,
+              const unsigned int other,
+              const Ridge &ridge,
+              const double gap) const
+      {
+        if (!mesh.surfaces[other].is_joint() || !sheet_of(other).is_plane())
+          return true;
+        Point<dim> here;
+        for (const unsigned int v : ridge)
+          here += 1. / ridge.size() * mesh.vertices[v];
+        const double a         = sheet.distance(here),
+                     b         = sheet_of(other).distance(here);
+        const Tensor<1, dim> m = sheet.normal_at(here),
+                             n = sheet_of(other).normal_at(here);
+        const double cosine = m * n, square_sine = 1. - cosine * cosine;
+        if (std::max(std::abs(a), std::abs(b)) <= 1e-6 * gap)
+          return true;
+        if (square_sine <= 1e-12)
+          return false;
+        const Point<dim> meeting = here + (cosine * b - a) / square_sine * m +
+                                   (cosine * a - b) / square_sine * n;
+        return sheet.depth_inside(meeting) > -gap;
       }
 
       void

@@ -46,14 +46,16 @@ namespace Keyblock
           names += (names.empty() ? "" : ", ") + scene.joints[j]->name;
       if (n == 0)
         return "";
-      const bool has_lost_rock =
-        report.n_lost_blocks > 0 || !report.thin_rock.empty();
+      std::string reasons = "infinite or not closed";
+      if (report.n_lost_blocks > 0 || !report.thin_rock.empty())
+        reasons += ", too small for the cells";
+      if (std::any_of(scene.materials.begin(),
+                      scene.materials.end(),
+                      [](const auto &m) { return m->is_rigid(); }))
+        reasons += ", or hold cells of a rigid material";
       return "All joints stay welded, with 0 pairs, because the blocks beside "
              "them are " +
-             std::string(has_lost_rock
-                           ? "infinite, not closed, or too small for the cells"
-                           : "infinite or not closed") +
-             ": " + names + (n > 8 ? ", ..." : "") +
+             reasons + ": " + names + (n > 8 ? ", ..." : "") +
              "; let joints and outer boundaries enclose blocks, name fewer of "
              "them in "
              "'Domain/Truncated boundaries', or set 'Contact/Weld infinite "

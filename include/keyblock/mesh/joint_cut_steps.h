@@ -47,7 +47,9 @@ namespace Keyblock
    * other surfaces: a patch mostly outside (a flap behind the surface that the
    * joint ends on) goes as a whole, unless none is larger inside; of the others
    * each facet stays whose centre is inside, and beside another surface also
-   * those that close a small gap. @p sheets: of all joints.
+   * those that close a small gap. Ends that touch a joint in the mesh only,
+   * which they would meet farther away than that gap, are parted from it.
+   * @p sheets: of all joints.
    */
   template <int dim>
   void trim_joints(SimplexMesh<dim> &mesh, const JointSheets<dim> &sheets);
