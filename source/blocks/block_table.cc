@@ -10,6 +10,14 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** So many joints of an infinite block are named. */
+    constexpr unsigned int most_joints_of_infinite = 8;
+  } // namespace
+
+
+
   std::string
   to_string(const BlockClass block_class)
   {
@@ -57,8 +65,12 @@ namespace Keyblock
         for (unsigned int d = 0; d < dim; ++d)
           out << (d ? ", " : "") << block.centroid[d];
         out << ")  ";
+        unsigned int n_named = 0;
         for (const auto &[joint, area] : block.joint_area)
-          out << scene.joints[joint]->name << ' ';
+          if (!block.is_infinite || n_named++ < most_joints_of_infinite)
+            out << scene.joints[joint]->name << ' ';
+        if (n_named > most_joints_of_infinite)
+          out << "and " << n_named - most_joints_of_infinite << " more ";
         if (block.exact.is_known &&
             std::abs(block.exact.volume - block.volume) > 1e-9 * block.volume)
           out << " (by its planes " << std::setprecision(6)

@@ -175,7 +175,8 @@ namespace Keyblock
         if (around.largest_bend > least_bend)
           add() << "faces on " << around.bent << ", bent by up to "
                 << around.largest_bend << " degrees, taken as plane";
-        std::map<std::string, unsigned int> n_facets; // of bent joints
+        // facets of bent joints, by their pieces
+        std::map<std::string, std::map<unsigned int, unsigned int>> n_facets;
         for (const auto &joint : scene.joints)
           {
             if (std::none_of(around.faces.begin(),
@@ -183,7 +184,9 @@ namespace Keyblock
                              [&](const BlockFace<dim> &face) {
                                return face.name == joint->name;
                              }) ||
-                (!joint->surface.empty() && ++n_facets[joint->surface] > 1))
+                (!joint->surface.empty() &&
+                 (++n_facets[joint->surface][joint->piece] > 1 ||
+                  n_facets[joint->surface].size() > 1)))
               continue;
             const std::string &name =
               joint->surface.empty() ? joint->name : joint->surface;
@@ -193,10 +196,11 @@ namespace Keyblock
               add() << "peak cohesion of " << name << ", residual "
                     << joint->cohesion_of_sliding() << " Pa";
           }
-        for (const auto &[name, n] : n_facets)
-          if (n > dim)
-            add() << "turning along the " << n << " plane parts of " << name
-                  << " that it lies on not judged";
+        for (const auto &[name, pieces] : n_facets)
+          for (const auto &[piece, n] : pieces)
+            if (n > dim)
+              add() << "turning along the " << n << " plane parts of " << name
+                    << " that it lies on not judged";
       }
 
       void

@@ -77,7 +77,8 @@ namespace Keyblock
       "File of the surface, relative to the scene file: in 3D triangles, .stl "
       "or .dxf (3DFACE), or the faces of a STEP or BREP file (.step, .stp, "
       ".brep), in 2D lines, .dxf (polylines, lines, arcs); Domain/Origin is "
-      "subtracted.");
+      "subtracted. Pieces that do not hang together, as mapped traces, may "
+      "cross each other.");
     prm.add_parameter("Scale",
                       scale,
                       "Length of the unit of File [m]; STEP files name theirs.",
@@ -129,6 +130,11 @@ namespace Keyblock
                       "Name of the bent joint that it is a plane part of, and "
                       "by which it may be called; empty: none. Written in "
                       "used.prm.");
+    prm.add_parameter("Piece",
+                      piece,
+                      "Number, from 0, of the piece of that joint; pieces do "
+                      "not hang together and are cut as joints of their own. "
+                      "Written in used.prm.");
   }
 
   template <int dim>

@@ -57,11 +57,13 @@ namespace Keyblock
         });
         share();
         std::vector<std::unique_ptr<Joint<dim>>> result;
-        for (const PlaneFacet<dim> &facet : facets)
+        for (unsigned int f = 0; f < facets.size(); ++f)
           {
+            const PlaneFacet<dim> &facet = facets[f];
             result.push_back(std::make_unique<Joint<dim>>(joint));
             Joint<dim> &own = *result.back();
             own.surface     = joint.name;
+            own.piece       = pieces[f];
             own.name += "_" + std::to_string(result.size());
             own.origin   = "The joint '" + joint.name + "'";
             own.extent   = JointShape::polygon;
@@ -158,7 +160,7 @@ namespace Keyblock
         if constexpr (dim == 2)
           {
             const std::string reason = reason_of_failure(
-              [&]() { facets = facets_of_paths({joint.vertices}); });
+              [&]() { add_piece(facets_of_paths({joint.vertices})); });
             require(reason.empty(),
                     "The polyline of the entry '" + section +
                       "/Vertices' cannot be used (" + reason +
@@ -193,7 +195,8 @@ namespace Keyblock
             for (auto &line : paths)
               for (Point<2> &p : line)
                 p = Point<2>(joint.scale * p - scene.domain.origin);
-            facets = facets_of_paths(paths);
+            for (const auto &piece : pieces_of_paths(paths))
+              add_piece(facets_of_paths(piece));
           }
         else
           {
@@ -205,8 +208,17 @@ namespace Keyblock
                              : read_dxf_faces(text);
             for (Point<3> &p : surface.vertices)
               p = Point<3>(joint.scale * p - scene.domain.origin);
-            facets = facets_of_triangles(std::move(surface));
+            for (TriangleSurface &piece : surface.components())
+              add_piece(facets_of_triangles(std::move(piece)));
           }
+      }
+
+      void
+      add_piece(const std::vector<PlaneFacet<dim>> &own)
+      {
+        pieces.resize(facets.size() + own.size(),
+                      pieces.empty() ? 0 : pieces.back() + 1);
+        facets.insert(facets.end(), own.begin(), own.end());
       }
 
       /** Smallest cell that the scene asks for [m]; 0: not known. */
@@ -236,7 +248,7 @@ namespace Keyblock
                   faces.back().back()[d] = corner[d];
               }
           }
-        facets = facets_of_faces(faces);
+        add_piece(facets_of_faces(faces));
       }
 
       void
@@ -284,6 +296,7 @@ namespace Keyblock
                            facet.corners.end());
             normals.push_back(facet.normal);
           }
+        communicator.broadcast(pieces);
         communicator.broadcast(n_corners);
         communicator.broadcast(corners);
         communicator.broadcast(normals);
@@ -301,6 +314,7 @@ namespace Keyblock
       const Joint<dim> &joint;
       const std::string section, subject;
       std::vector<PlaneFacet<dim>> facets;
+      std::vector<unsigned int> pieces; ///< by facet
     };
   } // namespace
 
@@ -343,17 +357,19 @@ namespace Keyblock
   joints_by_surface(const Scene<dim> &scene)
   {
     std::vector<std::vector<unsigned int>> lists;
-    std::map<std::string, unsigned int> known;
+    std::map<std::pair<std::string, unsigned int>, unsigned int> known;
     for (unsigned int j = 0; j < scene.joints.size(); ++j)
       {
         const std::string &surface = scene.joints[j]->surface;
-        const auto [entry, is_new] = known.emplace(surface, lists.size());
+        const auto [entry, is_new] =
+          known.emplace(std::make_pair(surface, scene.joints[j]->piece),
+                        lists.size());
         if (surface.empty() || is_new)
           lists.push_back({j});
         else
           lists[entry->second].push_back(j);
         if (surface.empty())
-          known.erase(surface);
+          known.erase(entry);
       }
     return lists;
   }

@@ -360,6 +360,7 @@ namespace Keyblock
       add("Radius", exact_text(joint.radius));
       add("Vertices", vertices);
       add("Surface", joint.surface);
+      add("Piece", joint.piece > 0 ? std::to_string(joint.piece) : "");
     };
     for (const auto &joint : joints)
       {

@@ -458,4 +458,10 @@ keyblock_scene(verification/kinked_joint RANKS 1 2)
 keyblock_scene(verification/kinked_joint REFERENCES kinked_joint_dxf RANKS 1
   SET "Joints/fault/Shape=file" "Joints/fault/Vertices=" "Joints/fault/Scale=0.001"
   "Joints/fault/File=${CMAKE_CURRENT_SOURCE_DIR}/shapes/kinked.dxf")
+# traces of a drawing that cross each other above the wedge that they bound
+keyblock_scene(verification/roof_block_falls RANKS 1 2
+  SET "Joints/Names=traces" "Joints/traces/Shape=file"
+  "Joints/traces/Friction angle=40"
+  "Joints/traces/File=${CMAKE_CURRENT_SOURCE_DIR}/shapes/crossing_traces.dxf"
+  REFERENCES roof_block_traced)
 keyblock_scene(verification/slip_circle RANKS 1)

@@ -80,6 +80,23 @@ BOOST_AUTO_TEST_CASE(straight_parts_of_lines)
 
 
 
+// Lines in a drawing: what two of them meet in goes on, a fork does not.
+BOOST_AUTO_TEST_CASE(pieces_of_a_drawing)
+{
+  const Point<2> a(0, 0), b(2, 1), c(4, 0), d(3, 3), e(1, 5);
+  const auto pieces = pieces_of_paths(
+    {{a, b}, {Point<2>(0, 1), Point<2>(4, 1)}, {c, Point<2>(2, 1 + 1e-12)}});
+  BOOST_REQUIRE_EQUAL(pieces.size(), 2);
+  BOOST_TEST(pieces[0].size() == 2);
+  BOOST_TEST(pieces[0][1][0] == c);
+  BOOST_TEST(pieces[1].size() == 1);
+  BOOST_TEST(pieces_of_paths({{a, b}, {b, c}, {b, d}}).size() == 3);
+  BOOST_TEST(pieces_of_paths({{a, d, e}, {e, c}, {c, a}}).size() == 1);
+  BOOST_TEST(pieces_of_paths({{a, d, e, a}}).size() == 1);
+}
+
+
+
 BOOST_AUTO_TEST_CASE(plane_parts_of_triangles)
 {
   // a fold along x = 2, in the precision of an STL file

@@ -109,7 +109,8 @@ namespace Keyblock
     double scale          = 1.; ///< length of the file's unit [m]
     unsigned int segments = 24; ///< chords in half a circle of the file
     std::string group;          ///< physical group; empty: that of its name
-    std::string surface; ///< the joint of which it is a facet; empty: none
+    std::string surface;    ///< the joint of which it is a facet; empty: none
+    unsigned int piece = 0; ///< of that, which do not hang together
 
     /** Unit normal, pointing up (to +x for a vertical joint): minus to plus. */
     Tensor<1, dim> normal() const;

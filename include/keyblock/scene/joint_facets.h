@@ -17,8 +17,8 @@ namespace Keyblock
   template <int dim>
   void make_facets(const Communicator &communicator, Scene<dim> &scene);
 
-  /** Indices of the joints that are cut together: the facets of each surface,
-   * every other joint by itself; in the order of the scene. */
+  /** Indices of the joints that are cut together: the facets of each piece of a
+   * surface, every other joint by itself; in the order of the scene. */
   template <int dim>
   std::vector<std::vector<unsigned int>>
   joints_by_surface(const Scene<dim> &scene);

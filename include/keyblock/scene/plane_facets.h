@@ -23,7 +23,12 @@ namespace Keyblock
     Tensor<1, dim> normal;
   };
 
-  // All throw std::runtime_error with what is wrong.
+  /** Lines that go on from end to end, in the order of the first of each: up to
+   * rounding, two ends that meet. Where more meet, none goes on. */
+  std::vector<std::vector<std::vector<Point<2>>>>
+  pieces_of_paths(const std::vector<std::vector<Point<2>>> &paths);
+
+  // All below throw std::runtime_error with what is wrong.
 
   /** The straight parts of lines with kinks: what goes on in one direction is
    * one. Ends of lines that coincide up to rounding are one point. */
