@@ -107,7 +107,6 @@ namespace Keyblock
       {
         if (factor.block != block)
           continue;
-        strength.push_back(strength_reduction_as_json(factor));
         Json cheap = {{"stage", factor.stage},
                       {"mode", factor.limit_mode},
                       {"remark", factor.limit_remark}};
@@ -115,15 +114,19 @@ namespace Keyblock
         if (factor.support_demand.factor > 0.)
           cheap["support_demand"] = demand_as_json(factor.support_demand);
         limit.push_back(cheap);
+        if (factor.outcome == SafetyFactor::Outcome::by_statics)
+          continue;
+        strength.push_back(strength_reduction_as_json(factor));
         ratio.push_back({{"stage", factor.stage}});
         if (factor.stress_ratio > 0.)
           ratio.back()["value"] = factor.stress_ratio;
         json["failure_mode"] = factor.failure_mode;
       }
+    if (!limit.empty())
+      json["limit_equilibrium"] = limit;
     if (strength.empty())
       return;
-    json["safety_factor"]     = strength;
-    json["limit_equilibrium"] = limit;
-    json["stress_ratio"]      = ratio;
+    json["safety_factor"] = strength;
+    json["stress_ratio"]  = ratio;
   }
 } // namespace Keyblock

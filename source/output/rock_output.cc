@@ -132,8 +132,12 @@ namespace Keyblock
           found && (found->outcome == Outcome::bracketed ||
                     found->outcome == Outcome::falls_freely ||
                     found->outcome == Outcome::immovable);
-        factor.add(is_number ? found->value()
-                             : std::numeric_limits<double>::quiet_NaN());
+        const bool is_by_statics = found &&
+                                   found->outcome == Outcome::by_statics &&
+                                   std::isfinite(found->limit_factor);
+        factor.add(is_by_statics ? found->limit_factor
+                   : is_number   ? found->value()
+                                 : std::numeric_limits<double>::quiet_NaN());
         outcome.add_id(found ? static_cast<int>(found->outcome) + 1 : 0);
       }
 
@@ -155,6 +159,8 @@ namespace Keyblock
               return "undecided";
             case Outcome::met:
               return "as wanted";
+            case Outcome::by_statics:
+              return "limit equilibrium";
           }
         return "";
       }

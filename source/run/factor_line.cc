@@ -64,13 +64,14 @@ namespace Keyblock
       seconds += trial.seconds;
     begin_line(out, factor, blocks);
     out << std::setprecision(5);
+    const bool is_tried = factor.outcome != SafetyFactor::Outcome::by_statics;
     if (factor.outcome == SafetyFactor::Outcome::bracketed)
       out << factor.value() << " [" << factor.lower << ", " << factor.upper
           << "]";
     else if (factor.outcome == SafetyFactor::Outcome::falls_freely &&
              factor.failure_mode != "falling")
       out << "below " << factor.upper;
-    else
+    else if (is_tried)
       out << describe_outcome(factor);
     if (factor.undecided_upper > 0.)
       out << ", undecided from " << factor.undecided_lower << " to "
@@ -79,7 +80,7 @@ namespace Keyblock
       out << ", " << factor.failure_mode;
     if (!factor.group.empty())
       out << "; " << describe_group(factor);
-    out << "; limit equilibrium "
+    out << (is_tried ? "; " : "") << "limit equilibrium "
         << (has_initial_stress(scene) ? "without in-situ clamping " : "");
     if (std::isfinite(factor.limit_factor))
       out << factor.limit_factor << " ";
@@ -105,8 +106,10 @@ namespace Keyblock
     if (is_too_coarse(block, scene))
       out << "; only " << std::setprecision(2) << block.cells_across()
           << " cells across, not " << scene.meshing.cells_across;
-    out << "; " << factor.trials.size() << " trials, " << std::setprecision(3)
-        << seconds << " s" << std::endl;
+    if (is_tried)
+      out << "; " << factor.trials.size() << " trials, " << std::setprecision(3)
+          << seconds << " s";
+    out << std::endl;
   }
 
   template void

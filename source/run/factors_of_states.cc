@@ -52,7 +52,7 @@ namespace Keyblock
         check_mesh(file, state.file, model.split);
       }
     set_up();
-    if (groups->n() > 1)
+    if (groups->n() > 1 && !model.scene.safety.is_by_statics())
       group_study = std::make_unique<RankGroupStudy<dim>>(
         *groups, model, *parts, scene_file, overrides);
     open_output();

@@ -315,7 +315,18 @@ namespace Keyblock
   SafetyFactor
   SafetyStudy<dim>::find_factor_of(const unsigned int id)
   {
-    const unsigned int b      = find_block(id);
+    const unsigned int b = find_block(id);
+    if (model.scene.safety.is_by_statics())
+      {
+        for (const SafetyFactor &factor : judge_by_statics())
+          if (factor.block == b)
+            return factor;
+        AssertThrow(false,
+                    InputError("Block " + std::to_string(id) +
+                               " has no free face after this stage, so that "
+                               "limit equilibrium says nothing of it; ask for "
+                               "it after a stage that exposes it."));
+      }
     const Snapshot<dim> after = take_snapshot(model.parts());
     StrengthReductionSearch<dim> search(
       model.scene, model.split, model.blocks, *model.numbering, model.parts());
@@ -334,6 +345,37 @@ namespace Keyblock
     finite_check.check_factor(result);
     model.count_cells();
     return result;
+  }
+
+
+
+  template <int dim>
+  std::vector<SafetyFactor>
+  SafetyStudy<dim>::judge_by_statics() const
+  {
+    const std::vector<bool> is_removed = record.present.removed_before();
+    const Ground<dim> ground{model.scene,
+                             model.split,
+                             record.present.number(),
+                             &is_removed};
+    const double time = model.step->time;
+    auto judged =
+      judge_exposed_blocks(ground, FreeFaces<dim>(ground), model.blocks, time);
+    note_leaning_blocks(ground, model.blocks, time, judged);
+    std::vector<SafetyFactor> factors;
+    for (const JudgedBlock<dim> &one : judged)
+      {
+        SafetyFactor factor;
+        factor.block          = one.block;
+        factor.stage          = model.scene.stages[record.present.index]->name;
+        factor.outcome        = SafetyFactor::Outcome::by_statics;
+        factor.limit_mode     = one.statics.mode();
+        factor.limit_remark   = one.statics.remark();
+        factor.limit_factor   = one.statics.limit.factor;
+        factor.support_demand = one.statics.demand;
+        factors.push_back(factor);
+      }
+    return factors;
   }
 
 
@@ -360,6 +402,14 @@ namespace Keyblock
   void
   SafetyStudy<dim>::find_remaining_factors(const RankGroups &groups)
   {
+    if (model.scene.safety.is_by_statics())
+      {
+        const std::vector<unsigned int> wanted = list_wanted_blocks();
+        for (const SafetyFactor &factor : judge_by_statics())
+          if (std::count(wanted.begin(), wanted.end(), factor.block) > 0)
+            record_factor(factor, false);
+        return;
+      }
     const Snapshot<dim> after = take_snapshot(model.parts());
     StrengthReductionSearch<dim> search(
       model.scene, model.split, model.blocks, *model.numbering, model.parts());

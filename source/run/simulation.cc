@@ -106,6 +106,8 @@ namespace Keyblock
   void
   Simulation<dim>::print_estimate()
   {
+    if (model.scene.safety.is_by_statics())
+      return;
     try
       {
         const RunEstimate<dim> estimate(model, *parts);
@@ -173,6 +175,14 @@ namespace Keyblock
   void
   Simulation<dim>::start()
   {
+    const bool is_by_statics = model.scene.safety.is_by_statics();
+    AssertThrow(checkpoint.empty() || !is_by_statics,
+                InputError("The entry 'Safety factor/Method' is limit "
+                           "equilibrium, with which nothing is stepped that "
+                           "--restart could go on with; leave --restart "
+                           "out."));
+    if (is_by_statics)
+      model.scene.output.checkpoint_interval = 0.;
     groups = std::make_unique<RankGroups>(model.communicator,
                                           model.scene.safety.rank_groups);
     std::unique_ptr<StateFile> file;
@@ -185,7 +195,7 @@ namespace Keyblock
     if (file)
       check_mesh(*file, checkpoint, model.split);
     set_up();
-    if (groups->n() > 1)
+    if (groups->n() > 1 && !is_by_statics)
       group_study = std::make_unique<RankGroupStudy<dim>>(
         *groups, model, *parts, scene_file, overrides);
     open_output();
@@ -197,7 +207,8 @@ namespace Keyblock
           is_under_way = true;
           return;
         }
-      establish_initial_state(model);
+      if (!is_by_statics)
+        establish_initial_state(model);
       model.step->sample_start();
       parts->finite_check.check_state();
       parts->monitors.sample_start(*model.step);

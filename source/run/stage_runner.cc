@@ -105,7 +105,9 @@ namespace Keyblock
   {
     const Stage &stage = *model.scene.stages[progress.index];
     observer.started();
-    if (stage.is_static())
+    if (model.scene.safety.is_by_statics())
+      progress.is_converged = true;
+    else if (stage.is_static())
       {
         solve_for_equilibrium(model,
                               model.conditions->loads.take_displacement());

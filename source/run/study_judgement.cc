@@ -80,9 +80,10 @@ namespace Keyblock
       {
         using Outcome = SafetyFactor::Outcome;
         offer(found.block,
-              found.outcome == Outcome::falls_freely ? 0.
-              : found.outcome == Outcome::bracketed  ? found.value()
-                                                     : found.lower,
+              found.outcome == Outcome::by_statics     ? found.limit_factor
+              : found.outcome == Outcome::falls_freely ? 0.
+              : found.outcome == Outcome::bracketed    ? found.value()
+                                                       : found.lower,
               found.stage);
       }
     // all blocks of a group fail with it, those that were not asked for, too

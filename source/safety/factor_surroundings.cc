@@ -85,6 +85,8 @@ namespace Keyblock
           return "undecided";
         case SafetyFactor::Outcome::met:
           return above.str() + ", as wanted";
+        case SafetyFactor::Outcome::by_statics:
+          return "limit equilibrium";
       }
     return "";
   }

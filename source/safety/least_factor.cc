@@ -24,7 +24,8 @@ namespace Keyblock
       else if (factor.outcome == Outcome::undecided)
         alone =
           factor.undecided_lower > 0. ? factor.undecided_lower : factor.lower;
-      else if (factor.outcome != Outcome::immovable)
+      else if (factor.outcome != Outcome::immovable &&
+               factor.outcome != Outcome::by_statics)
         alone = factor.lower;
       return factor.group.empty() ? alone
                                   : std::min(alone, factor.value_of_group());

@@ -178,7 +178,8 @@ namespace Keyblock
             "The entry 'Initial state/Equilibrium' is static, which needs "
             "'Time stepping/Kinematics' = small.");
     for (const auto &stage : scene.stages)
-      require(!stage->is_static() || !scene.time_stepping.is_large(),
+      require(!stage->is_static() || !scene.time_stepping.is_large() ||
+                scene.safety.is_by_statics(),
               "The entry 'Stages/" + stage->name +
                 "/Kind' is static, which needs 'Time stepping/Kinematics' = "
                 "small.");
@@ -269,8 +270,19 @@ namespace Keyblock
                 "', which is not in 'Joints/Names', nor another joint or a "
                 "set.");
     require(!safety.is_wanted() || scene.contact.method != ContactMethod::none,
-            "The entry 'Safety factor/Blocks' needs contact; set "
-            "'Contact/Method' to exact.");
+            "The entry 'Safety factor/" +
+              std::string(safety.is_by_statics() ? "Method" : "Blocks") +
+              "' needs contact; set 'Contact/Method' to exact.");
+    require(!safety.is_by_statics() || !scene.output.keeps_stages,
+            "The entry 'Safety factor/Method' is limit equilibrium, but "
+            "'Output/Keep stages' is true, where no stage comes to rest; set "
+            "one of them otherwise.");
+    require(!safety.is_by_statics() ||
+              scene.checks.closed_form == ClosedForm::none,
+            "The entry 'Safety factor/Method' is limit equilibrium, with which "
+            "no step is made, but 'Check/Closed form' is " +
+              name_of(scene.checks.closed_form) +
+              ", which is measured on steps; set it to none.");
     require(safety.lowest < 1. && safety.highest > 1.,
             "The entries 'Safety factor/Lowest' and 'Highest' must have 1 "
             "between them.");

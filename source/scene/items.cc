@@ -189,8 +189,8 @@ namespace Keyblock
   SafetySettings::wants_block(const unsigned int id) const
   {
     if (blocks == "none")
-      return false;
-    if (blocks == "all" || wants_exposed_only())
+      return is_by_statics();
+    if (blocks == "all" || blocks == "exposed" || wants_critical_only())
       return true;
     for (const std::string &word : dealii::Utilities::split_string_list(blocks))
       if (word == std::to_string(id))

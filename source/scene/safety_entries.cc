@@ -87,7 +87,10 @@ namespace Keyblock
                       method,
                       "Search for the factor. bisection: halving of a bracket; "
                       "sweep: from Lowest upwards by Sweep step until the "
-                      "block fails (the published method).");
+                      "block fails (the published method); limit equilibrium: "
+                      "none, and no step: stages only excavate and support, "
+                      "and blocks with a free face are judged as rigid ones, "
+                      "all of them if Blocks is none.");
     prm.add_parameter(
       "Sweep step",
       sweep_step,

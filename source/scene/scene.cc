@@ -278,6 +278,7 @@ namespace Keyblock
     for (const auto &stage : stages)
       stage->complete();
     damp_beside_rigid_bodies(*this);
+    leave_steps_out(*this);
     read_histories();
     cross_check();
   }

@@ -28,6 +28,19 @@ namespace Keyblock
 
 
 
+  template <int dim>
+  void
+  leave_steps_out(Scene<dim> &scene)
+  {
+    if (scene.safety.is_by_statics())
+      for (const auto &stage : scene.stages)
+        stage->kind = StageKind::static_solve;
+  }
+
+
+
+  template void leave_steps_out<2>(Scene<2> &);
+  template void leave_steps_out<3>(Scene<3> &);
   template void damp_beside_rigid_bodies<2>(Scene<2> &);
   template void damp_beside_rigid_bodies<3>(Scene<3> &);
 } // namespace Keyblock

@@ -44,6 +44,10 @@ namespace Keyblock
     std::vector<unsigned int>
     select_critical(const std::vector<unsigned int> &blocks) const;
 
+    /** Limit equilibrium of the blocks that have a free face after the present
+     * stage. */
+    std::vector<SafetyFactor> judge_by_statics() const;
+
     /** Factor of a block (by index) after the present stage; the state is that
      * of a trial afterwards. */
     SafetyFactor find_factor(StrengthReductionSearch<dim> &search,

@@ -18,7 +18,8 @@ namespace Keyblock
       clamped,      ///< the same, though it can move (limit equilibrium); what
                     ///< holds it says held_by
       undecided,    ///< neither holds nor fails wherever it was tried
-      met           ///< holds at SafetySettings::wanted; not looked further
+      met,          ///< holds at SafetySettings::wanted; not looked further
+      by_statics    ///< not tried: limit equilibrium is all that was asked for
     };
     unsigned int block = 0; ///< index
     std::string stage;
@@ -47,7 +48,7 @@ namespace Keyblock
 
     // the two cheap answers
     std::string limit_mode, limit_remark;
-    double limit_factor = 0.;
+    double limit_factor = 0.;     ///< infinite: stable
     bool limit_moves    = false;  ///< it finds a way; known in the search only
     double stress_ratio = 0.;     ///< on the faces it slides on; 0: none
     SupportDemand support_demand; ///< by limit equilibrium

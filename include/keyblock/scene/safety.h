@@ -33,13 +33,14 @@ namespace Keyblock
   enum class FactorSearch
   {
     bisection,
-    sweep
+    sweep,
+    limit_equilibrium ///< no search, and no step
   };
   template <>
   struct ChoiceNames<FactorSearch>
   {
-    static constexpr std::array<const char *, 2> names = {
-      {"bisection", "sweep"}};
+    static constexpr std::array<const char *, 3> names = {
+      {"bisection", "sweep", "limit equilibrium"}};
   };
 
   /** How the forces of bolts enter a factor. */
@@ -88,14 +89,22 @@ namespace Keyblock
     bool
     is_wanted() const
     {
-      return blocks != "none";
+      return blocks != "none" || is_by_statics();
+    }
+
+    /** Whether blocks are judged by limit equilibrium alone, where stages only
+     * excavate and support. */
+    bool
+    is_by_statics() const
+    {
+      return method == FactorSearch::limit_equilibrium;
     }
 
     /** Whether only blocks with a free face are asked for. */
     bool
     wants_exposed_only() const
     {
-      return blocks == "exposed" || wants_critical_only();
+      return blocks == "exposed" || wants_critical_only() || is_by_statics();
     }
 
     /** Whether only those of them are, whose factor by limit equilibrium is

@@ -14,6 +14,11 @@ namespace Keyblock
    */
   template <int dim>
   void damp_beside_rigid_bodies(Scene<dim> &scene);
+
+  /** Make stages static where limit equilibrium is all that is asked for; they
+   * are not solved then, and need no kind. */
+  template <int dim>
+  void leave_steps_out(Scene<dim> &scene);
 } // namespace Keyblock
 
 #endif
