@@ -17,7 +17,8 @@ angles; bolted_roof: one that hangs on them.
 
 A trial that holds at 1.005 of the exact factor or above, or fails at 0.995 or
 below, is wrong; undecided ones are counted. Exits with 1 if an exact factor lies
-outside its bracket by more than --tolerance of it, limit equilibrium of a bolted
+outside the bracket of the largest block (bent planes may leave lenses between
+them) by more than --tolerance of it, limit equilibrium of a bolted
 block is off, a trial is wrong, or a run fails. --statics: nothing is run, limit
 equilibrium as --validate prints it is compared instead.
 """
@@ -63,16 +64,15 @@ def main():
                 continue
             if options.statics:
                 found = [row.factor for row in read_statics(result.stdout)]
-                is_good = (len(found) == 1
-                           and abs(found[0] / factor - 1.) <= options.tolerance)
+                is_good = bool(found) and abs(found[0] / factor - 1.) <= options.tolerance
                 n_failures += not is_good
                 print(f"{kind} seed {seed}: exact {factor:.5f}, limit equilibrium {found}"
                       f"{'' if is_good else '  <-- wrong'}", flush=True)
                 continue
             summary = json.loads((folder / name / "summary.json").read_text())
             found = [f for block in summary["blocks"] for f in block.get("safety_factor", [])]
-            if len(found) != 1:
-                print(f"{kind} seed {seed}: {len(found)} blocks, not one", flush=True)
+            if not found:
+                print(f"{kind} seed {seed}: no block has a factor", flush=True)
                 n_failures += 1
                 continue
             lower, upper = found[0].get("lower", 0.), found[0].get("upper", math.inf)

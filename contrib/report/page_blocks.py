@@ -4,7 +4,7 @@ import math
 
 from .html import clamped_text, escape, group_text
 from .tables import (STATES, few, in_words, is_held_by_clamping,
-                     limit_in_words, of_stage)
+                     limit_in_words, of_stage, size_of)
 from .words import demand_in_words, mode_in_words, number
 
 MOST_ROWS = 60  # rows of blocks before the rest is folded away
@@ -167,6 +167,11 @@ def why_no_factors(run, rows):
     """A sentence on why there are no factors by strength reduction."""
     if not run.entries:
         return "There are no safety factors."
+    if run.entries.get("Safety factor/Method") == "limit equilibrium":
+        judged = [row for row in rows if row["limit"]]
+        falling = sum(size_of(row["limit"]) < 1. for row in judged)
+        return (f"By limit equilibrium, which alone was asked for, {falling} of "
+                f"{len(judged)} blocks {'has' if falling == 1 else 'have'} a factor below 1.")
     asked = run.entries.get("Safety factor/Blocks", "none")
     if asked == "none":
         return "No safety factors were looked for (Safety factor/Blocks)."

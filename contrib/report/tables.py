@@ -130,6 +130,14 @@ def state_of(has_failed, factor, is_moving=False):
     return "moves" if is_moving and state != "fails" else state
 
 
+def factor_by_statics(limit):
+    """What limit equilibrium says, where it is all that was asked for."""
+    if not limit:
+        return None
+    return ({"outcome": "value", "value": limit["value"]}
+            if "value" in limit else {"outcome": "immovable"})
+
+
 def state_by_factor(has_failed, factor):
     """Which of STATES a block is in by its factor."""
     if has_failed:
@@ -201,7 +209,8 @@ def row_of(run, geometry, n, moved_off, moving):
            "removable": block.get("removable"),
            "centroid": block.get("centroid"),
            "where": None, "free_area": None, "displacement": None}
-    row["state"] = state_of(row["removed"] or row["moved_off"], worst,
+    row["state"] = state_of(row["removed"] or row["moved_off"],
+                            worst or factor_by_statics(limit),
                             row["moving"] in run.stages[-1:])
     if geometry is not None:
         free = geometry.free_normal(n)

@@ -377,6 +377,9 @@ keyblock_scene(verification/lined_tunnel_3d RANKS 1 2)
 keyblock_scene(verification/bolted_roof_3d RANKS 1 2)
 # slabs one under the other on the same bolts
 keyblock_scene(verification/hanging_slabs RANKS 1 2)
+# blocks judged by statics alone, without a step
+keyblock_scene(verification/road_wedge REFERENCES road_wedge_statics RANKS 1 2
+  SET "Safety factor/Method=limit equilibrium")
 # or each on bolts that end in the one above it
 keyblock_scene(verification/hanging_chain RANKS 1 2)
 # blocks one behind the other on an incline, each on a bolt into the one behind it
