@@ -34,6 +34,30 @@ namespace Keyblock
 
 
 
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_idle_bolts(const Scene<dim> &scene, const SplitMesh<dim> &split)
+  {
+    std::vector<unsigned int> n_bolts(scene.bolts.size(), 0),
+      n_crossing(scene.bolts.size(), 0);
+    for (const Bolt<dim> &bolt : split.bolts)
+      {
+        ++n_bolts[bolt.set];
+        n_crossing[bolt.set] += !bolt.crossings.empty();
+      }
+    std::vector<std::string> warnings;
+    for (unsigned int s = 0; s < scene.bolts.size(); ++s)
+      if (n_bolts[s] > 0 && n_crossing[s] == 0 && !scene.joints.empty())
+        warnings.push_back(
+          "None of the " + std::to_string(n_bolts[s]) + " bolts of '" +
+          scene.bolts[s]->name +
+          "' crosses a joint between blocks, so that they hold none; make "
+          "them longer, or place them elsewhere.");
+    return warnings;
+  }
+
+
+
   namespace
   {
     /** What a set of bolts lacks in the ground into which it is put. */
@@ -96,6 +120,8 @@ namespace Keyblock
   }
 
 #define INSTANTIATE(dim)                                                       \
+  template std::vector<std::string> warnings_of_idle_bolts(                    \
+    const Scene<dim> &, const SplitMesh<dim> &);                               \
   template std::vector<std::string> warnings_of_cut_bolts(                     \
     const Scene<dim> &, const SplitMesh<dim> &);                               \
   template std::vector<std::string> warnings_of_bolts_in_void(                 \

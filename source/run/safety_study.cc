@@ -2,7 +2,6 @@
 #include <keyblock/run/safety_study.h>
 #include <keyblock/run/stage_runner.h>
 #include <keyblock/run/wanted_blocks.h>
-#include <keyblock/safety/block_cascade.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,43 +61,6 @@ namespace Keyblock
     return now == BlockClass::exposed ||
            (now == BlockClass::hidden &&
             !model.scene.safety.wants_exposed_only());
-  }
-
-
-
-  template <int dim>
-  std::vector<unsigned int>
-  SafetyStudy<dim>::select_critical(
-    const std::vector<unsigned int> &blocks) const
-  {
-    if (!model.scene.safety.wants_critical_only() || blocks.empty())
-      return blocks;
-    const std::vector<bool> is_removed = record.present.removed_before();
-    const Ground<dim> ground{model.scene,
-                             model.split,
-                             record.present.number(),
-                             &is_removed};
-    const FreeFaces<dim> free(ground);
-    const BrokenSegments broken = model.conditions->broken_segments();
-    const auto judged           = judge_exposed_blocks(
-      ground, free, model.blocks, model.step->time, broken);
-    std::vector<unsigned int> critical;
-    for (const unsigned int b : blocks)
-      {
-        const auto known =
-          std::find_if(judged.begin(), judged.end(), [b](const auto &one) {
-            return one.block == b;
-          });
-        const double factor =
-          known != judged.end()
-            ? known->least_factor
-            : judge_block(
-                ground, free, model.blocks, b, model.step->time, broken)
-                .limit.factor;
-        if (factor < model.scene.safety.critical_factor)
-          critical.push_back(b);
-      }
-    return critical;
   }
 
 
@@ -345,37 +307,6 @@ namespace Keyblock
     finite_check.check_factor(result);
     model.count_cells();
     return result;
-  }
-
-
-
-  template <int dim>
-  std::vector<SafetyFactor>
-  SafetyStudy<dim>::judge_by_statics() const
-  {
-    const std::vector<bool> is_removed = record.present.removed_before();
-    const Ground<dim> ground{model.scene,
-                             model.split,
-                             record.present.number(),
-                             &is_removed};
-    const double time = model.step->time;
-    auto judged =
-      judge_exposed_blocks(ground, FreeFaces<dim>(ground), model.blocks, time);
-    note_leaning_blocks(ground, model.blocks, time, judged);
-    std::vector<SafetyFactor> factors;
-    for (const JudgedBlock<dim> &one : judged)
-      {
-        SafetyFactor factor;
-        factor.block          = one.block;
-        factor.stage          = model.scene.stages[record.present.index]->name;
-        factor.outcome        = SafetyFactor::Outcome::by_statics;
-        factor.limit_mode     = one.statics.mode();
-        factor.limit_remark   = one.statics.remark();
-        factor.limit_factor   = one.statics.limit.factor;
-        factor.support_demand = one.statics.demand;
-        factors.push_back(factor);
-      }
-    return factors;
   }
 
 

@@ -14,6 +14,25 @@ namespace Keyblock
      * the load that is looked at. */
     constexpr unsigned int n_halvings = 60;
     constexpr double least_demand = 1e-3, most_demand = 1e4;
+
+    /** What one more bolt of a set bears [N]: those that the block has, in the
+     * mean, or else all of the set; 0: none crosses a joint. */
+    template <int dim>
+    double
+    capacity_for(const Ground<dim> &ground,
+                 const BlockSupport<dim> &support,
+                 const unsigned int set)
+    {
+      double sum     = 0.;
+      unsigned int n = 0;
+      for (const auto &pull : support.pulls)
+        if (pull.set == set)
+          {
+            sum += pull.force;
+            ++n;
+          }
+      return n > 0 ? sum / n : mean_bolt_capacity(ground, set);
+    }
   } // namespace
 
 
@@ -127,11 +146,12 @@ namespace Keyblock
       }
     demand.force    = high;
     demand.pressure = high / area;
-    for (const auto &set : ground.scene.bolts)
-      demand.numbers.emplace_back(set->name,
-                                  static_cast<unsigned int>(std::ceil(
-                                    high / (set->share() * set->yield_force) -
-                                    1e-9)));
+    for (unsigned int set = 0; set < ground.scene.bolts.size(); ++set)
+      if (const double capacity = capacity_for(ground, support, set);
+          capacity > 0.)
+        demand.numbers.emplace_back(ground.scene.bolts[set]->name,
+                                    static_cast<unsigned int>(
+                                      std::ceil(high / capacity - 1e-9)));
     return demand;
   }
 

@@ -6,25 +6,12 @@
 #include <keyblock/scene/gravity.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <sstream>
 
 namespace Keyblock
 {
-  namespace
-  {
-    /** By how much a reaction is changed to see what it does, over itself,
-     * halvings by which its share is found, and changes that are none. */
-    constexpr double share_step             = 1e-4;
-    constexpr unsigned int n_share_halvings = 40;
-    constexpr double round_off              = 1e-12;
-  } // namespace
-
-
-
   template <int dim>
   Tensor<1, dim>
   BlockSupport<dim>::force() const
@@ -52,12 +39,14 @@ namespace Keyblock
         {pull.force * pull.along,
          against(direction - (direction * pull.along) * pull.along,
                  pull.dowel_strength),
-         pull.is_reduced});
+         pull.is_reduced,
+         true});
     for (const Section &section : sections)
       forces.push_back(
         {{},
          against(section.trace.in_section(direction), section.strength),
-         section.is_reduced});
+         section.is_reduced,
+         false});
     return forces;
   }
 
@@ -81,11 +70,12 @@ namespace Keyblock
     if (pulls.empty())
       return out.str();
     std::map<std::string, unsigned int> limits;
-    double sum = 0.;
+    double sum = 0., sum_of_dowels = 0.;
     for (const Pull &pull : pulls)
       {
         ++limits[Keyblock::describe(pull.limit)];
         sum += pull.force;
+        sum_of_dowels += pull.dowel_strength;
       }
     out << pulls.size() << (pulls.size() == 1 ? " bolt" : " bolts") << " of "
         << 1e-3 * sum << " kN" << (dim == 2 ? "/m" : "") << " (";
@@ -97,6 +87,9 @@ namespace Keyblock
         out << limit->first;
       }
     out << ')';
+    if (sum_of_dowels > 0.)
+      out << " and dowels of " << 1e-3 * sum_of_dowels << " kN"
+          << (dim == 2 ? "/m" : "");
     return out.str();
   }
 
@@ -151,6 +144,56 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** A bolt in the ground that there is, without the segments that excavation
+     * has cut, or that have @p broken. */
+    template <int dim>
+    BoltChain
+    chain_of(const Bolt<dim> &bolt,
+             const BoltSet<dim> &set,
+             const BoltRemains &remains,
+             const std::vector<bool> *broken)
+    {
+      std::vector<bool> is_parted = remains.is_cut;
+      if (broken)
+        std::transform(is_parted.begin(),
+                       is_parted.end(),
+                       broken->begin(),
+                       is_parted.begin(),
+                       std::logical_or<>());
+      BoltChain chain(properties_of(set), bolt.places);
+      chain.set_ground(remains.is_held, is_parted, remains.grout);
+      return chain;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  double
+  mean_bolt_capacity(const Ground<dim> &ground, const unsigned int set_index)
+  {
+    const BoltSet<dim> &set = *ground.scene.bolts[set_index];
+    double sum              = 0.;
+    unsigned int n          = 0;
+    for (const Bolt<dim> &bolt : ground.split.bolts)
+      if (bolt.set == set_index && !bolt.crossings.empty())
+        {
+          const BoltChain chain =
+            chain_of(bolt, set, find_remains(bolt, ground), nullptr);
+          for (const BoltCrossing<dim> &crossing : bolt.crossings)
+            if (!chain.is_parted_at(chain.segment_at(crossing.place)))
+              {
+                sum += set.share() * chain.capacity(crossing.place).force;
+                ++n;
+              }
+        }
+    return n > 0 ? sum / n : 0.;
+  }
+
+
+
   template <int dim>
   BlockSupport<dim>
   find_support_of_block(const Ground<dim> &ground,
@@ -168,16 +211,9 @@ namespace Keyblock
         if (bolt.crossings.empty() ||
             ground.scene.stage_number(set.stage) > ground.stage_number)
           continue;
-        const BoltRemains remains   = find_remains(bolt, ground);
-        std::vector<bool> is_parted = remains.is_cut;
-        if (!broken.empty())
-          std::transform(is_parted.begin(),
-                         is_parted.end(),
-                         broken[b].begin(),
-                         is_parted.begin(),
-                         std::logical_or<>());
-        BoltChain chain(properties_of(set), bolt.places);
-        chain.set_ground(remains.is_held, is_parted, remains.grout);
+        const BoltRemains remains = find_remains(bolt, ground);
+        const BoltChain chain =
+          chain_of(bolt, set, remains, broken.empty() ? nullptr : &broken[b]);
         for (const BoltCrossing<dim> &crossing : bolt.crossings)
           {
             const bool is_near = crossing.block[0] == block,
@@ -200,138 +236,12 @@ namespace Keyblock
             pull.dowel_strength = set.share() * set.dowel_strength;
             pull.limit          = capacity.limit;
             pull.is_reduced     = has_reduced(reduced, crossing.joint);
+            pull.set            = bolt.set;
             result.pulls.push_back(pull);
           }
       }
     result.shared_with.erase(block);
     return result;
-  }
-
-
-
-  namespace
-  {
-    template <int dim>
-    LimitEquilibrium<dim>
-    solve_with_active(std::vector<BlockFace<dim>> &faces,
-                      const Tensor<1, dim> &load,
-                      const BlockSupport<dim> &support)
-    {
-      const Tensor<1, dim> pulled = load + support.force();
-      const LimitEquilibrium<dim> unsheared =
-        solve_with_laws<dim>(faces, pulled);
-      const Tensor<1, dim> way = unsheared.direction;
-      if (way.norm() == 0.)
-        return unsheared;
-      Tensor<1, dim> reaction;
-      for (const auto &force : support.forces_against(way))
-        reaction += force.reaction;
-      if (reaction.norm() == 0.)
-        return unsheared;
-      // what is sheared resists, and never by more than drives
-      if (-(reaction * way) < unsheared.driving_force)
-        return solve_with_laws<dim>(faces, pulled + reaction);
-      LimitEquilibrium<dim> result;
-      result.factor   = std::numeric_limits<double>::infinity();
-      result.is_borne = true;
-      return result;
-    }
-
-    /**
-     * Set the @p share of a reaction's strength that is there by what
-     * @p solve gives with it: a reaction does not drive, so it grows no further
-     * than what drives gets less, or stays, with the block on its planes, and
-     * no further than it raises the factor.
-     */
-    template <int dim, typename Solve>
-    void
-    mobilize(const Solve &solve, double &share)
-    {
-      const auto with = [&](const double trial) {
-        share = trial;
-        return solve();
-      };
-      const LimitEquilibrium<dim> without = with(0.);
-      if (without.mode == LimitEquilibrium<dim>::Mode::stable)
-        return;
-      // the greatest share at which something is no worse than just below,
-      // as it gets better with less to begin with or never
-      const auto greatest = [&](const double most, const auto &is_no_worse) {
-        const auto grows = [&](const double trial) {
-          return is_no_worse(with((1. - share_step) * trial), with(trial));
-        };
-        if (grows(most))
-          return most;
-        double low = 0., high = most;
-        for (unsigned int i = 0; i < n_share_halvings; ++i)
-          {
-            const double middle          = 0.5 * (low + high);
-            (grows(middle) ? low : high) = middle;
-          }
-        return low;
-      };
-      using Limit = LimitEquilibrium<dim>;
-      const double driving_least =
-        greatest(1., [&](const Limit &less, const Limit &more) {
-          return more.mode != Limit::Mode::stable &&
-                 (more.n_pressed > 0 || without.n_pressed == 0) &&
-                 more.driving_force <= (1. + round_off) * less.driving_force;
-        });
-      share = greatest(driving_least, [](const Limit &less, const Limit &more) {
-        return more.factor >= (1. - round_off) * less.factor;
-      });
-    }
-
-    template <int dim>
-    LimitEquilibrium<dim>
-    solve_with_passive(std::vector<BlockFace<dim>> &faces,
-                       const Tensor<1, dim> &load,
-                       const BlockSupport<dim> &support)
-    {
-      LimitEquilibrium<dim> bare = solve_with_laws<dim>(faces, load);
-      if (!support.holds() || bare.direction.norm() == 0.)
-        return bare;
-      const Tensor<1, dim> way = bare.direction;
-      const auto forces        = support.forces_against(way);
-      std::vector<double> shares(forces.size(), 0.);
-      const auto solve = [&]() {
-        Tensor<1, dim> loading = load;
-        std::vector<double> resisting(forces.size());
-        for (unsigned int i = 0; i < forces.size(); ++i)
-          {
-            const Tensor<1, dim> force =
-              forces[i].pull + shares[i] * forces[i].reaction;
-            const double against = std::max(0., -(force * way));
-            loading += force + against * way;
-            resisting[i] = against;
-          }
-        LimitEquilibrium<dim> held = solve_with_laws<dim>(faces, loading);
-        if (held.mode == LimitEquilibrium<dim>::Mode::stable)
-          return held;
-        for (unsigned int i = 0; i < forces.size(); ++i)
-          held.add_resistance(resisting[i], forces[i].is_reduced);
-        held.set_factor();
-        return held;
-      };
-      for (unsigned int i = 0; i < forces.size(); ++i)
-        if (forces[i].reaction.norm() > 0.)
-          mobilize<dim>(solve, shares[i]);
-      return solve();
-    }
-  } // namespace
-
-
-
-  template <int dim>
-  LimitEquilibrium<dim>
-  solve_with_support(std::vector<BlockFace<dim>> &faces,
-                     const Tensor<1, dim> &load,
-                     const BlockSupport<dim> &support,
-                     const bool is_passive)
-  {
-    const Tensor<1, dim> all_load = load + support.shotcrete_load;
-    return is_passive ? solve_with_passive(faces, all_load, support)
-                      : solve_with_active(faces, all_load, support);
   }
 
 
@@ -365,11 +275,7 @@ namespace Keyblock
                                               const Blocks<dim> &,             \
                                               const unsigned int,              \
                                               const double);                   \
-  template LimitEquilibrium<dim> solve_with_support(                           \
-    std::vector<BlockFace<dim>> &,                                             \
-    const Tensor<1, dim> &,                                                    \
-    const BlockSupport<dim> &,                                                 \
-    const bool);
+  template double mean_bolt_capacity(const Ground<dim> &, const unsigned int);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -14,6 +14,12 @@ namespace Keyblock
   std::vector<std::string> warnings_of_cut_bolts(const Scene<dim> &scene,
                                                  const SplitMesh<dim> &split);
 
+  /** Sets of bolts of which none crosses a joint that is cut, as sentences, in
+   * scenes with joints. */
+  template <int dim>
+  std::vector<std::string> warnings_of_idle_bolts(const Scene<dim> &scene,
+                                                  const SplitMesh<dim> &split);
+
   /** Sets of bolts that the stage of @p ground installs partly where blocks
    * have been taken away before, as sentences. */
   template <int dim>

@@ -22,7 +22,8 @@ namespace Keyblock
       double force                     = 0.; ///< its capacity there [N]
       double dowel_strength            = 0.; ///< across it [N]
       BoltChain::Capacity::Limit limit = BoltChain::Capacity::Limit::yield;
-      bool is_reduced = true; ///< BlockFace::is_reduced of the joint
+      bool is_reduced  = true; ///< BlockFace::is_reduced of the joint
+      unsigned int set = 0;    ///< index of its set of bolts
     };
     std::vector<Pull> pulls;
 
@@ -63,6 +64,7 @@ namespace Keyblock
       Tensor<1, dim> pull;     ///< along a bolt [N]
       Tensor<1, dim> reaction; ///< across it, or in a section, at most [N]
       bool is_reduced;         ///< in the passive convention
+      bool is_of_bolt;         ///< or of shotcrete
     };
 
     /** Those of all as the block moves along @p direction (unit vector). */
@@ -81,6 +83,11 @@ namespace Keyblock
                                           const double time,
                                           const BrokenSegments &broken);
 
+  /** Mean capacity of the bolts of a @p set (index), installed or not, where
+   * they cross joints [N], in 2D per metre; 0: none crosses any. */
+  template <int dim>
+  double mean_bolt_capacity(const Ground<dim> &ground, const unsigned int set);
+
   /**
    * Limit equilibrium of a block on @p faces under @p load with its support.
    * Active: the pulls of bolts are a part of the load, as is what dowels and
@@ -88,8 +95,8 @@ namespace Keyblock
    * all that drives it, nothing does. Passive: of each force its part against
    * the way that the block would take without them is added to what resists
    * (Hoek and Bray 1981); the rest of it is load. What dowels and shotcrete do
-   * there is up to their strength as little as drives the block least, or
-   * less if the factor is greater then.
+   * there is, each by one share of the strength of all, as little as drives the
+   * block least, or less if the factor is greater then.
    */
   template <int dim>
   LimitEquilibrium<dim> solve_with_support(std::vector<BlockFace<dim>> &faces,
