@@ -152,6 +152,7 @@ namespace Keyblock
     Motion before        = begin;
     double least         = std::numeric_limits<double>::max();
     unsigned int n_stuck = 0;
+    SupportState support = measure_support();
     SlowMode<dim> creep(communicator, run.fields, nodes_of_block[block]);
     double slowest = 0.; // angular frequency of the creep [rad/s]
     for (unsigned int step = 0; step < scene.safety.maximum_periods * period;
@@ -177,7 +178,11 @@ namespace Keyblock
         trial.velocity     = moved / (period * run.step.dt);
         if (now.unbalanced < rest_unbalanced && moved < rest_slip * size)
           return true;
-        n_stuck = now.unbalanced < 0.8 * least ? 0 : n_stuck + 1;
+        const SupportState borne = measure_support();
+        const bool is_stuck      = now.unbalanced >= 0.8 * least &&
+                              !takes_up(support, borne, before, now);
+        n_stuck = is_stuck ? n_stuck + 1 : 0;
+        support = borne;
         if (n_stuck == 0)
           least = now.unbalanced;
         if (n_stuck >= patience ||

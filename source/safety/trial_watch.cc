@@ -26,6 +26,12 @@ namespace Keyblock
      * may be no more than strength that is not yet mobilised [-]. */
     constexpr double mobilising_slip = 0.02;
 
+    /** Energy per window that elements take up along the way of a block, over
+     * that of what is out of balance, with which the support is still being
+     * mobilised, however long that takes: on soft support a block swings much
+     * slower than waves cross it [-]. */
+    constexpr double least_take_up = 1e-3;
+
     /** Windows over which such an acceleration must stay. */
     constexpr unsigned int n_steady = 6;
 
@@ -71,6 +77,70 @@ namespace Keyblock
 
 
   template <int dim>
+  typename StrengthTrials<dim>::SupportState
+  StrengthTrials<dim>::measure_support() const
+  {
+    SupportState state;
+    if (run.conditions.elements.empty())
+      return state;
+    const unsigned int n_blocks = blocks.blocks.size();
+    std::vector<double> force(run.fields.load.size(), 0.),
+      sums(n_blocks * (2 * dim + 1), 0.);
+    for (const auto &element : run.conditions.elements)
+      element->add_force(run.fields.displacement, force);
+    for (unsigned int b = 0; b < n_blocks; ++b)
+      if (!blocks.blocks[b].is_infinite && !blocks.blocks[b].is_rigid)
+        for (const unsigned int node : nodes_of_block[b])
+          {
+            double *const sum = sums.data() + b * (2 * dim + 1);
+            sum[2 * dim] += run.fields.mass[node];
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const unsigned int i = dim * node + d;
+                sum[d] += force[i];
+                sum[dim + d] +=
+                  run.fields.mass[node] * run.fields.displacement[i];
+              }
+          }
+    communicator.sum_lists(sums);
+    state.force.resize(n_blocks);
+    state.displacement.resize(n_blocks);
+    for (unsigned int b = 0; b < n_blocks; ++b)
+      {
+        const double *const sum = sums.data() + b * (2 * dim + 1);
+        if (sum[2 * dim] > 0.)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              state.force[b][d]        = sum[d];
+              state.displacement[b][d] = sum[dim + d] / sum[2 * dim];
+            }
+      }
+    return state;
+  }
+
+
+
+  template <int dim>
+  bool
+  StrengthTrials<dim>::takes_up(const SupportState &from,
+                                const SupportState &to,
+                                const Motion &before,
+                                const Motion &now)
+  {
+    const double gone =
+      norm<dim>(add<dim>(now.displacement, -1., before.displacement));
+    double most = 0.;
+    for (unsigned int b = 0; b < to.force.size(); ++b)
+      most = std::max(
+        most,
+        dot<dim>(add<dim>(to.force[b], -1., from.force[b]),
+                 add<dim>(to.displacement[b], -1., from.displacement[b])));
+    return most > least_take_up * now.unbalanced * now.load * gone;
+  }
+
+
+
+  template <int dim>
   typename StrengthTrials<dim>::Verdict
   StrengthTrials<dim>::watch(const unsigned int block,
                              const double periods,
@@ -93,7 +163,8 @@ namespace Keyblock
     const double mass    = mass_in_use(block);
     displacement_before  = run.fields.displacement;
     joint_force.assign(scene.joints.size() + 1, 0.);
-    Motion before = at_rest;
+    Motion before        = at_rest;
+    SupportState support = measure_support();
     std::vector<double> velocity(1, 0.);
     std::vector<Vector<dim>> block_velocity(1);
     for (unsigned int w = 1; w <= n_windows; ++w)
@@ -119,7 +190,10 @@ namespace Keyblock
         trial.acceleration = (velocity[w] - velocity[w - 1]) / seconds;
         const bool rests   = now.unbalanced < rest_unbalanced &&
                            way_between(before, now) < rest_slip * size;
-        before = now;
+        const SupportState borne = measure_support();
+        const bool is_taken_up   = takes_up(support, borne, before, now);
+        support                  = borne;
+        before                   = now;
         if (rests)
           return Verdict::holds;
         const bool grows = w >= 3 && velocity[w] > velocity[w - 1] &&
@@ -131,7 +205,7 @@ namespace Keyblock
         const bool has_moved =
           slip > failure_slip * size &&
           own_way > std::max(failure_slip * size, squeezed);
-        if (grows && has_moved)
+        if (grows && has_moved && !is_taken_up)
           return Verdict::fails;
         if (w > n_steady)
           {
@@ -141,7 +215,7 @@ namespace Keyblock
             const SpeedGain gain = last_gain<dim>(velocity, block_velocity);
             const bool is_driven = mass * gain.of_block / (n_steady * seconds) >
                                    resolution * scene.safety.bracket * now.load;
-            if (slip > mobilising_slip * squeezed &&
+            if (!is_taken_up && slip > mobilising_slip * squeezed &&
                 (!gain.is_passed || own_way > squeezed) &&
                 velocity[w - n_steady] >= 0. && gain.is_steady && is_driven)
               return Verdict::fails;
@@ -154,6 +228,18 @@ namespace Keyblock
 
 
 
+  template StrengthTrials<2>::SupportState
+  StrengthTrials<2>::measure_support() const;
+  template StrengthTrials<3>::SupportState
+  StrengthTrials<3>::measure_support() const;
+  template bool StrengthTrials<2>::takes_up(const SupportState &,
+                                            const SupportState &,
+                                            const Motion &,
+                                            const Motion &);
+  template bool StrengthTrials<3>::takes_up(const SupportState &,
+                                            const SupportState &,
+                                            const Motion &,
+                                            const Motion &);
   template StrengthTrials<2>::Verdict
   StrengthTrials<2>::watch(const unsigned int,
                            const double,

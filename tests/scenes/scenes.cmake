@@ -377,6 +377,11 @@ keyblock_scene(verification/lined_tunnel_3d RANKS 1 2)
 keyblock_scene(verification/bolted_roof_3d RANKS 1 2)
 # slabs one under the other on the same bolts
 keyblock_scene(verification/hanging_slabs RANKS 1 2)
+# hard rock on soft bolts: a swing takes much longer than waves through the block
+keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_hard RANKS 1 2
+  SET "Materials/rock/Young modulus=1e11")
+keyblock_scene(verification/hanging_chain REFERENCES hanging_chain_hard RANKS 1
+  SET "Materials/rock/Young modulus=1e11")
 # blocks judged by statics alone, without a step
 keyblock_scene(verification/road_wedge REFERENCES road_wedge_statics RANKS 1 2
   SET "Safety factor/Method=limit equilibrium")

@@ -138,6 +138,24 @@ namespace Keyblock
       double load       = 0.;     ///< these [N]
     };
 
+    /** What bolts, liners and other elements do to finite blocks, of which one
+     * may hang on another; empty: there are none. */
+    struct SupportState
+    {
+      std::vector<Vector<dim>> force;        ///< against their loads [N]
+      std::vector<Vector<dim>> displacement; ///< of their masses, mean [m]
+    };
+
+    /** That of now (collective). */
+    SupportState measure_support() const;
+
+    /** Whether elements bear more of blocks along their ways in a time, at
+     * whose ends a block has these motions, so that it may yet be held. */
+    static bool takes_up(const SupportState &from,
+                         const SupportState &to,
+                         const Motion &before,
+                         const Motion &now);
+
     /** Mean slip and displacement of the block, and the forces on it. */
     Motion measure(const unsigned int block) const;
 
