@@ -27,3 +27,10 @@ def read_statics(output):
             rows.append(Row(int(block), stage, math.inf if factor == "-" else float(factor),
                             mode, text))
     return rows
+
+
+def read_volumes(output):
+    """Volumes of blocks (in 2D areas) by id, of the table of blocks."""
+    table = output.partition("\nBlocks\n")[2]
+    rows = re.findall(r"^ *(\d+)  [a-z]+ +(?:yes|no) +(\S+) ", table, re.MULTILINE)
+    return {int(block): float(volume) for block, volume in rows}
