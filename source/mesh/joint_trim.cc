@@ -34,19 +34,19 @@ namespace Keyblock
       void
       run()
       {
+        bool is_parted = false; // (or may be)
         for (const auto &[surface, facets] : facets_of)
-          if (mesh.surfaces[surface].is_joint() &&
-              !sheet_of(surface).is_infinite())
-            trim(surface, facets);
-        bool is_parted = true;
+          if (has_rim(surface))
+            {
+              trim(surface, facets);
+              is_parted = is_parted || sheet_of(surface).is_plane();
+            }
         for (unsigned int i = 0; i < most_facets_parted && is_parted; ++i)
           {
             is_parted = false;
             find_facets();
             for (const auto &[surface, facets] : facets_of)
-              if (mesh.surfaces[surface].is_joint() &&
-                  !sheet_of(surface).is_infinite() &&
-                  sheet_of(surface).is_plane())
+              if (has_rim(surface) && sheet_of(surface).is_plane())
                 is_parted = part_ends(surface, facets) || is_parted;
           }
         mesh.bind_vertices();
@@ -78,6 +78,13 @@ namespace Keyblock
       sheet_of(const unsigned int surface) const
       {
         return sheets.of_joint(mesh.surfaces[surface].joint);
+      }
+
+      bool
+      has_rim(const unsigned int surface) const
+      {
+        return mesh.surfaces[surface].is_joint() &&
+               !sheet_of(surface).is_infinite();
       }
 
       /** What stands for all surfaces of a bent joint: that of its first facet,
