@@ -13,31 +13,6 @@ namespace Keyblock
 {
   namespace
   {
-    /** Add those that support ties to a block of @p is_wanted: they may hang on
-     * it. */
-    template <int dim>
-    void
-    add_tied_blocks(const SplitMesh<dim> &split,
-                    const Blocks<dim> &blocks,
-                    std::vector<bool> &is_wanted)
-    {
-      const std::vector<bool> is_tried = is_wanted;
-      const auto add = [&](const std::array<unsigned int, 2> &tied) {
-        for (unsigned int side = 0; side < 2; ++side)
-          if (const unsigned int other = tied[1 - side];
-              tied[side] != none && is_tried[tied[side]] && other != none &&
-              !blocks.blocks[other].is_infinite &&
-              !blocks.blocks[other].is_rigid)
-            is_wanted[other] = true;
-      };
-      for (const Bolt<dim> &bolt : split.bolts)
-        for (const BoltCrossing<dim> &crossing : bolt.crossings)
-          add(crossing.block);
-      for (const LaidLiner<dim> &liner : split.liners)
-        for (const LinerTrace<dim> &trace : liner.traces)
-          add(trace.block);
-    }
-
     /** Say on how much of the faces cohesion counts which the run has lost.
      * @param area ContactReport::weakened_area() */
     template <int dim>
@@ -149,16 +124,8 @@ namespace Keyblock
   {
     const Ground<dim> ground = run.conditions.active_cells.ground();
     const FreeFaces<dim> free(ground);
-    std::vector<bool> is_wanted(blocks.blocks.size());
-    for (unsigned int b = 0; b < is_wanted.size(); ++b)
-      is_wanted[b] =
-        b == block ||
-        std::count(trials.companions.begin(), trials.companions.end(), b) > 0 ||
-        (scene.safety.reduced_joints == ReducedJoints::all &&
-         !blocks.blocks[b].is_infinite && !blocks.blocks[b].is_rigid);
-    add_tied_blocks(split, blocks, is_wanted);
-    const std::vector<Tensor<1, dim>> ways =
-      find_ways_without_support(ground, free, blocks, is_wanted, run.step.time);
+    const std::vector<Tensor<1, dim>> ways = find_ways_without_support(
+      ground, free, blocks, trials.mark_tied_blocks(block), run.step.time);
     run.conditions.take_ways(ways);
     return ways[block];
   }

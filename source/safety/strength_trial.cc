@@ -29,6 +29,9 @@ namespace Keyblock
      */
     constexpr unsigned int patience = 8;
 
+    /** Swings of a block on soft support in which it may come to rest. */
+    constexpr double n_swings = 20.;
+
     /** Length of the second phase, at most, in periods of the block's lowest
      * mode, the first time and so much longer each time after it: what is open
      * then goes back to the first one, which damps [-]. */
@@ -152,11 +155,11 @@ namespace Keyblock
     Motion before        = begin;
     double least         = std::numeric_limits<double>::max();
     unsigned int n_stuck = 0;
-    SupportState support = measure_support();
+    SupportState support = measure_support(block);
     SlowMode<dim> creep(communicator, run.fields, nodes_of_block[block]);
     double slowest = 0.; // angular frequency of the creep [rad/s]
-    for (unsigned int step = 0; step < scene.safety.maximum_periods * period;
-         step += window)
+    double last    = scene.safety.maximum_periods * period;
+    for (double step = 0.; step < last; step += window)
       {
         stop_if_asked(communicator);
         step_damped_until(trial.n_steps + window,
@@ -171,18 +174,20 @@ namespace Keyblock
                 ? std::min(full_damping, 2. * creep_damping * slowest)
                 : full_damping);
           }
-        const Motion now   = measure(block);
-        const double moved = way_between(before, now) * period / window;
-        trial.unbalanced   = now.unbalanced;
-        trial.slip         = norm<dim>(add<dim>(now.slip, -1., first));
-        trial.velocity     = moved / (period * run.step.dt);
-        if (now.unbalanced < rest_unbalanced && moved < rest_slip * size)
+        const Motion now         = measure(block);
+        const double moved       = way_between(before, now) * period / window;
+        trial.unbalanced         = now.unbalanced;
+        trial.slip               = norm<dim>(add<dim>(now.slip, -1., first));
+        trial.velocity           = moved / (period * run.step.dt);
+        const SupportState borne = measure_support(block);
+        const double swing       = swing_period(support, borne, before, now);
+        if (now.unbalanced < rest_unbalanced &&
+            moved * std::max(1., swing / period) < rest_slip * size)
           return true;
-        const SupportState borne = measure_support();
-        const bool is_stuck      = now.unbalanced >= 0.8 * least &&
-                              !takes_up(support, borne, before, now);
-        n_stuck = is_stuck ? n_stuck + 1 : 0;
-        support = borne;
+        const bool is_stuck = now.unbalanced >= 0.8 * least && swing == 0.;
+        last                = std::max(last, n_swings * swing);
+        n_stuck             = is_stuck ? n_stuck + 1 : 0;
+        support             = borne;
         if (n_stuck == 0)
           least = now.unbalanced;
         if (n_stuck >= patience ||

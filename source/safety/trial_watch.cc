@@ -30,7 +30,10 @@ namespace Keyblock
      * that of what is out of balance, with which the support is still being
      * mobilised, however long that takes: on soft support a block swings much
      * slower than waves cross it [-]. */
-    constexpr double least_take_up = 1e-3;
+    constexpr double least_take_up = 1e-4;
+
+    /** Swings on such support that are watched at least. */
+    constexpr double n_swings_watched = 2.;
 
     /** Windows over which such an acceleration must stay. */
     constexpr unsigned int n_steady = 6;
@@ -78,18 +81,19 @@ namespace Keyblock
 
   template <int dim>
   typename StrengthTrials<dim>::SupportState
-  StrengthTrials<dim>::measure_support() const
+  StrengthTrials<dim>::measure_support(const unsigned int block) const
   {
     SupportState state;
     if (run.conditions.elements.empty())
       return state;
-    const unsigned int n_blocks = blocks.blocks.size();
+    const unsigned int n_blocks          = blocks.blocks.size();
+    const std::vector<bool> is_looked_at = mark_tied_blocks(block);
     std::vector<double> force(run.fields.load.size(), 0.),
       sums(n_blocks * (2 * dim + 1), 0.);
     for (const auto &element : run.conditions.elements)
       element->add_force(run.fields.displacement, force);
     for (unsigned int b = 0; b < n_blocks; ++b)
-      if (!blocks.blocks[b].is_infinite && !blocks.blocks[b].is_rigid)
+      if (is_looked_at[b])
         for (const unsigned int node : nodes_of_block[b])
           {
             double *const sum = sums.data() + b * (2 * dim + 1);
@@ -105,9 +109,11 @@ namespace Keyblock
     communicator.sum_lists(sums);
     state.force.resize(n_blocks);
     state.displacement.resize(n_blocks);
+    state.mass.resize(n_blocks);
     for (unsigned int b = 0; b < n_blocks; ++b)
       {
         const double *const sum = sums.data() + b * (2 * dim + 1);
+        state.mass[b]           = sum[2 * dim];
         if (sum[2 * dim] > 0.)
           for (unsigned int d = 0; d < dim; ++d)
             {
@@ -121,21 +127,32 @@ namespace Keyblock
 
 
   template <int dim>
-  bool
-  StrengthTrials<dim>::takes_up(const SupportState &from,
-                                const SupportState &to,
-                                const Motion &before,
-                                const Motion &now)
+  double
+  StrengthTrials<dim>::swing_period(const SupportState &from,
+                                    const SupportState &to,
+                                    const Motion &before,
+                                    const Motion &now) const
   {
     const double gone =
       norm<dim>(add<dim>(now.displacement, -1., before.displacement));
-    double most = 0.;
+    // the block of which they take up most leads
+    double most = 0., square_of_time = 0.;
     for (unsigned int b = 0; b < to.force.size(); ++b)
-      most = std::max(
-        most,
-        dot<dim>(add<dim>(to.force[b], -1., from.force[b]),
-                 add<dim>(to.displacement[b], -1., from.displacement[b])));
-    return most > least_take_up * now.unbalanced * now.load * gone;
+      {
+        const Vector<dim> way =
+          add<dim>(to.displacement[b], -1., from.displacement[b]);
+        const double stored =
+          dot<dim>(add<dim>(to.force[b], -1., from.force[b]), way);
+        if (stored > most)
+          {
+            most           = stored;
+            square_of_time = to.mass[b] * dot<dim>(way, way) / stored;
+          }
+      }
+    return most > least_take_up * now.unbalanced * now.load * gone
+             ? 2. * dealii::numbers::PI * std::sqrt(square_of_time) /
+                 run.step.dt
+             : 0.;
   }
 
 
@@ -155,7 +172,7 @@ namespace Keyblock
                             ? 4. * size / (wave_speed(block) * run.step.dt)
                             : period_of(block))));
     const double seconds = window * run.step.dt;
-    const unsigned int n_windows =
+    double n_windows =
       std::max(n_steady + 1.,
                std::min(periods, scene.safety.maximum_periods) /
                  scene.safety.window);
@@ -164,7 +181,7 @@ namespace Keyblock
     displacement_before  = run.fields.displacement;
     joint_force.assign(scene.joints.size() + 1, 0.);
     Motion before        = at_rest;
-    SupportState support = measure_support();
+    SupportState support = measure_support(block);
     std::vector<double> velocity(1, 0.);
     std::vector<Vector<dim>> block_velocity(1);
     for (unsigned int w = 1; w <= n_windows; ++w)
@@ -186,14 +203,18 @@ namespace Keyblock
         velocity.push_back(slip > 0. ? dot<dim>(moved, way) / (slip * seconds)
                                      : 0.);
         block_velocity.push_back(now.velocity);
-        trial.velocity     = velocity[w];
-        trial.acceleration = (velocity[w] - velocity[w - 1]) / seconds;
-        const bool rests   = now.unbalanced < rest_unbalanced &&
-                           way_between(before, now) < rest_slip * size;
-        const SupportState borne = measure_support();
-        const bool is_taken_up   = takes_up(support, borne, before, now);
-        support                  = borne;
-        before                   = now;
+        trial.velocity           = velocity[w];
+        trial.acceleration       = (velocity[w] - velocity[w - 1]) / seconds;
+        const SupportState borne = measure_support(block);
+        const double swing       = swing_period(support, borne, before, now);
+        const bool rests =
+          now.unbalanced < rest_unbalanced &&
+          way_between(before, now) * std::max(1., swing / window) <
+            rest_slip * size;
+        const bool is_taken_up = swing > 0.;
+        n_windows = std::max(n_windows, n_swings_watched * swing / window);
+        support   = borne;
+        before    = now;
         if (rests)
           return Verdict::holds;
         const bool grows = w >= 3 && velocity[w] > velocity[w - 1] &&
@@ -229,17 +250,17 @@ namespace Keyblock
 
 
   template StrengthTrials<2>::SupportState
-  StrengthTrials<2>::measure_support() const;
+  StrengthTrials<2>::measure_support(const unsigned int) const;
   template StrengthTrials<3>::SupportState
-  StrengthTrials<3>::measure_support() const;
-  template bool StrengthTrials<2>::takes_up(const SupportState &,
-                                            const SupportState &,
-                                            const Motion &,
-                                            const Motion &);
-  template bool StrengthTrials<3>::takes_up(const SupportState &,
-                                            const SupportState &,
-                                            const Motion &,
-                                            const Motion &);
+  StrengthTrials<3>::measure_support(const unsigned int) const;
+  template double StrengthTrials<2>::swing_period(const SupportState &,
+                                                  const SupportState &,
+                                                  const Motion &,
+                                                  const Motion &) const;
+  template double StrengthTrials<3>::swing_period(const SupportState &,
+                                                  const SupportState &,
+                                                  const Motion &,
+                                                  const Motion &) const;
   template StrengthTrials<2>::Verdict
   StrengthTrials<2>::watch(const unsigned int,
                            const double,

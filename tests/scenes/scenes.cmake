@@ -380,6 +380,9 @@ keyblock_scene(verification/hanging_slabs RANKS 1 2)
 # hard rock on soft bolts: a swing takes much longer than waves through the block
 keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_hard RANKS 1 2
   SET "Materials/rock/Young modulus=1e11")
+keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_soft RANKS 1
+  SET "Materials/rock/Young modulus=1e11" "Bolts/hanger/Area=1e-5"
+  "Safety factor/Removal slip=0")
 keyblock_scene(verification/hanging_chain REFERENCES hanging_chain_hard RANKS 1
   SET "Materials/rock/Young modulus=1e11")
 # blocks judged by statics alone, without a step

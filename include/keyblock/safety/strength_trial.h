@@ -81,6 +81,10 @@ namespace Keyblock
      * is tried; empty: none. */
     std::vector<unsigned int> companions;
 
+    /** Which blocks are those whose joints are reduced when @p block is tried,
+     * or are tied to one of them by bolts or shotcrete, by index. */
+    std::vector<bool> mark_tied_blocks(const unsigned int block) const;
+
     /** Nothing has failed yet. */
     void
     forget_failure()
@@ -138,23 +142,25 @@ namespace Keyblock
       double load       = 0.;     ///< these [N]
     };
 
-    /** What bolts, liners and other elements do to finite blocks, of which one
-     * may hang on another; empty: there are none. */
+    /** What bolts, liners and other elements do to blocks, those of
+     * mark_tied_blocks(), by index; empty: there are no elements. */
     struct SupportState
     {
       std::vector<Vector<dim>> force;        ///< against their loads [N]
       std::vector<Vector<dim>> displacement; ///< of their masses, mean [m]
+      std::vector<double> mass;              ///< in use [kg]
     };
 
     /** That of now (collective). */
-    SupportState measure_support() const;
+    SupportState measure_support(const unsigned int block) const;
 
-    /** Whether elements bear more of blocks along their ways in a time, at
-     * whose ends a block has these motions, so that it may yet be held. */
-    static bool takes_up(const SupportState &from,
-                         const SupportState &to,
-                         const Motion &before,
-                         const Motion &now);
+    /** Steps in a swing of blocks on their elements, by Rayleigh's quotient of
+     * how they have moved in a time, at whose ends a block has these motions;
+     * 0: elements bear no more than before, so that nothing may yet hold it. */
+    double swing_period(const SupportState &from,
+                        const SupportState &to,
+                        const Motion &before,
+                        const Motion &now) const;
 
     /** Mean slip and displacement of the block, and the forces on it. */
     Motion measure(const unsigned int block) const;
