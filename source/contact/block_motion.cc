@@ -55,7 +55,7 @@ namespace Keyblock
 
   template <int dim>
   std::vector<double>
-  BlockMotions<dim>::sum_over_faces() const
+  BlockMotions<dim>::sum_over_faces(const std::vector<double> &motion) const
   {
     std::vector<double> sums((1 + dim) * (links.size() + 1), 0.);
     const auto add = [&](const unsigned int place,
@@ -64,8 +64,7 @@ namespace Keyblock
                          const unsigned int vertex) {
       const unsigned int node = topology.numbering.local_node(vertex);
       for (unsigned int d = 0; d < dim; ++d)
-        sums[(1 + dim) * place + 1 + d] +=
-          sign * area * fields.displacement[dim * node + d];
+        sums[(1 + dim) * place + 1 + d] += sign * area * motion[dim * node + d];
     };
     for (unsigned int p = 0; p < link_of_pair.size(); ++p)
       {
@@ -93,7 +92,7 @@ namespace Keyblock
 
   template <int dim>
   std::vector<double>
-  BlockMotions<dim>::sum_over_masses() const
+  BlockMotions<dim>::sum_over_masses(const std::vector<double> &motion) const
   {
     std::vector<double> sums((2 + 2 * dim) * nodes_of_block.size(), 0.);
     for (unsigned int b = 0; b < nodes_of_block.size(); ++b)
@@ -105,7 +104,7 @@ namespace Keyblock
             sum[0] += m;
             for (unsigned int d = 0; d < dim; ++d)
               {
-                const double u = fields.displacement[dim * node + d];
+                const double u = motion[dim * node + d];
                 sum[1 + d] += m * u;
                 sum[1 + dim] += m * u * u;
                 sum[2 + dim + d] += fields.load[dim * node + d];
@@ -120,12 +119,12 @@ namespace Keyblock
 
   template <int dim>
   std::vector<BlockMotion<dim>>
-  BlockMotions<dim>::measure() const
+  BlockMotions<dim>::measure(const std::vector<double> &motion) const
   {
     const unsigned int n_blocks = blocks.blocks.size();
     std::vector<BlockMotion<dim>> motions(n_blocks);
-    const std::vector<double> faces  = sum_over_faces(),
-                              masses = sum_over_masses();
+    const std::vector<double> faces  = sum_over_faces(motion),
+                              masses = sum_over_masses(motion);
 
     dealii::DynamicSparsityPattern entries(n_blocks, n_blocks);
     for (unsigned int b = 0; b < n_blocks; ++b)

@@ -178,8 +178,9 @@ namespace Keyblock
                        ? earlier.value()
                        : 0.;
     // balance tells of strength where joints are neither tied nor overridden
+    const StageReport &report = record.stage_reports.back();
     if (!stage.is_static() && stage.friction_angle_override < 0. &&
-        record.stage_reports.back().unbalanced_ratio < stage.unbalanced_ratio)
+        report.is_converged && report.unbalanced_ratio < stage.unbalanced_ratio)
       known.stable = 1.;
     SafetyFactor cheap;
     search.add_cheap_answers(block, cheap);

@@ -49,88 +49,63 @@ namespace Keyblock
 
 
 
-    /** How far a block has moved in a stage. */
+    /** How far a block has moved in a stage, by itself. */
     struct Mover
     {
       unsigned int block;
-      double way; ///< mean [m]
+      double way; ///< root mean square [m]
       bool is_moving;
       double speed; ///< of a steady motion [m/s]; 0: not measured
     };
 
-    /** Mean displacement in the stage and velocity of a block. */
+    /** Whether cells of each block are left that are not excavated. */
     template <int dim>
-    struct MeanMotion
+    std::vector<bool>
+    find_present_blocks(const Model<dim> &model)
     {
-      bool is_there = false;        ///< or all of it is excavated
-      Tensor<1, dim> way, velocity; ///< [m], [m/s]
-    };
-
-    /** Of each block, over the corners of its cells. */
-    template <int dim>
-    std::vector<MeanMotion<dim>>
-    measure_motions(const Model<dim> &model, const StageProgress<dim> &progress)
-    {
-      const unsigned int n_blocks = model.blocks.blocks.size();
-      std::vector<double> sums(n_blocks * (1 + 2 * dim), 0.);
-      for (unsigned int c = 0; c < model.cells.nodes.size(); ++c)
-        {
-          const unsigned int b =
-            model.split.block_of_cell[model.cells.mesh_cell[c]];
-          if (b == none)
-            continue;
-          double *const sum = sums.data() + b * (1 + 2 * dim);
-          for (const unsigned int node : model.cells.nodes[c])
-            {
-              sum[0] += 1.;
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  const unsigned int i = dim * node + d;
-                  sum[1 + d] += model.fields.displacement[i] -
-                                progress.start_displacement[i];
-                  sum[1 + dim + d] += model.fields.velocity[i];
-                }
-            }
-        }
-      model.communicator.sum_lists(sums);
-      std::vector<MeanMotion<dim>> motions(n_blocks);
-      for (unsigned int b = 0; b < n_blocks; ++b)
-        if (const double *const sum = sums.data() + b * (1 + 2 * dim);
-            sum[0] > 0.)
-          {
-            motions[b].is_there = true;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                motions[b].way[d]      = sum[1 + d] / sum[0];
-                motions[b].velocity[d] = sum[1 + dim + d] / sum[0];
-              }
-          }
-      return motions;
+      std::vector<double> n_cells(model.blocks.blocks.size(), 0.);
+      for (const unsigned int cell : model.cells.mesh_cell)
+        if (const unsigned int b = model.split.block_of_cell[cell]; b != none)
+          n_cells[b] += 1.;
+      model.communicator.sum_lists(n_cells);
+      std::vector<bool> is_there;
+      for (const double n : n_cells)
+        is_there.push_back(n > 0.);
+      return is_there;
     }
 
     /** Finite blocks that have gone far, or are going on; those that went
-     * farthest first. */
+     * farthest first. Rock that moves as a whole takes its blocks along, which
+     * is no motion of theirs. */
     template <int dim>
     std::vector<Mover>
     choose_movers(const Model<dim> &model, const StageProgress<dim> &progress)
     {
-      const auto means = measure_motions(model, progress);
-      const auto own   = model.contact == nullptr
-                           ? std::vector<BlockMotion<dim>>(means.size())
-                           : model.contact->motions().measure();
       std::vector<Mover> movers;
-      for (unsigned int b = 0; b < means.size(); ++b)
+      if (model.contact == nullptr)
+        return movers;
+      std::vector<double> displacement = model.fields.displacement;
+      for (unsigned int i = 0; i < displacement.size(); ++i)
+        displacement[i] -= progress.start_displacement[i];
+      const BlockMotions<dim> &motions = model.contact->motions();
+      const auto since_start           = motions.measure();
+      const auto in_stage              = motions.measure(displacement);
+      const auto velocities            = motions.measure(model.fields.velocity);
+      const std::vector<bool> is_there = find_present_blocks(model);
+      for (unsigned int b = 0; b < is_there.size(); ++b)
         {
           const Block<dim> &block = model.blocks.blocks[b];
-          if (block.is_infinite || !means[b].is_there)
+          if (block.is_infinite || !is_there[b])
             continue;
-          const double way    = means[b].way.norm();
-          const bool goes_off = way > notable_way * block.size &&
-                                means[b].way * means[b].velocity > 0. &&
-                                !progress.is_converged;
+          const double way = in_stage[b].way();
+          const bool goes_off =
+            way > notable_way * block.size &&
+            dot<dim>(in_stage[b].shift, velocities[b].shift) > 0. &&
+            !progress.is_converged;
           // or slowly, but as fast as ever
-          const auto motion =
-            progress.slips.motion_since(b, progress.n_done, own[b].way());
+          const auto motion = progress.slips.motion_since(b,
+                                                          progress.n_done,
+                                                          since_start[b].way());
           const bool creeps =
             !progress.is_converged && motion.way > least_creep * block.size;
           if (goes_off || creeps || way > long_way * block.size)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/moving_blocks.h>
 #include <keyblock/run/ramp_length.h>
 #include <keyblock/run/stage_runner.h>
 #include <keyblock/run/static_stage.h>
@@ -159,7 +160,9 @@ namespace Keyblock
         observer.stepped(progress, stage);
         if (is_sample && i > 10 && stage.unbalanced_ratio > 0. &&
             !model.conditions->loads.is_ramping() &&
-            model.step->unbalanced_ratio < stage.unbalanced_ratio)
+            model.step->unbalanced_ratio < stage.unbalanced_ratio &&
+            !(stage.is_quasi_static() &&
+              is_any_block_moving_off(model, quasi_static_interval)))
           {
             progress.is_converged = true;
             break;

@@ -3,6 +3,7 @@
 #include <keyblock/rock/nodal_force.h>
 #include <keyblock/safety/block_stiffness.h>
 #include <keyblock/safety/strength_trial.h>
+#include <keyblock/step/block_balance.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,44 +31,27 @@ namespace Keyblock
   typename StrengthTrials<dim>::Motion
   StrengthTrials<dim>::measure(const unsigned int block) const
   {
-    // resultant of everything but damping and supports, loads, size of contact
-    // forces, mass, momentum, and mass times displacement
-    std::vector<double> sums(4 * dim + 2, 0.);
+    // mass, momentum, and mass times displacement
+    std::vector<double> sums(2 * dim + 1, 0.);
     const Fields<dim> &fields = run.fields;
     for (const unsigned int node : nodes_of_block[block])
-      {
-        Vector<dim> force = out_of_balance_force<dim>(fields, node);
-        take_support_reactions<dim>(fields,
-                                    node,
-                                    force,
-                                    [](double, const auto &) {});
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const unsigned int i = dim * node + d;
-            sums[2 * dim + 1] += fields.mass[node] / dim;
-            sums[2 * dim + 2 + d] += fields.mass[node] * fields.velocity[i];
-            sums[3 * dim + 2 + d] += fields.mass[node] * fields.displacement[i];
-            if (fields.inverse_mass[node] > 0.)
-              sums[d] += force[d];
-            sums[dim + d] += fields.load[i];
-            sums[2 * dim] += std::abs(fields.contact_force[i]);
-          }
-      }
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const unsigned int i = dim * node + d;
+          sums[0] += fields.mass[node] / dim;
+          sums[1 + d] += fields.mass[node] * fields.velocity[i];
+          sums[1 + dim + d] += fields.mass[node] * fields.displacement[i];
+        }
     communicator.sum_lists(sums);
-    double resultant = 0., weight = 0.;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        resultant += sums[d] * sums[d];
-        weight += sums[dim + d] * sums[dim + d];
-      }
+    const BlockBalance<dim> balance =
+      measure_balance(fields, nodes_of_block[block], communicator);
     Motion motion;
-    motion.load = std::max(std::sqrt(weight), 1e-3 * sums[2 * dim]);
-    motion.unbalanced =
-      motion.load > 0. ? std::sqrt(resultant) / motion.load : 0.;
+    motion.load       = balance.load;
+    motion.unbalanced = balance.unbalanced_ratio();
     for (unsigned int d = 0; d < dim; ++d)
       {
-        motion.velocity[d]     = sums[2 * dim + 2 + d] / sums[2 * dim + 1];
-        motion.displacement[d] = sums[3 * dim + 2 + d] / sums[2 * dim + 1];
+        motion.velocity[d]     = sums[1 + d] / sums[0];
+        motion.displacement[d] = sums[1 + dim + d] / sums[0];
       }
     // where all joints are reduced, what it touches may go along
     motion.slip = scene.safety.reduced_joints == ReducedJoints::all

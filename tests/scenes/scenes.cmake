@@ -153,6 +153,12 @@ keyblock_scene(verification/incline_3d REFERENCES incline_3d_refined
   SET "Mesh/Refinement levels=(0.389948096*x + 0.713134173*y - 0.582563416*z < 0.125)")
 keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
   SET "Safety factor/Removal slip=0.05")
+# the model is in balance while so light a block still falls
+keyblock_scene(verification/light_wedge RANKS 1 2)
+# and where it may not be taken away, the stage does not end in balance
+keyblock_scene(verification/light_wedge REFERENCES light_wedge_falls RANKS 1
+  SET "Safety factor/Removal slip=0" "Safety factor/Blocks=all"
+  "Stages/dig/Maximum steps=5000")
 # where it has fallen it stays, and not because stress clamps it
 keyblock_scene(verification/roof_block_falls REFERENCES roof_block_fallen
   RANKS 1 2 SET "Safety factor/Blocks=all")

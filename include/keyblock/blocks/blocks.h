@@ -51,7 +51,8 @@ namespace Keyblock
     /** Sign of the block's side of each joint it touches: -1, +1. */
     std::map<unsigned int, int> joint_side;
 
-    /** Largest extent of the cell centres plus a cell [m]. */
+    /** Diagonal of the box along the axes around its cells [m]: it depends on
+     * how the scene is turned. */
     double size = 0.;
 
     /** Least extent along the normals of its faces [m]; 0 if infinite. */

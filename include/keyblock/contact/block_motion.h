@@ -9,15 +9,15 @@
 
 namespace Keyblock
 {
-  /** How far a block has gone by itself. */
+  /** How far a block has gone by itself, or how fast it goes. */
   template <int dim>
   struct BlockMotion
   {
-    Vector<dim> shift{}; ///< mean, against the rock around [m]
-    double spread = 0.;  ///< root mean square about the mean: rotation [m]
+    Vector<dim> shift{}; ///< mean, against the rock around [m], or [m/s]
+    double spread = 0.;  ///< root mean square about the mean: rotation [same]
     double load   = 0.;  ///< resultant of gravity and tractions [N]
 
-    /** Root mean square of both [m]. */
+    /** Root mean square of both [same]. */
     double
     way() const
     {
@@ -49,7 +49,16 @@ namespace Keyblock
 
     /** By index of the block, since the start; null for infinite blocks
      * (collective). */
-    std::vector<BlockMotion<dim>> measure() const;
+    std::vector<BlockMotion<dim>>
+    measure() const
+    {
+      return measure(fields.displacement);
+    }
+
+    /** The same of displacements since later, or of velocities.
+     * @param motion dim values per local node [m] or [m/s] */
+    std::vector<BlockMotion<dim>>
+    measure(const std::vector<double> &motion) const;
 
   private:
     /** Blocks (indices) on either side of faces; `none` for infinite ones and
@@ -57,12 +66,14 @@ namespace Keyblock
     using Link = std::array<unsigned int, 2>;
 
     /** Area [m^(dim-1)] and, times that, u(plus) - u(minus), link by link, over
-     * all ranks; last the same of u of the rock's walls. */
-    std::vector<double> sum_over_faces() const;
+     * all ranks; last the same of u of the rock's walls.
+     * @param motion u, dim values per local node */
+    std::vector<double> sum_over_faces(const std::vector<double> &motion) const;
 
     /** Mass [kg], mass times u and mass times its square, block by block, over
      * all ranks. */
-    std::vector<double> sum_over_masses() const;
+    std::vector<double>
+    sum_over_masses(const std::vector<double> &motion) const;
 
     const PairTopology<dim> &topology;
     const Blocks<dim> &blocks;

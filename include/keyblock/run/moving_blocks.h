@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_run_moving_blocks_h
+#define keyblock_run_moving_blocks_h
+
+#include <keyblock/run/model.h>
+
+namespace Keyblock
+{
+  /**
+   * Whether any finite block moves off, though forces may be in balance over
+   * the whole of the model: a small block weighs next to nothing beside what an
+   * excavation sets free. It is out of balance by a notable share of its own
+   * load, moves against the rock in the direction of what drives it, and
+   * farther than loads deform it (collective).
+   * @param n_steps in which it does so
+   */
+  template <int dim>
+  bool is_any_block_moving_off(const Model<dim> &model,
+                               const unsigned int n_steps);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/moving_blocks.h>
+#include <keyblock/safety/block_stiffness.h>
+#include <keyblock/step/block_balance.h>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Unbalanced force of a block over its own load from which on it is
+     * driven [-]. */
+    constexpr double driving_ratio = 1e-2;
+  } // namespace
+
+
+
+  template <int dim>
+  bool
+  is_any_block_moving_off(const Model<dim> &model, const unsigned int n_steps)
+  {
+    if (model.contact == nullptr)
+      return false;
+    const auto velocities =
+      model.contact->motions().measure(model.fields.velocity);
+    const auto nodes =
+      owned_nodes_of_blocks(model.split, *model.numbering, velocities.size());
+    const double duration = n_steps * model.step->dt;
+    for (unsigned int b = 0; b < velocities.size(); ++b)
+      {
+        const Block<dim> &block = model.blocks.blocks[b];
+        if (block.is_infinite ||
+            model.conditions->active_cells.is_removed_block(b))
+          continue;
+        const Vector<dim> &velocity = velocities[b].shift;
+        const BlockBalance<dim> balance =
+          measure_balance(model.fields, nodes[b], model.communicator);
+        if (balance.unbalanced_ratio() > driving_ratio &&
+            dot<dim>(velocity, balance.unbalanced_force) > 0. &&
+            norm<dim>(velocity) * duration >
+              compression_of_block(model.conditions->active_cells.ground(),
+                                   b,
+                                   block,
+                                   balance.load))
+          return true;
+      }
+    return false;
+  }
+
+  template bool is_any_block_moving_off(const Model<2> &, const unsigned int);
+  template bool is_any_block_moving_off(const Model<3> &, const unsigned int);
+} // namespace Keyblock
