@@ -42,6 +42,8 @@ def title_of(run, number, result):
         outcome = f"immovable: holds at {result['lower']:.3g}"
     elif outcome == "falls freely":
         outcome = f"falls freely: fails at {result['upper']:.3g}"
+    elif outcome == "carried along":
+        outcome = f"carried along: {result['group']['value']:.3g} together"
     return f"{block_label(run, number)}\n{outcome}"
 
 
@@ -112,6 +114,8 @@ def factor_points(run, number, method):
     for result in run.blocks[number].get(method, []):
         value = result.get("value")
         outcome = result.get("outcome", "value")
+        if outcome == "carried along":
+            value, outcome = result["group"]["value"], "value"
         if value is None:
             value = 0. if outcome == "falls freely" else math.inf
         if is_least(result):  # by its lower bound

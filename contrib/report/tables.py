@@ -31,6 +31,8 @@ def in_words(result):
     if outcome == "falls freely":
         return (f"falls freely: fails even at {number(upper)}"
                 if upper else "falls freely")
+    if outcome == "carried along":
+        return f"carried along: {number(result['group']['value'])} together"
     if outcome == "immovable":
         return (f"immovable: holds at {number(lower)}" if lower else
                 "immovable")
@@ -66,7 +68,7 @@ def size_alone(result):
         return result["lower"]
     if outcome == "falls freely":
         return 0.
-    if outcome == "immovable":
+    if outcome in ("immovable", "carried along"):
         return math.inf
     if outcome == "undecided":
         return result.get("undecided_lower", result.get("lower", math.inf))

@@ -135,7 +135,9 @@ namespace Keyblock
         const bool is_by_statics = found &&
                                    found->outcome == Outcome::by_statics &&
                                    std::isfinite(found->limit_factor);
+        const bool is_carried = found && found->outcome == Outcome::carried;
         factor.add(is_by_statics ? found->limit_factor
+                   : is_carried  ? found->value_of_group()
                    : is_number   ? found->value()
                                  : std::numeric_limits<double>::quiet_NaN());
         outcome.add_id(found ? static_cast<int>(found->outcome) + 1 : 0);
@@ -161,6 +163,8 @@ namespace Keyblock
               return "as wanted";
             case Outcome::by_statics:
               return "limit equilibrium";
+            case Outcome::carried:
+              return "carried along";
           }
         return "";
       }

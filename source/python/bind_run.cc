@@ -204,7 +204,8 @@ namespace Keyblock::Python
           "outcome",
           &FactorResult::outcome,
           "In words: value, falls freely, immovable, above 100, held "
-          "by clamping, undecided, or above what is wanted.")
+          "by clamping, undecided, above what is wanted, or carried "
+          "along.")
         .def_readonly("value",
                       &FactorResult::value,
                       "Middle of the bracket; nan: the outcome says why there "

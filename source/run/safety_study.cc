@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/run/safety_study.h>
-#include <keyblock/run/stage_runner.h>
 #include <keyblock/run/wanted_blocks.h>
 
 #include <algorithm>
@@ -9,30 +8,6 @@
 
 namespace Keyblock
 {
-  namespace
-  {
-    /** Looks for signals only: a stage that is run on trial leaves no trace. */
-    template <int dim>
-    class SignalWatch : public StageObserver<dim>
-    {
-    public:
-      explicit SignalWatch(const Communicator &communicator)
-        : communicator(communicator)
-      {}
-
-      void
-      save_point(StageProgress<dim> &) override
-      {
-        stop_if_asked(communicator);
-      }
-
-    private:
-      const Communicator communicator;
-    };
-  } // namespace
-
-
-
   template <int dim>
   SafetyStudy<dim>::SafetyStudy(Model<dim> &model,
                                 FiniteCheck<dim> &finite_check,
@@ -128,44 +103,6 @@ namespace Keyblock
 
   template <int dim>
   SafetyFactor
-  SafetyStudy<dim>::factor_of_failed_block(StrengthReductionSearch<dim> &search,
-                                           const unsigned int block)
-  {
-    const double lowest = model.scene.safety.lowest;
-    SafetyFactor result;
-    recall(record.before, model.parts());
-    model.step->excavate(record.present.number());
-    search.tell_ways(block);
-    if (holds_when_strong(block))
-      {
-        typename StrengthReductionSearch<dim>::Known known;
-        known.stable   = lowest;
-        known.unstable = 1.;
-        known.start    = lowest;
-        search.add_cheap_answers(block, result);
-        if (std::isfinite(result.limit_factor))
-          known.limit = result.limit_factor;
-        result = search.find(block, record.present.number(), known);
-      }
-    else
-      {
-        result.block   = block;
-        result.outcome = SafetyFactor::Outcome::falls_freely;
-        result.upper   = lowest;
-        recall(record.before, model.parts());
-        model.step->excavate(record.present.number());
-        search.add_cheap_answers(block, result);
-        // it moved too far for trials to tell
-        result.failure_mode =
-          result.limit_factor < lowest ? result.limit_mode : "falling";
-      }
-    return result;
-  }
-
-
-
-  template <int dim>
-  SafetyFactor
   SafetyStudy<dim>::factor_of_standing_block(
     StrengthReductionSearch<dim> &search,
     const unsigned int block)
@@ -195,28 +132,6 @@ namespace Keyblock
     if (known.stable == 0.)
       known.start = std::max(model.scene.safety.lowest, 0.5 * known.hint);
     return search.find(block, record.present.number(), known);
-  }
-
-
-
-  template <int dim>
-  bool
-  SafetyStudy<dim>::holds_when_strong(const unsigned int block)
-  {
-    recall(record.before, model.parts());
-    StrengthReduction strong;
-    strong.blocks = {block};
-    strong.share  = 1. / model.scene.safety.lowest;
-    model.contact->reduce_strength(strong);
-    model.conditions->reduce_strength(strong);
-    SignalWatch<dim> observer(model.communicator);
-    StageRunner<dim> runner(model, finite_check, observer);
-    StageProgress<dim> trial;
-    trial.index = record.present.index;
-    trial.removal_stage.assign(model.blocks.blocks.size(), 0);
-    runner.begin(trial);
-    runner.complete(trial);
-    return trial.removal_stage[block] == 0;
   }
 
 

@@ -79,6 +79,9 @@ namespace Keyblock
     for (const SafetyFactor &found : simulation.factors())
       {
         using Outcome = SafetyFactor::Outcome;
+        // the factor of one that is carried along is its group's
+        if (found.outcome == Outcome::carried)
+          continue;
         offer(found.block,
               found.outcome == Outcome::by_statics     ? found.limit_factor
               : found.outcome == Outcome::falls_freely ? 0.

@@ -62,6 +62,8 @@ namespace Keyblock
           return above.str() + ", as wanted";
         case SafetyFactor::Outcome::by_statics:
           return "limit equilibrium";
+        case SafetyFactor::Outcome::carried:
+          return "carried along";
       }
     return "";
   }

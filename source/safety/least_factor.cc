@@ -25,7 +25,8 @@ namespace Keyblock
         alone =
           factor.undecided_lower > 0. ? factor.undecided_lower : factor.lower;
       else if (factor.outcome != Outcome::immovable &&
-               factor.outcome != Outcome::by_statics)
+               factor.outcome != Outcome::by_statics &&
+               factor.outcome != Outcome::carried)
         alone = factor.lower;
       return factor.group.empty() ? alone
                                   : std::min(alone, factor.value_of_group());

@@ -55,25 +55,53 @@ namespace Keyblock
       result.outcome = SafetyFactor::Outcome::clamped;
     if (result.outcome == SafetyFactor::Outcome::bracketed &&
         scene.safety.reduced_joints != ReducedJoints::all)
-      find_group(number, known, result);
+      {
+        Known guess = known;
+        guess.hint  = result.value();
+        find_group(trials.blocks_along(), number, guess, result);
+      }
     return result;
   }
 
 
 
   template <int dim>
-  void
-  StrengthReductionSearch<dim>::find_group(const unsigned int number,
-                                           const Known &known,
+  SafetyFactor
+  StrengthReductionSearch<dim>::find_with(
+    const std::vector<unsigned int> &carriers,
+    const unsigned int block,
+    const unsigned int number,
+    const Known &known)
+  {
+    SafetyFactor result;
+    result.block = block;
+    add_cheap_answers(block, result);
+    trials.forget_failure();
+    trials.is_carried = true;
+    result.outcome    = find_group(carriers, number, known, result);
+    trials.is_carried = false;
+    if (result.outcome == SafetyFactor::Outcome::bracketed)
+      result.outcome = SafetyFactor::Outcome::carried;
+    else
+      result.failure_mode = trials.failure();
+    return result;
+  }
+
+
+
+  template <int dim>
+  SafetyFactor::Outcome
+  StrengthReductionSearch<dim>::find_group(std::vector<unsigned int> others,
+                                           const unsigned int number,
+                                           Known guess,
                                            SafetyFactor &result)
   {
-    Known guess = known;
-    guess.hint  = result.value();
-    for (std::vector<unsigned int> more = trials.blocks_along(); !more.empty();)
+    auto first = SafetyFactor::Outcome::undecided;
+    for (bool is_first = true; !others.empty(); is_first = false)
       {
         trials.companions.insert(trials.companions.end(),
-                                 more.begin(),
-                                 more.end());
+                                 others.begin(),
+                                 others.end());
         std::vector<Trial> tried;
         Search search(*this, result.block, number, guess, tried);
         const auto outcome = bisect(search, guess);
@@ -83,24 +111,28 @@ namespace Keyblock
             trial.is_of_group = true;
             result.trials.push_back(trial);
           }
+        if (is_first)
+          first = outcome;
         if (outcome != SafetyFactor::Outcome::bracketed)
           break;
         result.group       = ids_of_group(result.block);
         result.group_lower = search.stable;
         result.group_upper = search.unstable;
         // those that move with the group only
-        more = trials.blocks_along();
-        more.erase(std::remove_if(more.begin(),
-                                  more.end(),
-                                  [&](const unsigned int b) {
-                                    return std::count(trials.companions.begin(),
-                                                      trials.companions.end(),
-                                                      b) > 0;
-                                  }),
-                   more.end());
+        others = trials.blocks_along();
+        others.erase(std::remove_if(others.begin(),
+                                    others.end(),
+                                    [&](const unsigned int b) {
+                                      return std::count(
+                                               trials.companions.begin(),
+                                               trials.companions.end(),
+                                               b) > 0;
+                                    }),
+                     others.end());
         guess.hint = result.value_of_group();
       }
     trials.companions.clear();
+    return first;
   }
 
 

@@ -54,9 +54,10 @@ namespace Keyblock
         motion.displacement[d] = sums[1 + dim + d] / sums[0];
       }
     // where all joints are reduced, what it touches may go along
-    motion.slip = scene.safety.reduced_joints == ReducedJoints::all
-                    ? motion.displacement
-                    : run.contact->report().mean_slip(block);
+    motion.slip =
+      is_carried || scene.safety.reduced_joints == ReducedJoints::all
+        ? motion.displacement
+        : run.contact->report().mean_slip(block);
     return motion;
   }
 

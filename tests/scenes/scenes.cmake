@@ -153,6 +153,8 @@ keyblock_scene(verification/incline_3d REFERENCES incline_3d_refined
   SET "Mesh/Refinement levels=(0.389948096*x + 0.713134173*y - 0.582563416*z < 0.125)")
 keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
   SET "Safety factor/Removal slip=0.05")
+# one that lies on another which fails has the factor of both
+keyblock_scene(verification/carried_slab RANKS 1 2)
 # the model is in balance while so light a block still falls
 keyblock_scene(verification/light_wedge RANKS 1 2)
 # and where it may not be taken away, the stage does not end in balance

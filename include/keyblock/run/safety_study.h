@@ -63,9 +63,14 @@ namespace Keyblock
     SafetyFactor factor_of_standing_block(StrengthReductionSearch<dim> &search,
                                           const unsigned int block);
 
-    /** Whether a block that failed in the present stage holds in it with the
-     * highest strength that is tried. */
-    bool holds_when_strong(const unsigned int block);
+    /** Blocks (indices) that failed in the present stage, too, and touch @p
+     * block or each other. */
+    std::vector<unsigned int>
+    list_failed_beside(const unsigned int block) const;
+
+    /** Whether @p blocks (indices), which failed in the present stage, all hold
+     * in it with the highest strength that is tried. */
+    bool hold_when_strong(const std::vector<unsigned int> &blocks);
 
     Model<dim> &model;
     FiniteCheck<dim> &finite_check;

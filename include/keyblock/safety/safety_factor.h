@@ -19,7 +19,8 @@ namespace Keyblock
                     ///< holds it says held_by
       undecided,    ///< neither holds nor fails wherever it was tried
       met,          ///< holds at SafetySettings::wanted; not looked further
-      by_statics    ///< not tried: limit equilibrium is all that was asked for
+      by_statics,   ///< not tried: limit equilibrium is all that was asked for
+      carried       ///< fails with its group, whatever its own joints' strength
     };
     unsigned int block = 0; ///< index
     std::string stage;
@@ -72,7 +73,8 @@ namespace Keyblock
   };
 
   /** The outcome in words; a value, falls freely, immovable, above 100, held by
-   * clamping (or what else), undecided, or above 1.5, as wanted. */
+   * clamping (or what else), undecided, above 1.5, as wanted, or carried along.
+   */
   std::string describe_outcome(const SafetyFactor &factor);
 
   /**
@@ -121,6 +123,13 @@ namespace Keyblock
                       const unsigned int number,
                       const Known &known);
 
+    /** The same of a block that fails whatever its own joints' strength: factor
+     * of it and its @p carriers (indices) as a group. */
+    SafetyFactor find_with(const std::vector<unsigned int> &carriers,
+                           const unsigned int block,
+                           const unsigned int number,
+                           const Known &known);
+
     /** Limit equilibrium and stress ratio of @p block in the present state. */
     void add_cheap_answers(const unsigned int block,
                            SafetyFactor &result) const;
@@ -132,11 +141,13 @@ namespace Keyblock
   private:
     class Search;
 
-    /** Factor of the blocks that moved together when @p result, that of one of
-     * them, was found. */
-    void find_group(const unsigned int number,
-                    const Known &known,
-                    SafetyFactor &result);
+    /** Factor of the block of @p result together with @p others (indices), and
+     * all that then move along.
+     * @return outcome of the first search */
+    SafetyFactor::Outcome find_group(std::vector<unsigned int> others,
+                                     const unsigned int number,
+                                     Known guess,
+                                     SafetyFactor &result);
 
     /** Ids of @p block and its companions, as SafetyFactor::group. */
     std::vector<unsigned int> ids_of_group(const unsigned int block) const;

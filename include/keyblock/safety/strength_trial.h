@@ -66,7 +66,8 @@ namespace Keyblock
                      const Vector<dim> &first);
 
     /** Mean slip of @p block on its contacts, or, where the strength of all
-     * joints is reduced, its mean displacement [m] (collective). */
+     * joints is reduced or it is carried, its mean displacement [m]
+     * (collective). */
     Vector<dim>
     slip_of(const unsigned int block) const
     {
@@ -80,6 +81,10 @@ namespace Keyblock
     /** Blocks (indices) whose joints are reduced with those of the block that
      * is tried; empty: none. */
     std::vector<unsigned int> companions;
+
+    /** Companions carry the block along, so that it may not slip on what it
+     * touches: its slip is its displacement. */
+    bool is_carried = false;
 
     /** Which blocks are those whose joints are reduced when @p block is tried,
      * or are tied to one of them by bolts or shotcrete, by index. */
