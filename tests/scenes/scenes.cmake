@@ -276,6 +276,10 @@ foreach(angle 0 30 60)
     "Bolts/anchor/Free length=${free_${angle}}"
     "Safety factor/Bolt convention=passive")
 endforeach()
+# a bolt across a gap, between two blocks that share no joint there
+keyblock_scene(verification/bolted_gap RANKS 1 2)
+keyblock_scene(verification/bolted_gap REFERENCES bolted_gap_active RANKS 1
+  SET "Safety factor/Bolt convention=active" "Bolts/anchor/Yield force=30e3")
 # a water table that rises in a stage and is drained in the next
 keyblock_scene(verification/factor_incline REFERENCES water_table RANKS 1 2
   SET "Stages/Names=rest, wet, drained" "Stages/wet/Kind=quasi-static"
