@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/boost_adaptors/segment.h>
+
 #include <keyblock/mesh/cell_locator.h>
 
 #include <algorithm>
@@ -11,10 +13,6 @@ namespace Keyblock
   {
     /** How far outside the unit cell a point still counts as inside [-]. */
     constexpr double margin = 1e-7;
-
-    /** How far beside a point a cell has to go on, in its own size, to be on
-     * that side: more than the margin in flat cells [-]. */
-    constexpr double beside = 1e-5;
 
     template <int dim>
     using Weights = std::array<double, Mesh<dim>::n_cell_vertices>;
@@ -43,11 +41,11 @@ namespace Keyblock
       return weight;
     }
 
-    /** Shares of the vertices of a cell in @p point by Newton's method; nothing
-     * if it is outside. */
+    /** Place of @p point in the unit cell by Newton's method; nothing if it is
+     * far outside. */
     template <int dim>
-    std::optional<Weights<dim>>
-    weights_in(const Mesh<dim> &mesh,
+    std::optional<Point<dim>>
+    unit_point(const Mesh<dim> &mesh,
                const unsigned int cell,
                const Point<dim> &point)
     {
@@ -73,10 +71,32 @@ namespace Keyblock
           if (unit.norm() > 10.)
             return {};
         }
-      for (unsigned int d = 0; d < dim; ++d)
-        if (!(unit[d] >= -margin && unit[d] <= 1. + margin))
-          return {};
+      return unit;
+    }
+
+    template <int dim>
+    Weights<dim>
+    weights_at(const Point<dim> &unit)
+    {
+      std::array<Tensor<1, dim>, Mesh<dim>::n_cell_vertices> slope;
       return shape_at<dim>(unit, slope);
+    }
+
+    /** Shares of the vertices of a cell in @p point; nothing if it is outside.
+     */
+    template <int dim>
+    std::optional<Weights<dim>>
+    weights_in(const Mesh<dim> &mesh,
+               const unsigned int cell,
+               const Point<dim> &point)
+    {
+      const std::optional<Point<dim>> unit = unit_point(mesh, cell, point);
+      if (!unit)
+        return {};
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!((*unit)[d] >= -margin && (*unit)[d] <= 1. + margin))
+          return {};
+      return weights_at<dim>(*unit);
     }
   } // namespace
 
@@ -146,19 +166,31 @@ namespace Keyblock
 
   template <int dim>
   CellPoint<dim>
-  CellLocator<dim>::find_towards(const Point<dim> &point,
-                                 const Tensor<1, dim> &way) const
+  CellLocator<dim>::find_in(const unsigned int cell,
+                            const Point<dim> &point) const
   {
-    const std::vector<CellPoint<dim>> found = find_all(point);
-    for (const CellPoint<dim> &here : found)
-      {
-        const auto &vertices = mesh.cells[here.cell];
-        const double size    = mesh.vertices[vertices.front()].distance(
-          mesh.vertices[vertices.back()]);
-        if (weights_in<dim>(mesh, here.cell, point + beside * size * way))
-          return here;
-      }
-    return found.empty() ? CellPoint<dim>() : found.front();
+    if (cell == none)
+      return {};
+    const std::optional<Point<dim>> unit = unit_point(mesh, cell, point);
+    AssertThrow(unit, dealii::ExcMessage("The point is far outside the cell."));
+    return {cell, weights_at<dim>(*unit)};
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  CellLocator<dim>::list_along(const Point<dim> &a, const Point<dim> &b) const
+  {
+    std::vector<Entry> near;
+    tree.query(boost::geometry::index::intersects(
+                 boost::geometry::model::segment<Point<dim>>(a, b)),
+               std::back_inserter(near));
+    std::vector<unsigned int> cells;
+    for (const Entry &entry : near)
+      cells.push_back(entry.second);
+    std::sort(cells.begin(), cells.end());
+    return cells;
   }
 
   template class CellLocator<2>;

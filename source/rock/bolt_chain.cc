@@ -99,6 +99,28 @@ namespace Keyblock
 
 
 
+  bool
+  BoltChain::is_cut_between(const double a, const double b) const
+  {
+    const auto [first, end] = segments_between(a, b);
+    return std::any_of(is_cut.begin() + first,
+                       is_cut.begin() + end,
+                       [](const bool is) { return is; });
+  }
+
+
+
+  bool
+  BoltChain::is_broken_between(const double a, const double b) const
+  {
+    const auto [first, end] = segments_between(a, b);
+    return std::any_of(row(broken) + first,
+                       row(broken) + end,
+                       [](const double is) { return is != 0.; });
+  }
+
+
+
   double
   BoltChain::stored_energy() const
   {

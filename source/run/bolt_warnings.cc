@@ -51,8 +51,8 @@ namespace Keyblock
         warnings.push_back(
           "None of the " + std::to_string(n_bolts[s]) + " bolts of '" +
           scene.bolts[s]->name +
-          "' crosses a joint between blocks, so that they hold none; make "
-          "them longer, or place them elsewhere.");
+          "' crosses a joint or a void between blocks, so that they hold "
+          "none; make them longer, or place them elsewhere.");
     return warnings;
   }
 

@@ -182,6 +182,7 @@ namespace Keyblock
     file.exchange("run/slip_begin", record.present.slips.begin);
     file.exchange("run/slip_steps", record.present.slips.steps);
     file.exchange("run/slips", record.present.slips.slips);
+    file.exchange("run/support", record.present.support.numbers);
     file.exchange("run/is_converged", record.present.is_converged);
     file.exchange("run/removal_stage", record.present.removal_stage);
     StateExchange<dim> state(file, model.split, *model.numbering);

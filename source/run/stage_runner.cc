@@ -199,42 +199,84 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<bool>
+  StageRunner<dim>::mark_steady_blocks(
+    const std::vector<BlockMotion<dim>> &motions,
+    const std::vector<double> &ways,
+    StageProgress<dim> &progress) const
+  {
+    std::vector<bool> is_steady(ways.size(), false);
+    if (!progress.slips.offer(progress.n_done, ways))
+      return is_steady;
+    const auto nodes =
+      owned_nodes_of_blocks(model.split, *model.numbering, ways.size());
+    std::vector<double> loads, sizes;
+    std::vector<bool> is_finite;
+    for (unsigned int b = 0; b < ways.size(); ++b)
+      {
+        loads.push_back(motions[b].load);
+        sizes.push_back(model.blocks.blocks[b].size);
+        is_finite.push_back(can_fail(b));
+      }
+    const SupportState<dim> support =
+      measure_support(model.conditions->elements,
+                      model.fields,
+                      nodes,
+                      is_finite,
+                      model.communicator);
+    const std::vector<bool> is_caught =
+      mark_caught_blocks(progress.support, support, loads, sizes);
+    progress.support = support;
+    for (unsigned int b = 0; b < ways.size(); ++b)
+      {
+        const Block<dim> &block = model.blocks.blocks[b];
+        const double least      = steady_slip * block.size;
+        is_steady[b] = !is_caught[b] && progress.slips.is_steady(b, least) &&
+                       progress.slips.is_steady(
+                         b,
+                         std::max(least,
+                                  steady_compressions *
+                                    compression_of_block(
+                                      model.conditions->active_cells.ground(),
+                                      b,
+                                      block,
+                                      loads[b])));
+      }
+    return is_steady;
+  }
+
+
+
+  template <int dim>
+  bool
+  StageRunner<dim>::can_fail(const unsigned int block) const
+  {
+    return !model.blocks.blocks[block].is_infinite &&
+           !model.conditions->active_cells.is_removed_block(block);
+  }
+
+
+
+  template <int dim>
   std::vector<unsigned int>
   StageRunner<dim>::list_failed_blocks(StageProgress<dim> &progress)
   {
     if (model.contact == nullptr || model.scene.safety.removal_slip == 0.)
       return {};
     std::vector<unsigned int> failed;
-    std::vector<double> way(model.blocks.blocks.size(), 0.);
-    const auto can_fail = [&](const unsigned int b) {
-      return !model.blocks.blocks[b].is_infinite &&
-             !model.conditions->active_cells.is_removed_block(b);
-    };
+    std::vector<double> ways(model.blocks.blocks.size(), 0.);
     const auto motions = model.contact->motions().measure();
-    for (unsigned int b = 0; b < model.blocks.blocks.size(); ++b)
+    for (unsigned int b = 0; b < ways.size(); ++b)
       if (can_fail(b))
-        way[b] = motions[b].way();
+        ways[b] = motions[b].way();
     if (model.conditions->loads.is_ramping())
-      progress.slips.restart(progress.n_done);
-    const bool is_recorded = progress.slips.offer(progress.n_done, way);
-    const auto is_steady   = [&](const unsigned int b) {
-      const Block<dim> &block = model.blocks.blocks[b];
-      const double least      = steady_slip * block.size;
-      return progress.slips.is_steady(b, least) &&
-             progress.slips.is_steady(
-               b,
-               std::max(
-                 least,
-                 steady_compressions *
-                   compression_of_block(model.conditions->active_cells.ground(),
-                                        b,
-                                        block,
-                                        motions[b].load)));
-    };
-    for (unsigned int b = 0; b < model.blocks.blocks.size(); ++b)
-      if (can_fail(b) && (way[b] > model.scene.safety.removal_slip *
-                                     model.blocks.blocks[b].size ||
-                          (is_recorded && is_steady(b))))
+      progress.restart_slips();
+    const std::vector<bool> is_steady =
+      mark_steady_blocks(motions, ways, progress);
+    for (unsigned int b = 0; b < ways.size(); ++b)
+      if (can_fail(b) && (ways[b] > model.scene.safety.removal_slip *
+                                      model.blocks.blocks[b].size ||
+                          is_steady[b]))
         failed.push_back(b);
     return failed;
   }
@@ -249,7 +291,7 @@ namespace Keyblock
     const std::vector<unsigned int> failed = list_failed_blocks(progress);
     if (failed.empty())
       return false;
-    progress.slips.restart(progress.n_done);
+    progress.restart_slips();
     const unsigned int number = progress.number();
     for (const unsigned int b : failed)
       {

@@ -183,9 +183,9 @@ namespace Keyblock
           const BoltChain chain =
             chain_of(bolt, set, find_remains(bolt, ground), nullptr);
           for (const BoltCrossing<dim> &crossing : bolt.crossings)
-            if (!chain.is_parted_at(chain.segment_at(crossing.place)))
+            if (!chain.is_parted_between(crossing.begin, crossing.end))
               {
-                sum += set.share() * chain.capacity(crossing.place).force;
+                sum += set.share() * chain.capacity(crossing.middle()).force;
                 ++n;
               }
         }
@@ -220,23 +220,29 @@ namespace Keyblock
                        is_far  = crossing.block[1] == block;
             if (is_near == is_far)
               continue;
-            const unsigned int segment = chain.segment_at(crossing.place);
-            if (chain.is_parted_at(segment))
+            if (chain.is_parted_between(crossing.begin, crossing.end))
               {
-                result.n_broken += !remains.is_cut[segment];
+                const auto [first, end] =
+                  chain.segments_between(crossing.begin, crossing.end);
+                result.n_broken +=
+                  std::none_of(remains.is_cut.begin() + first,
+                               remains.is_cut.begin() + end,
+                               [](const bool is) { return is; });
                 continue;
               }
             for (const BoltCrossing<dim> &other : bolt.crossings)
               result.shared_with.insert(other.block.begin(), other.block.end());
-            const BoltChain::Capacity capacity = chain.capacity(crossing.place);
+            const BoltChain::Capacity capacity =
+              chain.capacity(crossing.middle());
             typename BlockSupport<dim>::Pull pull;
-            pull.place          = bolt.at(crossing.place);
-            pull.along          = (is_near ? 1. : -1.) * bolt.direction();
-            pull.force          = set.share() * capacity.force;
-            pull.dowel_strength = set.share() * set.dowel_strength;
-            pull.limit          = capacity.limit;
-            pull.is_reduced     = has_reduced(reduced, crossing.joint);
-            pull.set            = bolt.set;
+            pull.place = bolt.at(crossing.middle());
+            pull.along = (is_near ? 1. : -1.) * bolt.direction();
+            pull.force = set.share() * capacity.force;
+            pull.dowel_strength =
+              crossing.is_void() ? 0. : set.share() * set.dowel_strength;
+            pull.limit      = capacity.limit;
+            pull.is_reduced = has_reduced(reduced, crossing.joint);
+            pull.set        = bolt.set;
             result.pulls.push_back(pull);
           }
       }

@@ -151,11 +151,11 @@ namespace Keyblock
     const unsigned int period = period_of(block);
     const unsigned int window =
       std::max(1., std::round(scene.safety.window * period));
-    const Motion begin   = measure(block);
-    Motion before        = begin;
-    double least         = std::numeric_limits<double>::max();
-    unsigned int n_stuck = 0;
-    SupportState support = measure_support(block);
+    const Motion begin        = measure(block);
+    Motion before             = begin;
+    double least              = std::numeric_limits<double>::max();
+    unsigned int n_stuck      = 0;
+    SupportState<dim> support = support_of(block);
     SlowMode<dim> creep(communicator, run.fields, nodes_of_block[block]);
     double slowest = 0.; // angular frequency of the creep [rad/s]
     double last    = scene.safety.maximum_periods * period;
@@ -174,22 +174,23 @@ namespace Keyblock
                 ? std::min(full_damping, 2. * creep_damping * slowest)
                 : full_damping);
           }
-        const Motion now         = measure(block);
-        const double moved       = way_between(before, now) * period / window;
-        trial.unbalanced         = now.unbalanced;
-        trial.slip               = norm<dim>(add<dim>(now.slip, -1., first));
-        trial.velocity           = moved / (period * run.step.dt);
-        const SupportState borne = measure_support(block);
-        const double swing       = swing_period(support, borne, before, now);
-        if (now.unbalanced < rest_unbalanced &&
+        const Motion now   = measure(block);
+        const double moved = way_between(before, now) * period / window;
+        trial.unbalanced   = now.unbalanced;
+        trial.slip         = norm<dim>(add<dim>(now.slip, -1., first));
+        trial.velocity     = moved / (period * run.step.dt);
+        const SupportState<dim> borne = support_of(block);
+        const double swing = swing_period(block, support, borne, before, now);
+        const double unbalanced = unbalanced_with_tied(block);
+        if (unbalanced < rest_unbalanced &&
             moved * std::max(1., swing / period) < rest_slip * size)
           return true;
-        const bool is_stuck = now.unbalanced >= 0.8 * least && swing == 0.;
+        const bool is_stuck = unbalanced >= 0.8 * least && swing == 0.;
         last                = std::max(last, n_swings * swing);
         n_stuck             = is_stuck ? n_stuck + 1 : 0;
         support             = borne;
         if (n_stuck == 0)
-          least = now.unbalanced;
+          least = unbalanced;
         if (n_stuck >= patience ||
             has_passed(block, norm<dim>(add<dim>(now.slip, -1., begin.slip))))
           break;

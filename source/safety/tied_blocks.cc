@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Blocks that a trial moves, and those that support ties to them.
 #include <keyblock/safety/strength_trial.h>
+#include <keyblock/step/block_balance.h>
+
+#include <algorithm>
 
 namespace Keyblock
 {
@@ -50,8 +53,52 @@ namespace Keyblock
     return is_marked;
   }
 
+
+
+  template <int dim>
+  double
+  StrengthTrials<dim>::unbalanced_with_tied(const unsigned int block) const
+  {
+    std::vector<bool> is_tied(blocks.blocks.size(), false), before;
+    is_tied[block] = true;
+    while (is_tied != before)
+      {
+        before = is_tied;
+        add_tied_blocks(split, blocks, is_tied);
+      }
+    double largest = 0.;
+    for (unsigned int b = 0; b < is_tied.size(); ++b)
+      if (is_tied[b] && !run.conditions.active_cells.is_removed_block(b))
+        largest =
+          std::max(largest,
+                   measure_balance(run.fields, nodes_of_block[b], communicator)
+                     .unbalanced_ratio());
+    return largest;
+  }
+
+
+
+  template <int dim>
+  SupportState<dim>
+  StrengthTrials<dim>::support_of(const unsigned int block) const
+  {
+    return measure_support(run.conditions.elements,
+                           run.fields,
+                           nodes_of_block,
+                           mark_tied_blocks(block),
+                           communicator);
+  }
+
   template std::vector<bool>
   StrengthTrials<2>::mark_tied_blocks(const unsigned int) const;
   template std::vector<bool>
   StrengthTrials<3>::mark_tied_blocks(const unsigned int) const;
+  template double
+  StrengthTrials<2>::unbalanced_with_tied(const unsigned int) const;
+  template double
+  StrengthTrials<3>::unbalanced_with_tied(const unsigned int) const;
+  template SupportState<2>
+  StrengthTrials<2>::support_of(const unsigned int) const;
+  template SupportState<3>
+  StrengthTrials<3>::support_of(const unsigned int) const;
 } // namespace Keyblock

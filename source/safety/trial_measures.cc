@@ -19,10 +19,6 @@ namespace Keyblock
 
     /** Share of its load that what holds a block bears at least [-]. */
     constexpr double holding_share = 0.1;
-
-    /** Way over the size of a block from which on it, or what it touches, has
-     * left its place [-]. */
-    constexpr double far_off = 0.05;
   } // namespace
 
 
@@ -338,6 +334,12 @@ namespace Keyblock
   StrengthTrials<2>::measure(const unsigned int) const;
   template StrengthTrials<3>::Motion
   StrengthTrials<3>::measure(const unsigned int) const;
+  template double StrengthTrials<2>::way_from_place(const unsigned int) const;
+  template double StrengthTrials<3>::way_from_place(const unsigned int) const;
+  template bool StrengthTrials<2>::has_passed(const unsigned int,
+                                              const double) const;
+  template bool StrengthTrials<3>::has_passed(const unsigned int,
+                                              const double) const;
   template double StrengthTrials<2>::n_across(const unsigned int) const;
   template double StrengthTrials<3>::n_across(const unsigned int) const;
   template unsigned int StrengthTrials<2>::period_of(const unsigned int) const;

@@ -26,12 +26,6 @@ namespace Keyblock
      * may be no more than strength that is not yet mobilised [-]. */
     constexpr double mobilising_slip = 0.02;
 
-    /** Energy per window that elements take up along the way of a block, over
-     * that of what is out of balance, with which the support is still being
-     * mobilised, however long that takes: on soft support a block swings much
-     * slower than waves cross it [-]. */
-    constexpr double least_take_up = 1e-4;
-
     /** Swings on such support that are watched at least. */
     constexpr double n_swings_watched = 2.;
 
@@ -80,77 +74,30 @@ namespace Keyblock
 
 
   template <int dim>
-  typename StrengthTrials<dim>::SupportState
-  StrengthTrials<dim>::measure_support(const unsigned int block) const
-  {
-    SupportState state;
-    if (run.conditions.elements.empty())
-      return state;
-    const unsigned int n_blocks          = blocks.blocks.size();
-    const std::vector<bool> is_looked_at = mark_tied_blocks(block);
-    std::vector<double> force(run.fields.load.size(), 0.),
-      sums(n_blocks * (2 * dim + 1), 0.);
-    for (const auto &element : run.conditions.elements)
-      element->add_force(run.fields.displacement, force);
-    for (unsigned int b = 0; b < n_blocks; ++b)
-      if (is_looked_at[b])
-        for (const unsigned int node : nodes_of_block[b])
-          {
-            double *const sum = sums.data() + b * (2 * dim + 1);
-            sum[2 * dim] += run.fields.mass[node];
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                const unsigned int i = dim * node + d;
-                sum[d] += force[i];
-                sum[dim + d] +=
-                  run.fields.mass[node] * run.fields.displacement[i];
-              }
-          }
-    communicator.sum_lists(sums);
-    state.force.resize(n_blocks);
-    state.displacement.resize(n_blocks);
-    state.mass.resize(n_blocks);
-    for (unsigned int b = 0; b < n_blocks; ++b)
-      {
-        const double *const sum = sums.data() + b * (2 * dim + 1);
-        state.mass[b]           = sum[2 * dim];
-        if (sum[2 * dim] > 0.)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              state.force[b][d]        = sum[d];
-              state.displacement[b][d] = sum[dim + d] / sum[2 * dim];
-            }
-      }
-    return state;
-  }
-
-
-
-  template <int dim>
   double
-  StrengthTrials<dim>::swing_period(const SupportState &from,
-                                    const SupportState &to,
+  StrengthTrials<dim>::swing_period(const unsigned int block,
+                                    const SupportState<dim> &from,
+                                    const SupportState<dim> &to,
                                     const Motion &before,
                                     const Motion &now) const
   {
+    if (to.numbers.empty())
+      return 0.;
     const double gone =
       norm<dim>(add<dim>(now.displacement, -1., before.displacement));
     // the block of which they take up most leads
-    double most = 0., square_of_time = 0.;
-    for (unsigned int b = 0; b < to.force.size(); ++b)
-      {
-        const Vector<dim> way =
-          add<dim>(to.displacement[b], -1., from.displacement[b]);
-        const double stored =
-          dot<dim>(add<dim>(to.force[b], -1., from.force[b]), way);
-        if (stored > most)
-          {
-            most           = stored;
-            square_of_time = to.mass[b] * dot<dim>(way, way) / stored;
-          }
-      }
-    return most > least_take_up * now.unbalanced * now.load * gone
-             ? 2. * dealii::numbers::PI * std::sqrt(square_of_time) /
+    TakeUp<dim> most(from, to, block);
+    unsigned int leader = block;
+    for (unsigned int b = 0; b < to.n_blocks(); ++b)
+      if (const TakeUp<dim> change(from, to, b); change.energy > most.energy)
+        {
+          most   = change;
+          leader = b;
+        }
+    return most.bears(now.load, far_off * blocks.blocks[block].size, gone)
+             ? 2. * dealii::numbers::PI *
+                 std::sqrt(to.mass(leader) * dot<dim>(most.way, most.way) /
+                           most.energy) /
                  run.step.dt
              : 0.;
   }
@@ -180,8 +127,8 @@ namespace Keyblock
     const double mass    = mass_in_use(block);
     displacement_before  = run.fields.displacement;
     joint_force.assign(scene.joints.size() + 1, 0.);
-    Motion before        = at_rest;
-    SupportState support = measure_support(block);
+    Motion before             = at_rest;
+    SupportState<dim> support = support_of(block);
     std::vector<double> velocity(1, 0.);
     std::vector<Vector<dim>> block_velocity(1);
     for (unsigned int w = 1; w <= n_windows; ++w)
@@ -203,10 +150,10 @@ namespace Keyblock
         velocity.push_back(slip > 0. ? dot<dim>(moved, way) / (slip * seconds)
                                      : 0.);
         block_velocity.push_back(now.velocity);
-        trial.velocity           = velocity[w];
-        trial.acceleration       = (velocity[w] - velocity[w - 1]) / seconds;
-        const SupportState borne = measure_support(block);
-        const double swing       = swing_period(support, borne, before, now);
+        trial.velocity     = velocity[w];
+        trial.acceleration = (velocity[w] - velocity[w - 1]) / seconds;
+        const SupportState<dim> borne = support_of(block);
+        const double swing = swing_period(block, support, borne, before, now);
         const bool rests =
           now.unbalanced < rest_unbalanced &&
           way_between(before, now) * std::max(1., swing / window) <
@@ -249,16 +196,14 @@ namespace Keyblock
 
 
 
-  template StrengthTrials<2>::SupportState
-  StrengthTrials<2>::measure_support(const unsigned int) const;
-  template StrengthTrials<3>::SupportState
-  StrengthTrials<3>::measure_support(const unsigned int) const;
-  template double StrengthTrials<2>::swing_period(const SupportState &,
-                                                  const SupportState &,
+  template double StrengthTrials<2>::swing_period(const unsigned int,
+                                                  const SupportState<2> &,
+                                                  const SupportState<2> &,
                                                   const Motion &,
                                                   const Motion &) const;
-  template double StrengthTrials<3>::swing_period(const SupportState &,
-                                                  const SupportState &,
+  template double StrengthTrials<3>::swing_period(const unsigned int,
+                                                  const SupportState<3> &,
+                                                  const SupportState<3> &,
                                                   const Motion &,
                                                   const Motion &) const;
   template StrengthTrials<2>::Verdict

@@ -69,7 +69,7 @@ namespace Keyblock
         const unsigned int before = n_nodes() + 2 * k;
         dowels[k].is_there =
           bindings[before].is_held && bindings[before + 1].is_held &&
-          !chain.is_cut_at(chain.segment_at(bolt.crossings[k].place));
+          !chain.is_cut_between(bolt.crossings[k].begin, bolt.crossings[k].end);
       }
   }
 
@@ -159,7 +159,8 @@ namespace Keyblock
     const Tensor<1, dim> shear = shear_of(dowel, jump);
     if (is_whole_at_joint(k))
       {
-        follow(dowel, shear);
+        if (!bolt.crossings[k].is_void())
+          follow(dowel, shear);
         return;
       }
     // what breaks dissipates what it has stored and what the rock does in the
@@ -183,13 +184,12 @@ namespace Keyblock
         Tensor<1, dim> on_rock            = dowels[k].force;
         const BoltCrossing<dim> &crossing = bolt.crossings[k];
         if (!trial.is_whole())
-          on_rock -=
-            trial.taken(chain.axial_force_of(chain.segment_at(crossing.place)) *
-                            way +
-                          on_rock,
-                        crossing.block,
-                        crossing.joint,
-                        crossing.normal);
+          on_rock -= trial.taken(
+            chain.axial_force_of(chain.segment_at(crossing.middle())) * way +
+              on_rock,
+            crossing.block,
+            crossing.joint,
+            crossing.normal);
         subtract_at_joint(k, on_rock, forces);
       }
   }
@@ -219,7 +219,7 @@ namespace Keyblock
     for (unsigned int i = 0; i < n_nodes(); ++i)
       along[i] *= share;
     for (unsigned int k = 0; k < n_jumps(); ++k)
-      if (is_whole_at_joint(k))
+      if (is_whole_at_joint(k) && !bolt.crossings[k].is_void())
         {
           Tensor<1, dim> across = vector_at<dim>(jump + dim * k);
           across -= (across * way) * way;
@@ -351,9 +351,9 @@ namespace Keyblock
     double least = std::numeric_limits<double>::max();
     for (const BoltCrossing<dim> &crossing : bolt.crossings)
       {
-        if (chain.is_parted_at(chain.segment_at(crossing.place)))
+        if (chain.is_parted_between(crossing.begin, crossing.end))
           continue;
-        const auto capacity = chain.capacity(crossing.place);
+        const auto capacity = chain.capacity(crossing.middle());
         if (capacity.force < least)
           result.limit = describe(capacity.limit);
         least = std::min(least, capacity.force);

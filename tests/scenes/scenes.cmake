@@ -278,6 +278,10 @@ foreach(angle 0 30 60)
     "Bolts/anchor/Free length=${free_${angle}}"
     "Safety factor/Bolt convention=passive")
 endforeach()
+# a bolt across a gap, between two blocks that share no joint there
+keyblock_scene(verification/bolted_gap RANKS 1 2)
+keyblock_scene(verification/bolted_gap REFERENCES bolted_gap_active RANKS 1
+  SET "Safety factor/Bolt convention=active" "Bolts/anchor/Yield force=30e3")
 # a water table that rises in a stage and is drained in the next
 keyblock_scene(verification/factor_incline REFERENCES water_table RANKS 1 2
   SET "Stages/Names=rest, wet, drained" "Stages/wet/Kind=quasi-static"
@@ -388,9 +392,11 @@ keyblock_scene(verification/hanging_slabs RANKS 1 2)
 # hard rock on soft bolts: a swing takes much longer than waves through the block
 keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_hard RANKS 1 2
   SET "Materials/rock/Young modulus=1e11")
-keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_soft RANKS 1
-  SET "Materials/rock/Young modulus=1e11" "Bolts/hanger/Area=1e-5"
-  "Safety factor/Removal slip=0")
+keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_soft RANKS 1 2
+  SET "Materials/rock/Young modulus=1e11" "Bolts/hanger/Area=1e-5")
+keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_softer RANKS 1
+  SET "Materials/rock/Young modulus=1e11" "Bolts/hanger/Area=5e-6"
+  "Safety factor/Blocks=1")
 keyblock_scene(verification/hanging_chain REFERENCES hanging_chain_hard RANKS 1
   SET "Materials/rock/Young modulus=1e11")
 # blocks judged by statics alone, without a step
@@ -402,6 +408,9 @@ keyblock_scene(verification/hanging_chain RANKS 1 2)
 keyblock_scene(verification/bolted_row RANKS 1 2)
 keyblock_scene(verification/bolted_row REFERENCES bolted_row_active RANKS 1
   SET "Safety factor/Bolt convention=active")
+# hard rock: the lower block is in balance before the upper one's load comes on it
+keyblock_scene(verification/bolted_row REFERENCES bolted_row_hard RANKS 1
+  SET "Materials/rock/Young modulus=2e10" "Safety factor/Blocks=2")
 keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_all RANKS 1
   SET "Safety factor/Reduced joints=all")
 # a bolt that breaks counts no more, and lets nothing go without a trace

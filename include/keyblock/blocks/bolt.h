@@ -2,19 +2,34 @@
 #ifndef keyblock_blocks_bolt_h
 #define keyblock_blocks_bolt_h
 
+#include <keyblock/mesh/cell_piece.h>
 #include <keyblock/mesh/cell_point.h>
 
 namespace Keyblock
 {
-  /** A joint face that a bolt goes through. */
+  /** Where a bolt goes from one block to another: through a joint, or across a
+   * void between them. */
   template <int dim>
   struct BoltCrossing
   {
-    double place = 0.; ///< distance from the head [m]
+    double begin = 0., end = 0.; ///< distances from the head between which
+                                 ///< there is a void; the same at a joint [m]
     std::array<unsigned int, 2> block{{none, none}}; ///< towards head and end
-    unsigned int joint = none;
+    unsigned int joint = none;                       ///< none: there is a void
     std::array<CellPoint<dim>, 2> side; ///< the rock just before and behind
-    Tensor<1, dim> normal;              ///< of the joint there, towards the end
+    Tensor<1, dim> normal; ///< of the joint there, towards the end; 0: no joint
+
+    double
+    middle() const
+    {
+      return 0.5 * (begin + end);
+    }
+
+    bool
+    is_void() const
+    {
+      return joint == none;
+    }
   };
 
   /** A bolt: where it is, and of which set. */
@@ -34,8 +49,8 @@ namespace Keyblock
     /** The rock at each of them when it is installed. */
     std::vector<CellPoint<dim>> rock;
 
-    /** Cells that it passes between its nodes, as many on each segment. */
-    std::vector<unsigned int> passed;
+    /** What it goes through from the head to the end when it is installed. */
+    std::vector<CellPiece> pieces;
 
     /** Where it goes from one block to another when it is installed. */
     std::vector<BoltCrossing<dim>> crossings;
@@ -50,6 +65,17 @@ namespace Keyblock
     direction() const
     {
       return (end - head) / length();
+    }
+
+    /** The piece (index) at the distance @p s from the head; between two the
+     * one before. */
+    unsigned int
+    piece_at(const double s) const
+    {
+      unsigned int k = 0;
+      while (k + 1 < pieces.size() && pieces[k + 1].begin < s)
+        ++k;
+      return k;
     }
 
     Point<dim>

@@ -22,15 +22,19 @@ namespace Keyblock
     /** Where @p point is, in the first of several cells. */
     CellPoint<dim> find(const Point<dim> &point) const;
 
-    /** Where @p point is, between several cells in the one on the side of @p
-     * way (unit vector). */
-    CellPoint<dim> find_towards(const Point<dim> &point,
-                                const Tensor<1, dim> &way) const;
-
-  private:
-    /** All cells that @p point is in, ascending. */
+    /** The same of all cells that it is in, ascending. */
     std::vector<CellPoint<dim>> find_all(const Point<dim> &point) const;
 
+    /** Where @p point is in @p cell, or, by what goes on there, just beside it;
+     * none of no cell. */
+    CellPoint<dim> find_in(const unsigned int cell,
+                           const Point<dim> &point) const;
+
+    /** Cells whose boxes the line from @p a to @p b meets. */
+    std::vector<unsigned int> list_along(const Point<dim> &a,
+                                         const Point<dim> &b) const;
+
+  private:
     using Entry = std::pair<dealii::BoundingBox<dim>, unsigned int>;
 
     const Mesh<dim> &mesh;

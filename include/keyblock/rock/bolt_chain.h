@@ -114,6 +114,23 @@ namespace Keyblock
     /** Whether any has. */
     bool is_broken() const;
 
+    /** The first segment and the one behind the last that a place between
+     * distances @p a and @p b from the head is on. */
+    std::array<unsigned int, 2>
+    segments_between(const double a, const double b) const
+    {
+      return {{segment_at(a), segment_at(b) + 1}};
+    }
+
+    bool is_cut_between(const double a, const double b) const;
+    bool is_broken_between(const double a, const double b) const;
+
+    bool
+    is_parted_between(const double a, const double b) const
+    {
+      return is_cut_between(a, b) || is_broken_between(a, b);
+    }
+
     /** Whether segment @p j was cut or has broken: it bears nothing. */
     bool
     is_parted_at(const unsigned int j) const

@@ -4,6 +4,7 @@
 
 #include <keyblock/output/output.h>
 #include <keyblock/safety/slip_record.h>
+#include <keyblock/safety/support_state.h>
 
 namespace Keyblock
 {
@@ -23,11 +24,22 @@ namespace Keyblock
     bool is_converged  = true;
     SlipRecord slips; ///< since the ramp has ended
 
+    /** When these were recorded last; empty: not yet. */
+    SupportState<dim> support;
+
     /** Number of the stage in which each block was removed; 0: it is there. */
     std::vector<unsigned int> removal_stage;
 
     /** Displacement of local nodes when the stage began [m]. */
     std::vector<double> start_displacement;
+
+    /** Forget what blocks have done up to now. */
+    void
+    restart_slips()
+    {
+      slips.restart(n_done);
+      support.numbers.clear();
+    }
 
     /** Number of the stage (Scene::stage_number). */
     unsigned int

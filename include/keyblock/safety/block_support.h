@@ -17,7 +17,7 @@ namespace Keyblock
   {
     struct Pull
     {
-      Point<dim> place;     ///< where it crosses the joint [m]
+      Point<dim> place;     ///< where it crosses the joint or void [m]
       Tensor<1, dim> along; ///< unit vector, as it pulls the block
       double force                     = 0.; ///< its capacity there [N]
       double dowel_strength            = 0.; ///< across it [N]

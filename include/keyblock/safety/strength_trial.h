@@ -2,6 +2,7 @@
 #ifndef keyblock_safety_strength_trial_h
 #define keyblock_safety_strength_trial_h
 
+#include <keyblock/safety/support_state.h>
 #include <keyblock/step/snapshot.h>
 
 namespace Keyblock
@@ -147,23 +148,22 @@ namespace Keyblock
       double load       = 0.;     ///< these [N]
     };
 
-    /** What bolts, liners and other elements do to blocks, those of
-     * mark_tied_blocks(), by index; empty: there are no elements. */
-    struct SupportState
-    {
-      std::vector<Vector<dim>> force;        ///< against their loads [N]
-      std::vector<Vector<dim>> displacement; ///< of their masses, mean [m]
-      std::vector<double> mass;              ///< in use [kg]
-    };
+    /** Largest resultant over the load of @p block and of those that hang on
+     * it, or it on them, in whatever row, by what support ties together: a
+     * block that its stiff support balances is not at rest while those move
+     * whose load comes on it later (collective) [-]. */
+    double unbalanced_with_tied(const unsigned int block) const;
 
-    /** That of now (collective). */
-    SupportState measure_support(const unsigned int block) const;
+    /** What elements do to the blocks of mark_tied_blocks() now (collective).
+     */
+    SupportState<dim> support_of(const unsigned int block) const;
 
     /** Steps in a swing of blocks on their elements, by Rayleigh's quotient of
-     * how they have moved in a time, at whose ends a block has these motions;
+     * how they have moved in a time, at whose ends @p block has these motions;
      * 0: elements bear no more than before, so that nothing may yet hold it. */
-    double swing_period(const SupportState &from,
-                        const SupportState &to,
+    double swing_period(const unsigned int block,
+                        const SupportState<dim> &from,
+                        const SupportState<dim> &to,
                         const Motion &before,
                         const Motion &now) const;
 

@@ -112,8 +112,10 @@ namespace Keyblock
         add(bindings[i], share * shape * bound[i]);
       for (unsigned int i = bound.size(); i < bindings.size(); ++i)
         {
-          double at_joint = 0.;
-          if (chain.material().dowel_strength > 0.)
+          const unsigned int k = (i - bound.size()) / 2;
+          double at_joint      = 0.;
+          if (chain.material().dowel_strength > 0. &&
+              !bolt.crossings[k].is_void())
             at_joint = larger * chain.material().dowel_stiffness;
           if (larger > 1.)
             at_joint += (larger - 1.) * dim * chain.stiffest_segment();
@@ -141,7 +143,7 @@ namespace Keyblock
     BoltReport<dim> report() const;
 
   private:
-    /** Where it crosses a joint. */
+    /** Where it crosses a joint, or a void, in which nothing shears it. */
     struct Dowel
     {
       bool is_there = false;    ///< rock and bolt
@@ -161,7 +163,8 @@ namespace Keyblock
     is_whole_at_joint(const unsigned int k) const
     {
       return dowels[k].is_there &&
-             !chain.is_broken_at(chain.segment_at(bolt.crossings[k].place));
+             !chain.is_broken_between(bolt.crossings[k].begin,
+                                      bolt.crossings[k].end);
     }
 
     /** Follow the @p jump of the rock across joint @p k [m]. */

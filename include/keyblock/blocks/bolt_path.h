@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_blocks_bolt_path_h
+#define keyblock_blocks_bolt_path_h
+
+#include <keyblock/blocks/ground.h>
+#include <keyblock/mesh/cell_locator.h>
+
+namespace Keyblock
+{
+  /** Shortest piece of a bolt that is told from what is beside it, over its
+   * length [-]. */
+  constexpr double shortest_bolt_piece = 1e-5;
+
+  /**
+   * Find the way of a bolt through the cells of @p rock: its pieces, where it
+   * goes from one block to another, and its nodes. These are at equal distances
+   * of no more than @p segment_length [m] (0: 20 segments), and one more stands
+   * in each stretch in one block that has none else. A node on the border of
+   * two cells is in that towards the head, the head in that along the bolt.
+   */
+  template <int dim>
+  void trace_bolt(const CellLocator<dim> &rock,
+                  const SplitMesh<dim> &split,
+                  const double segment_length,
+                  Bolt<dim> &bolt);
+} // namespace Keyblock
+
+#endif

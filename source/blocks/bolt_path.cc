@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/blocks/bolt_path.h>
+#include <keyblock/mesh/cell_line.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Segments of a bolt if the scene does not say. */
+    constexpr unsigned int default_segments = 20;
+
+    /** Pieces of a bolt one behind the other in one block, or in rock that is
+     * in none until it is dug. */
+    struct Stretch
+    {
+      CellPiece first, last;
+      unsigned int block = none;
+    };
+
+    template <int dim>
+    std::vector<Stretch>
+    list_stretches(const Bolt<dim> &bolt, const SplitMesh<dim> &split)
+    {
+      std::vector<Stretch> stretches;
+      bool goes_on = false;
+      for (const CellPiece &piece : bolt.pieces)
+        {
+          if (piece.cell == none)
+            {
+              goes_on = false;
+              continue;
+            }
+          const unsigned int block = split.block_of_cell[piece.cell];
+          if (goes_on && stretches.back().block == block)
+            stretches.back().last = piece;
+          else
+            stretches.push_back({piece, piece, block});
+          goes_on = true;
+        }
+      return stretches;
+    }
+
+    /** Distances of the nodes from the head. */
+    template <int dim>
+    std::vector<double>
+    set_out_nodes(const Bolt<dim> &bolt,
+                  const std::vector<Stretch> &stretches,
+                  const double segment_length)
+    {
+      const double length = bolt.length();
+      const unsigned int n =
+        segment_length > 0.
+          ? std::max(1., std::ceil(length / segment_length - 1e-9))
+          : default_segments;
+      std::vector<double> places;
+      for (unsigned int i = 0; i <= n; ++i)
+        places.push_back(length * i / n);
+      for (const Stretch &stretch : stretches)
+        {
+          const double begin = stretch.first.begin, end = stretch.last.end;
+          // behind its begin, as Bolt::piece_at(); the head is in the first
+          const auto next =
+            std::upper_bound(places.begin(), places.end(), begin);
+          if (begin > 0. && *next > end)
+            places.insert(next, 0.5 * (begin + end));
+        }
+      return places;
+    }
+
+    /** The joint of the cell's face nearest to a point, and its normal. */
+    template <int dim>
+    void
+    find_joint(const Mesh<dim> &mesh,
+               const unsigned int cell,
+               const Point<dim> &point,
+               BoltCrossing<dim> &crossing)
+    {
+      double nearest = std::numeric_limits<double>::max();
+      for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+        if (mesh.joint[cell][f] != none)
+          {
+            const Tensor<1, dim> area   = mesh.face_area_vector(cell, f);
+            const Tensor<1, dim> normal = area / area.norm();
+            const double distance =
+              std::abs((point - mesh.face_center(cell, f)) * normal);
+            if (distance < nearest)
+              {
+                nearest         = distance;
+                crossing.joint  = mesh.joint[cell][f];
+                crossing.normal = normal;
+              }
+          }
+    }
+
+    template <int dim>
+    BoltCrossing<dim>
+    cross(const Bolt<dim> &bolt,
+          const Stretch &before,
+          const Stretch &behind,
+          const CellLocator<dim> &rock,
+          const Mesh<dim> &mesh)
+    {
+      BoltCrossing<dim> crossing;
+      crossing.begin = before.last.end;
+      crossing.end   = behind.first.begin;
+      crossing.block = {{before.block, behind.block}};
+      crossing.side  = {
+         {rock.find_in(before.last.cell, bolt.at(crossing.begin)),
+          rock.find_in(behind.first.cell, bolt.at(crossing.end))}};
+      if (crossing.begin == crossing.end)
+        find_joint(mesh, before.last.cell, bolt.at(crossing.begin), crossing);
+      return crossing;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  trace_bolt(const CellLocator<dim> &rock,
+             const SplitMesh<dim> &split,
+             const double segment_length,
+             Bolt<dim> &bolt)
+  {
+    bolt.pieces                          = cut_by_cells(split.mesh,
+                               rock,
+                               bolt.head,
+                               bolt.end,
+                               shortest_bolt_piece * bolt.length(),
+                               split.block_of_cell);
+    const std::vector<Stretch> stretches = list_stretches(bolt, split);
+    for (unsigned int k = 1; k < stretches.size(); ++k)
+      if (stretches[k - 1].block != stretches[k].block &&
+          stretches[k - 1].block != none && stretches[k].block != none)
+        bolt.crossings.push_back(
+          cross(bolt, stretches[k - 1], stretches[k], rock, split.mesh));
+    bolt.places = set_out_nodes(bolt, stretches, segment_length);
+    for (const double place : bolt.places)
+      bolt.rock.push_back(
+        rock.find_in(bolt.pieces[bolt.piece_at(place)].cell, bolt.at(place)));
+  }
+
+  template void trace_bolt(const CellLocator<2> &,
+                           const SplitMesh<2> &,
+                           const double,
+                           Bolt<2> &);
+  template void trace_bolt(const CellLocator<3> &,
+                           const SplitMesh<3> &,
+                           const double,
+                           Bolt<3> &);
+} // namespace Keyblock
