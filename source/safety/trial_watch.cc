@@ -94,7 +94,9 @@ namespace Keyblock
           most   = change;
           leader = b;
         }
-    return most.bears(now.load, far_off * blocks.blocks[block].size, gone)
+    const double length = far_off * blocks.blocks[block].size;
+    return most.bears(now.load, length, gone) ||
+               most.is_notable(now.unbalanced * now.load, gone)
              ? 2. * dealii::numbers::PI *
                  std::sqrt(to.mass(leader) * dot<dim>(most.way, most.way) /
                            most.energy) /

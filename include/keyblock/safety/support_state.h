@@ -88,6 +88,16 @@ namespace Keyblock
       return energy > load / length * gone * gone;
     }
 
+    /** Whether what they have taken up on @p gone [m] is a notable share of the
+     * work of @p force [N], what is out of balance: also softer support, as of
+     * grout that slips bit by bit, may then balance it. */
+    bool
+    is_notable(const double force, const double gone) const
+    {
+      constexpr double least_share = 1e-4;
+      return energy > least_share * force * gone;
+    }
+
     Vector<dim> way; ///< [m]
     double energy;   ///< change of the force times way [J]
   };
