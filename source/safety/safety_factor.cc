@@ -35,14 +35,10 @@ namespace Keyblock
     trials.forget_failure();
     {
       Search search(*this, block, number, known, result.trials);
-      result.outcome         = scene.safety.method == FactorSearch::sweep
-                                 ? sweep(search)
-                                 : bisect(search, known);
-      result.lower           = search.stable;
-      result.upper           = search.unstable;
-      result.undecided_lower = search.undecided_lower;
-      result.undecided_upper = search.undecided_upper;
-      result.held_by         = search.held_by;
+      result.outcome = scene.safety.method == FactorSearch::sweep
+                         ? sweep(search)
+                         : bisect(search, known);
+      search.note_bounds(result);
       search.finish();
     }
     Assert(result.outcome != SafetyFactor::Outcome::bracketed ||
@@ -81,11 +77,10 @@ namespace Keyblock
     add_cheap_answers(block, result);
     trials.forget_failure();
     trials.is_carried = true;
-    result.outcome    = find_group(carriers, number, known, result);
+    find_group(carriers, number, known, result);
     trials.is_carried = false;
-    if (result.outcome == SafetyFactor::Outcome::bracketed)
-      result.outcome = SafetyFactor::Outcome::carried;
-    else
+    if (result.outcome != SafetyFactor::Outcome::carried &&
+        result.outcome != SafetyFactor::Outcome::met)
       result.failure_mode = trials.failure();
     return result;
   }
@@ -93,14 +88,13 @@ namespace Keyblock
 
 
   template <int dim>
-  SafetyFactor::Outcome
+  void
   StrengthReductionSearch<dim>::find_group(std::vector<unsigned int> others,
                                            const unsigned int number,
                                            Known guess,
                                            SafetyFactor &result)
   {
-    auto first = SafetyFactor::Outcome::undecided;
-    for (bool is_first = true; !others.empty(); is_first = false)
+    while (!others.empty())
       {
         trials.companions.insert(trials.companions.end(),
                                  others.begin(),
@@ -114,8 +108,15 @@ namespace Keyblock
             trial.is_of_group = true;
             result.trials.push_back(trial);
           }
-        if (is_first)
-          first = outcome;
+        // what is carried along has no bounds of its own
+        if (trials.is_carried && result.group.empty())
+          {
+            if (outcome != SafetyFactor::Outcome::bracketed)
+              search.note_bounds(result);
+            result.outcome = outcome == SafetyFactor::Outcome::bracketed
+                               ? SafetyFactor::Outcome::carried
+                               : outcome;
+          }
         if (outcome != SafetyFactor::Outcome::bracketed)
           break;
         result.group       = ids_of_group(result.block);
@@ -135,7 +136,6 @@ namespace Keyblock
         guess.hint = result.value_of_group();
       }
     trials.companions.clear();
-    return first;
   }
 
 

@@ -181,7 +181,7 @@ namespace Keyblock
         trial.velocity     = moved / (period * run.step.dt);
         const SupportState<dim> borne = support_of(block);
         const double swing = swing_period(block, support, borne, before, now);
-        const double unbalanced = unbalanced_with_tied(block);
+        const double unbalanced = unbalanced_with_tied(block, now.unbalanced);
         if (unbalanced < rest_unbalanced &&
             moved * std::max(1., swing / period) < rest_slip * size)
           return true;

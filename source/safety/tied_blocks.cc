@@ -57,7 +57,8 @@ namespace Keyblock
 
   template <int dim>
   double
-  StrengthTrials<dim>::unbalanced_with_tied(const unsigned int block) const
+  StrengthTrials<dim>::unbalanced_with_tied(const unsigned int block,
+                                            const double own) const
   {
     std::vector<bool> is_tied(blocks.blocks.size(), false), before;
     is_tied[block] = true;
@@ -66,9 +67,10 @@ namespace Keyblock
         before = is_tied;
         add_tied_blocks(split, blocks, is_tied);
       }
-    double largest = 0.;
+    double largest = own;
     for (unsigned int b = 0; b < is_tied.size(); ++b)
-      if (is_tied[b] && !run.conditions.active_cells.is_removed_block(b))
+      if (is_tied[b] && b != block &&
+          !run.conditions.active_cells.is_removed_block(b))
         largest =
           std::max(largest,
                    measure_balance(run.fields, nodes_of_block[b], communicator)
@@ -93,10 +95,10 @@ namespace Keyblock
   StrengthTrials<2>::mark_tied_blocks(const unsigned int) const;
   template std::vector<bool>
   StrengthTrials<3>::mark_tied_blocks(const unsigned int) const;
-  template double
-  StrengthTrials<2>::unbalanced_with_tied(const unsigned int) const;
-  template double
-  StrengthTrials<3>::unbalanced_with_tied(const unsigned int) const;
+  template double StrengthTrials<2>::unbalanced_with_tied(const unsigned int,
+                                                          const double) const;
+  template double StrengthTrials<3>::unbalanced_with_tied(const unsigned int,
+                                                          const double) const;
   template SupportState<2>
   StrengthTrials<2>::support_of(const unsigned int) const;
   template SupportState<3>

@@ -155,6 +155,8 @@ keyblock_scene(verification/roof_block_falls REFERENCES roof_block_removed
   SET "Safety factor/Removal slip=0.05")
 # one that lies on another which fails has the factor of both
 keyblock_scene(verification/carried_slab RANKS 1 2)
+keyblock_scene(verification/carried_slab REFERENCES carried_slab_wanted RANKS 1
+  SET "Safety factor/Wanted=0.7")
 # the model is in balance while so light a block still falls
 keyblock_scene(verification/light_wedge RANKS 1 2)
 # and where it may not be taken away, the stage does not end in balance

@@ -106,6 +106,17 @@ namespace Keyblock
       return lower == 0. || holds_at(lower);
     }
 
+    /** What is known of the factor now. */
+    void
+    note_bounds(SafetyFactor &result) const
+    {
+      result.lower           = stable;
+      result.upper           = unstable;
+      result.undecided_lower = undecided_lower;
+      result.undecided_upper = undecided_upper;
+      result.held_by         = held_by;
+    }
+
     /** Back to the state before the first trial. */
     void
     finish()

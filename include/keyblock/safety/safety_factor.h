@@ -142,12 +142,11 @@ namespace Keyblock
     class Search;
 
     /** Factor of the block of @p result together with @p others (indices), and
-     * all that then move along.
-     * @return outcome of the first search */
-    SafetyFactor::Outcome find_group(std::vector<unsigned int> others,
-                                     const unsigned int number,
-                                     Known guess,
-                                     SafetyFactor &result);
+     * all that then move along. */
+    void find_group(std::vector<unsigned int> others,
+                    const unsigned int number,
+                    Known guess,
+                    SafetyFactor &result);
 
     /** Ids of @p block and its companions, as SafetyFactor::group. */
     std::vector<unsigned int> ids_of_group(const unsigned int block) const;

@@ -151,8 +151,10 @@ namespace Keyblock
     /** Largest resultant over the load of @p block and of those that hang on
      * it, or it on them, in whatever row, by what support ties together: a
      * block that its stiff support balances is not at rest while those move
-     * whose load comes on it later (collective) [-]. */
-    double unbalanced_with_tied(const unsigned int block) const;
+     * whose load comes on it later (collective) [-].
+     * @param own that of @p block */
+    double unbalanced_with_tied(const unsigned int block,
+                                const double own) const;
 
     /** What elements do to the blocks of mark_tied_blocks() now (collective).
      */
