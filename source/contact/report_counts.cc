@@ -71,10 +71,48 @@ namespace Keyblock
     return is_sliding;
   }
 
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  ContactReport<dim>::list_blocks_pressed_on(const unsigned int block) const
+  {
+    std::vector<double> is_pressed(memory.is_removed_block.size(), 0.);
+    const auto mark =
+      [&](const unsigned int a, const unsigned int b, const double pressure) {
+        if (a != b && a != none && b != none && (a == block || b == block) &&
+            pressure > 0.)
+          is_pressed[a == block ? b : a] = 1.;
+      };
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      if (topology.is_primary(topology.group_of_pair[p]) &&
+          !memory.state[p].is_converted && !memory.state[p].is_removed)
+        {
+          const auto sides = topology.blocks_of_pair(p);
+          mark(sides[0],
+               sides[1],
+               dot<dim>(memory.state[p].impulse, memory.normal[p]));
+        }
+    for (const SurfaceContact<dim> &contact : memory.contacts)
+      mark(surface.block_of_node[contact.slave],
+           contact.master_block,
+           dot<dim>(contact.point.impulse, contact.point.normal));
+    topology.numbering.communicator.max_lists(is_pressed);
+    std::vector<unsigned int> pressed;
+    for (unsigned int b = 0; b < is_pressed.size(); ++b)
+      if (is_pressed[b] > 0.)
+        pressed.push_back(b);
+    return pressed;
+  }
+
   template unsigned int ContactReport<2>::count_through_rock() const;
   template JointSums<2> ContactReport<2>::count_pairs() const;
   template std::vector<double> ContactReport<2>::list_sliding_blocks() const;
+  template std::vector<unsigned int>
+  ContactReport<2>::list_blocks_pressed_on(const unsigned int) const;
   template unsigned int ContactReport<3>::count_through_rock() const;
   template JointSums<3> ContactReport<3>::count_pairs() const;
   template std::vector<double> ContactReport<3>::list_sliding_blocks() const;
+  template std::vector<unsigned int>
+  ContactReport<3>::list_blocks_pressed_on(const unsigned int) const;
 } // namespace Keyblock

@@ -9,9 +9,10 @@ namespace Keyblock
   bool
   SafetyFactor::has_own_group() const
   {
+    // a trial of a weaker neighbor may have held
     return !group.empty() &&
-           std::any_of(trials.begin(), trials.end(), [](const Trial &trial) {
-             return trial.is_of_group;
+           std::any_of(trials.begin(), trials.end(), [&](const Trial &trial) {
+             return trial.is_of_group && trial.factor == group_upper;
            });
   }
 

@@ -4,9 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** The highest factor at which a block, or the group found for it so far,
+     * holds [-]. */
+    double
+    held_so_far(const SafetyFactor &result)
+    {
+      return result.group.empty() ? result.lower : result.group_lower;
+    }
+  } // namespace
+
+
+
   template <int dim>
   StrengthReductionSearch<dim>::StrengthReductionSearch(
     const Scene<dim> &scene,
@@ -49,12 +63,18 @@ namespace Keyblock
         result.outcome == SafetyFactor::Outcome::met ? "" : trials.failure();
     else if (result.limit_moves)
       result.outcome = SafetyFactor::Outcome::clamped;
-    if (result.outcome == SafetyFactor::Outcome::bracketed &&
+    const bool is_bracketed =
+      result.outcome == SafetyFactor::Outcome::bracketed;
+    if ((is_bracketed || result.outcome == SafetyFactor::Outcome::met) &&
         scene.safety.reduced_joints != ReducedJoints::all)
       {
         Known guess = known;
-        guess.hint  = result.value();
-        find_group(trials.blocks_along(), number, guess, result);
+        guess.hint  = is_bracketed ? result.value() : result.lower;
+        find_group(is_bracketed ? trials.blocks_along()
+                                : std::vector<unsigned int>(),
+                   number,
+                   guess,
+                   result);
       }
     return result;
   }
@@ -94,8 +114,14 @@ namespace Keyblock
                                            Known guess,
                                            SafetyFactor &result)
   {
-    while (!others.empty())
+    while (true)
       {
+        const double held     = held_so_far(result);
+        const bool move_along = !others.empty();
+        if (!move_along)
+          others = find_weaker_neighbors(number, guess, result);
+        if (others.empty())
+          break;
         trials.companions.insert(trials.companions.end(),
                                  others.begin(),
                                  others.end());
@@ -117,7 +143,10 @@ namespace Keyblock
                                ? SafetyFactor::Outcome::carried
                                : outcome;
           }
-        if (outcome != SafetyFactor::Outcome::bracketed)
+        // neighbors matter if they make it weaker: a large change of strength
+        // may have shaken it loose in the trial that told of them
+        if (outcome != SafetyFactor::Outcome::bracketed ||
+            (!move_along && search.stable >= held))
           break;
         result.group       = ids_of_group(result.block);
         result.group_lower = search.stable;
@@ -136,6 +165,41 @@ namespace Keyblock
         guess.hint = result.value_of_group();
       }
     trials.companions.clear();
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  StrengthReductionSearch<dim>::find_weaker_neighbors(const unsigned int number,
+                                                      const Known &known,
+                                                      SafetyFactor &result)
+  {
+    const std::vector<unsigned int> group = trials.companions;
+    const std::vector<unsigned int> pressed =
+      trials.blocks_pressed_on(result.block);
+    const double held = held_so_far(result);
+    if (pressed.empty() || held == 0.)
+      return {};
+    trials.companions.insert(trials.companions.end(),
+                             pressed.begin(),
+                             pressed.end());
+    std::vector<Trial> tried;
+    Search search(*this, result.block, number, known, tried);
+    search.holds_at(held);
+    const bool fails = search.unstable == held;
+    search.finish();
+    trials.companions    = group;
+    tried[0].is_of_group = true;
+    result.trials.push_back(tried[0]);
+    std::vector<unsigned int> weaker;
+    if (fails)
+      std::set_intersection(pressed.begin(),
+                            pressed.end(),
+                            trials.blocks_moving().begin(),
+                            trials.blocks_moving().end(),
+                            std::back_inserter(weaker));
+    return weaker;
   }
 
 

@@ -282,7 +282,7 @@ namespace Keyblock
     if (verdict == Verdict::fails)
       {
         last_failure = name_failure(block);
-        last_along   = list_blocks_along(block);
+        note_blocks_that_moved(block);
       }
     // of the true masses
     const double ratio = mass_in_use(block) / true_mass;

@@ -13,10 +13,6 @@ namespace Keyblock
 {
   namespace
   {
-    /** Way of another block, in the direction of the one that fails and over
-     * its way, from which on they move together [-]. */
-    constexpr double along_share = 0.5;
-
     /** Share of its load that what holds a block bears at least [-]. */
     constexpr double holding_share = 0.1;
   } // namespace
@@ -239,42 +235,6 @@ namespace Keyblock
 
 
   template <int dim>
-  std::vector<unsigned int>
-  StrengthTrials<dim>::list_blocks_along(const unsigned int block) const
-  {
-    // mean ways of the blocks in the second phase
-    const unsigned int n_blocks = blocks.blocks.size();
-    std::vector<double> sums((dim + 1) * n_blocks, 0.);
-    for (unsigned int b = 0; b < n_blocks; ++b)
-      for (const unsigned int node : nodes_of_block[b])
-        {
-          const double m = run.fields.mass[node];
-          for (unsigned int d = 0; d < dim; ++d)
-            sums[(dim + 1) * b + d] +=
-              m * (run.fields.displacement[dim * node + d] -
-                   displacement_before[dim * node + d]);
-          sums[(dim + 1) * b + dim] += m;
-        }
-    communicator.sum_lists(sums);
-    const auto way = [&](const unsigned int b) {
-      Vector<dim> mean{};
-      for (unsigned int d = 0; d < dim && sums[(dim + 1) * b + dim] > 0.; ++d)
-        mean[d] = sums[(dim + 1) * b + d] / sums[(dim + 1) * b + dim];
-      return mean;
-    };
-    const Vector<dim> own = way(block);
-    std::vector<unsigned int> along;
-    for (unsigned int b = 0; b < n_blocks; ++b)
-      if (b != block && !blocks.blocks[b].is_infinite &&
-          !blocks.blocks[b].is_rigid &&
-          dot<dim>(way(b), own) > along_share * dot<dim>(own, own))
-        along.push_back(b);
-    return along;
-  }
-
-
-
-  template <int dim>
   std::string
   StrengthTrials<dim>::name_failure(const unsigned int block) const
   {
@@ -362,10 +322,6 @@ namespace Keyblock
   template double StrengthTrials<3>::mass_in_use(const unsigned int) const;
   template unsigned int StrengthTrials<2>::n_intact(const unsigned int) const;
   template unsigned int StrengthTrials<3>::n_intact(const unsigned int) const;
-  template std::vector<unsigned int>
-  StrengthTrials<2>::list_blocks_along(const unsigned int) const;
-  template std::vector<unsigned int>
-  StrengthTrials<3>::list_blocks_along(const unsigned int) const;
   template std::string
   StrengthTrials<2>::name_failure(const unsigned int) const;
   template std::string

@@ -224,6 +224,13 @@ keyblock_scene(verification/factor_incline REFERENCES factor_incline_two_blocks
   "Excavations/slot/Corner=-0.05, 0" "Excavations/slot/Size=0.1, 0.1")
 # two blocks that lean on each other, and the factor of both
 keyblock_scene(verification/factor_group RANKS 1 2)
+# an active wedge and a passive block, which moves half as far and sideways
+keyblock_scene(verification/two_wedges RANKS 1 2)
+keyblock_scene(verification/two_wedges REFERENCES two_wedges_upper RANKS 1
+  SET "Safety factor/Blocks=2")
+keyblock_scene(verification/two_wedges REFERENCES two_wedges_wanted RANKS 1 2
+  SET "Safety factor/Wanted=2" "Safety factor/Blocks=2"
+  "Joints/plane/Friction angle=30")
 # a block at rest under one that slides off
 keyblock_scene(verification/passed_block RANKS 1 2)
 keyblock_scene(verification/passed_block REFERENCES passed_block_soft RANKS 1

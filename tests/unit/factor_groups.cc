@@ -22,6 +22,7 @@ namespace
     factor.group_lower = factor.group_upper = value;
     factor.trials.resize(1);
     factor.trials[0].is_of_group = !group.empty();
+    factor.trials[0].factor      = value;
     return factor;
   }
 } // namespace
@@ -36,8 +37,11 @@ BOOST_AUTO_TEST_CASE(blocks_have_the_factor_of_their_group)
     blocks.blocks[b].id = b + 1;
   std::vector<SafetyFactor> factors = {factor_of(0, {1, 2}, 1.9)};
   BOOST_TEST(share_last_group(blocks, factors).empty());
-  // found before its own
+  // found before its own, which held with weaker neighbors
   factors.push_back(factor_of(1));
+  factors[1].trials.resize(2);
+  factors[1].trials[1].is_of_group = factors[1].trials[1].is_stable = true;
+  factors[1].trials[1].factor                                       = 3.;
   BOOST_TEST(share_last_group(blocks, factors).empty());
   BOOST_TEST((factors[1].group == std::vector<unsigned int>{1, 2}));
   BOOST_TEST(factors[1].value_of_group() == 1.9);

@@ -63,6 +63,11 @@ namespace Keyblock
      * block, else 0 (collective). */
     std::vector<double> list_sliding_blocks() const;
 
+    /** Blocks (indices, ascending) that some point pressed on @p block in the
+     * last step (collective). */
+    std::vector<unsigned int>
+    list_blocks_pressed_on(const unsigned int block) const;
+
   private:
     void add_pairs(const std::vector<unsigned int> &sum_of_joint,
                    std::vector<JointSums<dim>> &sums,

@@ -148,6 +148,14 @@ namespace Keyblock
                     Known guess,
                     SafetyFactor &result);
 
+    /** Blocks (indices) that the block of @p result and those of its group
+     * press on, and that move, too, where it fails once their joints are as
+     * weak as the group's: at the highest factor at which the group holds. None
+     * where it holds there. Adds the trial to @p result. */
+    std::vector<unsigned int> find_weaker_neighbors(const unsigned int number,
+                                                    const Known &known,
+                                                    SafetyFactor &result);
+
     /** Ids of @p block and its companions, as SafetyFactor::group. */
     std::vector<unsigned int> ids_of_group(const unsigned int block) const;
 

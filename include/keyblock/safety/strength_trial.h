@@ -97,6 +97,7 @@ namespace Keyblock
     {
       last_failure.clear();
       last_along.clear();
+      last_moving.clear();
     }
 
     /** Blocks (indices) that moved along in the last trial that failed: other
@@ -106,6 +107,18 @@ namespace Keyblock
     {
       return last_along;
     }
+
+    /** Those that moved at all in that trial: by at least a tenth of its way,
+     * wherever to. */
+    const std::vector<unsigned int> &
+    blocks_moving() const
+    {
+      return last_moving;
+    }
+
+    /** Other finite blocks (indices) which @p block or its companions press on
+     * now, and that are none of these (collective). */
+    std::vector<unsigned int> blocks_pressed_on(const unsigned int block) const;
 
     /** How far @p block has left the place where limit equilibrium judges it
      * [m]; 0: by less than a twentieth of its size (collective). */
@@ -239,8 +252,10 @@ namespace Keyblock
 
     std::string name_failure(const unsigned int block) const;
 
-    /** See blocks_along(). */
-    std::vector<unsigned int> list_blocks_along(const unsigned int block) const;
+    /** Note blocks_along() and blocks_moving(). */
+    void note_blocks_that_moved(const unsigned int block);
+
+    bool is_finite(const unsigned int block) const;
 
     const Communicator communicator;
     const Scene<dim> &scene;
@@ -249,7 +264,7 @@ namespace Keyblock
     RunParts<dim> run;
     std::vector<std::vector<unsigned int>> nodes_of_block; ///< owned ones
     std::string last_failure;
-    std::vector<unsigned int> last_along;
+    std::vector<unsigned int> last_along, last_moving;
     std::vector<double> displacement_before; ///< of the second phase [m]
     std::vector<double> joint_force;         ///< in its windows, added up [N]
   };
