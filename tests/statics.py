@@ -5,8 +5,8 @@ usage: statics.py KEYBLOCK SCENE REFERENCES FOLDER [--set ...]
 
 A line of the references reads `block | stage | factor | tolerance | mode | words`;
 the factor within that share of it (a - where the block is stable), the words,
-separated by semicolons, in the block's row. All rows must be named. Nothing may be
-written.
+separated by semicolons, in the block's row, or not in it after a !. All rows must be
+named. Nothing may be written.
 """
 import os
 import subprocess
@@ -36,8 +36,11 @@ def main():
         value = float("inf") if factor == "-" else float(factor)
         assert (row.factor == value
                 or abs(row.factor - value) <= float(tolerance) * value), f"{row}\n{line}"
-        for word in words.split(";"):
-            assert word.strip() in row.text, f"'{word.strip()}' is missing in {row}"
+        for word in (w.strip() for w in words.split(";")):
+            if word.startswith("!"):
+                assert word[1:] not in row.text, f"'{word[1:]}' stands in {row}"
+            else:
+                assert word in row.text, f"'{word}' is missing in {row}"
 
 
 if __name__ == "__main__":

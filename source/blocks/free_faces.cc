@@ -245,7 +245,11 @@ namespace Keyblock
     for (const Entry &entry : ahead)
       {
         const CellFace &face = faces[entry.second];
-        if (split.block_of_cell[face.cell] == block)
+        const Tensor<1, dim> area =
+          split.mesh.face_area_vector(face.cell, face.face);
+        // what it slides along is not ahead
+        if (split.block_of_cell[face.cell] == block ||
+            area * direction >= -1e-6 * area.norm())
           continue;
         for (const Point<dim> &probe : probes_of(face))
           if (const auto back =

@@ -54,7 +54,8 @@ namespace Keyblock
           json["force"]    = demand.force;
           json["pressure"] = demand.pressure;
           for (const auto &[set, number] : demand.numbers)
-            json["bolts"][set] = number;
+            if (number > 0)
+              json["bolts"][set] = number;
         }
       return json;
     }

@@ -72,8 +72,9 @@ namespace Keyblock
     {
       std::string bolts;
       for (const auto &[set, number] : demand.numbers)
-        bolts +=
-          (bolts.empty() ? "" : "; ") + std::to_string(number) + " " + set;
+        if (number > 0)
+          bolts +=
+            (bolts.empty() ? "" : "; ") + std::to_string(number) + " " + set;
       if (demand.factor > 0. && std::isinf(demand.force))
         return {exact_text(demand.factor), "out of reach", "out of reach", ""};
       if (demand.factor > 0.)

@@ -95,7 +95,9 @@ namespace Keyblock::Python
             ground, free, block, statics.around, statics.support, wanted);
           result.support_force    = demand.force;
           result.support_pressure = demand.pressure;
-          result.bolts            = demand.numbers;
+          for (const auto &[set, number] : demand.numbers)
+            if (number > 0)
+              result.bolts.emplace_back(set, number);
         }
       return result;
     }

@@ -107,8 +107,9 @@ namespace Keyblock
       out << "; only " << std::setprecision(2) << block.cells_across()
           << " cells across, not " << scene.meshing.cells_across;
     if (is_tried)
-      out << "; " << factor.trials.size() << " trials, " << std::setprecision(3)
-          << seconds << " s";
+      out << "; " << factor.trials.size()
+          << (factor.trials.size() == 1 ? " trial, " : " trials, ")
+          << std::setprecision(3) << seconds << " s";
     out << std::endl;
   }
 

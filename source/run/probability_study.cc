@@ -19,11 +19,12 @@ namespace Keyblock
 {
   namespace
   {
-    /** Samples per rank from one writing of samples.csv to the next. */
-    constexpr unsigned int samples_per_batch = 16;
+    /** Samples per rank from one writing of samples.csv to the next, at most.
+     */
+    constexpr unsigned int most_per_batch = 64;
 
-    /** The same where samples are run. */
-    constexpr unsigned int runs_per_batch = 1;
+    /** Seconds between two writings: fewer samples where they take more. */
+    constexpr double least_seconds = 1., most_seconds = 4.;
   } // namespace
 
 
@@ -199,17 +200,21 @@ namespace Keyblock
       begin_table();
       scene.write_used(folder + "used.prm");
     });
-    const unsigned int per_rank = scene.study.level == StudyLevel::full
-                                    ? runs_per_batch
-                                    : samples_per_batch;
+    unsigned int per_rank = 1;
     while (results.size() < scene.study.samples)
       {
         stop_if_asked(communicator);
+        const double batch_start = MPI_Wtime();
         const unsigned int begin = results.size();
         judge_batch(begin,
                     std::min(scene.study.samples,
                              begin + per_rank * communicator.size()));
         write_samples(begin);
+        const double seconds = communicator.max(MPI_Wtime() - batch_start);
+        if (seconds < least_seconds)
+          per_rank = std::min(2 * per_rank, most_per_batch);
+        else if (seconds > most_seconds)
+          per_rank = std::max(1u, per_rank / 2);
       }
     const StudyReport report(scene,
                              geometry ? &geometry->blocks : nullptr,

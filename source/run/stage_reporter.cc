@@ -181,7 +181,8 @@ namespace Keyblock
         add(sentence);
       if (report.through_rock > 0)
         add(std::to_string(report.through_rock) +
-            " contacts act through the rock of a block.");
+            (report.through_rock == 1 ? " contact acts" : " contacts act") +
+            " through the rock of a block.");
       return text;
     }
   } // namespace

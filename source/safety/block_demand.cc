@@ -15,23 +15,90 @@ namespace Keyblock
     constexpr unsigned int n_halvings = 60;
     constexpr double least_demand = 1e-3, most_demand = 1e4;
 
-    /** What one more bolt of a set bears [N]: those that the block has, in the
-     * mean, or else all of the set; 0: none crosses a joint. */
+    /** Bolts of a set more than which are none. */
+    constexpr unsigned int most_bolts = 4096;
+
+    /** Bolts of a set that @p support has. */
     template <int dim>
-    double
-    capacity_for(const Ground<dim> &ground,
-                 const BlockSupport<dim> &support,
-                 const unsigned int set)
+    unsigned int
+    n_bolts_of(const BlockSupport<dim> &support, const unsigned int set)
     {
-      double sum     = 0.;
-      unsigned int n = 0;
-      for (const auto &pull : support.pulls)
+      return std::count_if(support.pulls.begin(),
+                           support.pulls.end(),
+                           [set](const auto &pull) { return pull.set == set; });
+    }
+
+    /** @p support with @p n more bolts of a set, as those that it has of it: in
+     * their directions, and each as strong as these in the mean. */
+    template <int dim>
+    BlockSupport<dim>
+    with_more_bolts(const BlockSupport<dim> &support,
+                    const unsigned int set,
+                    const unsigned int n)
+    {
+      const double share     = 1. + double(n) / n_bolts_of(support, set);
+      BlockSupport<dim> more = support;
+      for (auto &pull : more.pulls)
         if (pull.set == set)
           {
-            sum += pull.force;
-            ++n;
+            pull.force *= share;
+            pull.dowel_strength *= share;
           }
-      return n > 0 ? sum / n : mean_bolt_capacity(ground, set);
+      return more;
+    }
+
+    /** The least number at which @p is_enough, which stays so for larger ones;
+     * 0: none up to most_bolts. */
+    template <typename IsEnough>
+    unsigned int
+    least_number(const IsEnough &is_enough)
+    {
+      unsigned int low = 0, high = 1;
+      while (!is_enough(high))
+        {
+          if (high >= most_bolts)
+            return 0;
+          low = high;
+          high *= 2;
+        }
+      while (high - low > 1)
+        {
+          const unsigned int middle        = low + (high - low) / 2;
+          (is_enough(middle) ? high : low) = middle;
+        }
+      return high;
+    }
+
+    /** Free faces of a block that support can press on: all but, for one with a
+     * face that was dug, the ground's surface where it leaves that along @p
+     * way. Centres and vector areas, outwards. */
+    template <int dim>
+    std::vector<PointForce<dim>>
+    supported_faces(const Ground<dim> &ground,
+                    const FreeFaces<dim> &free,
+                    const unsigned int block,
+                    const double area_ratio,
+                    const Tensor<1, dim> &way)
+    {
+      const Mesh<dim> &mesh = ground.split.mesh;
+      const auto &own       = free.of_block(block);
+      const auto is_dug     = [&](const CellFace &f) {
+        return mesh.neighbor[f.cell][f.face] != none;
+      };
+      const bool has_dug =
+        std::any_of(own.begin(), own.end(), [&](const auto i) {
+          return is_dug(free.faces[i]);
+        });
+      std::vector<PointForce<dim>> faces;
+      for (const unsigned int i : own)
+        {
+          const CellFace &f         = free.faces[i];
+          const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
+          if (!has_dug || is_dug(f) || area * way >= -1e-6 * area.norm())
+            faces.push_back(
+              {mesh.face_center(f.cell, f.face), area_ratio * area});
+        }
+      return faces;
     }
   } // namespace
 
@@ -84,41 +151,33 @@ namespace Keyblock
               const BlockSupport<dim> &support,
               const double factor)
   {
-    using Mode            = typename LimitEquilibrium<dim>::Mode;
-    const Mesh<dim> &mesh = ground.split.mesh;
-    std::vector<PointForce<dim>> free_faces;
-    for (const unsigned int i : free.of_block(block))
-      {
-        const CellFace &f = free.faces[i];
-        free_faces.push_back(
-          {mesh.face_center(f.cell, f.face),
-           around.free_area_ratio * mesh.face_area_vector(f.cell, f.face)});
-      }
-    const double area = sum_of(free_faces).norm();
+    using Mode = typename LimitEquilibrium<dim>::Mode;
     SupportDemand demand;
     demand.factor = factor;
     const bool is_passive =
       ground.scene.safety.bolt_convention == BoltConvention::passive;
-    const auto limit_with = [&](const double force) {
+    const auto limit_with = [&](const BlockSupport<dim> &bolts,
+                                const std::vector<PointForce<dim>> &faces,
+                                const double pressure) {
       BlockSurroundings<dim> own = around;
-      return find_motion(own,
-                         support,
-                         is_passive,
-                         free_faces,
-                         force > 0. ? force / area : 0.)
-        .limit;
+      return find_motion(own, bolts, is_passive, faces, pressure).limit;
     };
-    const LimitEquilibrium<dim> bare = limit_with(0.);
+    const LimitEquilibrium<dim> bare = limit_with(support, {}, 0.);
     if (bare.factor >= factor)
       return demand;
+    const std::vector<PointForce<dim>> free_faces = supported_faces(
+      ground, free, block, around.free_area_ratio, bare.direction);
+    const double area = sum_of(free_faces).norm();
     demand.force = demand.pressure = std::numeric_limits<double>::infinity();
     if (area == 0.)
       return demand;
-    const auto is_enough = [&](const double force) {
-      const LimitEquilibrium<dim> limit = limit_with(force);
+    const auto does = [&](const LimitEquilibrium<dim> &limit) {
       // so much that it lifts the block is none
       return limit.factor >= factor &&
              (limit.mode != Mode::lifting || bare.mode == Mode::lifting);
+    };
+    const auto is_enough = [&](const double force) {
+      return does(limit_with(support, free_faces, force / area));
     };
     const Tensor<1, dim> load = around.loads.without_water();
     Tensor<1, dim> resultant  = load;
@@ -147,11 +206,18 @@ namespace Keyblock
     demand.force    = high;
     demand.pressure = high / area;
     for (unsigned int set = 0; set < ground.scene.bolts.size(); ++set)
-      if (const double capacity = capacity_for(ground, support, set);
-          capacity > 0.)
-        demand.numbers.emplace_back(ground.scene.bolts[set]->name,
-                                    static_cast<unsigned int>(
-                                      std::ceil(high / capacity - 1e-9)));
+      {
+        const std::string &name = ground.scene.bolts[set]->name;
+        if (n_bolts_of(support, set) > 0)
+          demand.numbers.emplace_back(
+            name, least_number([&](const unsigned int n) {
+              return does(limit_with(with_more_bolts(support, set, n), {}, 0.));
+            }));
+        else if (const double capacity = mean_bolt_capacity(ground, set);
+                 capacity > 0.)
+          demand.numbers.emplace_back(
+            name, static_cast<unsigned int>(std::ceil(high / capacity - 1e-9)));
+      }
     return demand;
   }
 

@@ -101,6 +101,12 @@ namespace Keyblock
              << 1e-3 * demand.pressure << " kPa";
         for (const auto &[name, number] : demand.numbers)
           {
+            if (number == 0)
+              {
+                last << ", but no number of bolts like those of the set "
+                     << name;
+                continue;
+              }
             last << ", or " << number << (number == 1 ? " bolt" : " bolts")
                  << " of the set " << name;
             for (const auto &set : scene.bolts)

@@ -265,10 +265,16 @@ namespace Keyblock
               "The entry 'Safety factor/Stages' names '" + name +
                 "', which is not in 'Stages/Names'.");
     for (const std::string &name : safety.joints)
-      require(has_joint(scene, name),
-              "The entry 'Safety factor/Joints' names '" + name +
-                "', which is not in 'Joints/Names', nor another joint or a "
-                "set.");
+      {
+        require(has_joint(scene, name),
+                "The entry 'Safety factor/Joints' names '" + name +
+                  "', which is not in 'Joints/Names', nor another joint or a "
+                  "set.");
+        require(std::count(safety.joints.begin(), safety.joints.end(), name) ==
+                  1,
+                "The entry 'Safety factor/Joints' names '" + name +
+                  "' twice; name each joint once.");
+      }
     require(!safety.is_wanted() || scene.contact.method != ContactMethod::none,
             "The entry 'Safety factor/" +
               std::string(safety.is_by_statics() ? "Method" : "Blocks") +

@@ -89,6 +89,10 @@ namespace Keyblock
                 InputError("The command line has --study together with "
                            "--validate or --restart; name one of them (a study "
                            "that was stopped goes on by itself)."));
+    AssertThrow(!is_validation || restart.empty(),
+                InputError("The command line has --validate together with "
+                           "--restart; name one of them (what is validated is "
+                           "the scene before its first step)."));
     AssertThrow(values.count("factors") == 0 ||
                   (!is_validation && !is_study && restart.empty()),
                 InputError("The command line has --factors together with "

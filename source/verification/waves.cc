@@ -214,7 +214,9 @@ namespace Keyblock
     for (const auto &[j, part] : input.blocks.blocks.front().joint_area)
       area += part;
     const double taken = friction.back() - friction[first - 1];
-    const double given = impedance * area * in * input.stages.back().time_step;
+    // seconds between two rows
+    const double row = (time.back() - time[first - 1]) / (time.size() - first);
+    const double given = impedance * area * in * row;
     CheckValues checks;
     compare(checks,
             "transmission",

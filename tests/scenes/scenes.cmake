@@ -90,6 +90,9 @@ keyblock_scene(verification/rayleigh REFERENCES rayleigh_stiffness RANKS 1
 keyblock_scene(verification/joint_wave RANKS 1 2)
 keyblock_scene(verification/joint_wave REFERENCES joint_wave_tenth RANKS 1
   SET "Joints/joint/Cohesion=1e4")
+# the same from every fourth step
+keyblock_scene(verification/joint_wave REFERENCES joint_wave_rows RANKS 1
+  SET "Output/History interval=4")
 keyblock_scene(verification/joint_wave REFERENCES joint_wave_fiftieth RANKS 1
   SET "Joints/joint/Cohesion=2e3")
 keyblock_scene(verification/joint_wave REFERENCES joint_wave_sticks RANKS 1

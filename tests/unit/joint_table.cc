@@ -80,6 +80,16 @@ BOOST_AUTO_TEST_CASE(table_of_discs)
   BOOST_TEST(joints[1]->kinetic_friction_angle == -1.);
 }
 
+BOOST_AUTO_TEST_CASE(table_of_half_lengths_in_feet)
+{
+  const auto joints =
+    read<2>("dip,dip direction,x (ft),y (ft),Half length (ft)\n"
+            "45,90,10,20,5\n");
+  BOOST_REQUIRE(joints.size() == 1u);
+  BOOST_TEST(joints[0]->point.distance(Point<2>(3.048, 6.096)) < 1e-12);
+  BOOST_TEST(std::abs(joints[0]->radius - 1.524) < 1e-12);
+}
+
 // byte order mark, CR LF, comments, decimal commas, units, quotes, empty rows
 BOOST_AUTO_TEST_CASE(table_of_a_spreadsheet)
 {

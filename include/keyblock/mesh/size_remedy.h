@@ -9,8 +9,9 @@
 
 namespace Keyblock
 {
-  /** What gives smaller cells where they are too large for joints and blocks:
-   * the end of a sentence, without its full stop. */
+  /** What gives smaller cells where they are too large for joints and blocks,
+   * or keeps faces on their joints: the end of a sentence, without its full
+   * stop. */
   template <int dim>
   std::string
   remedy_of_coarse_cells(const Meshing<dim> &meshing)
@@ -19,15 +20,20 @@ namespace Keyblock
       return "raise 'Mesh/Cells'";
     if (meshing.generator == MeshGenerator::file)
       return "give a mesh with smaller cells in 'Domain/File'";
+    const std::string unmoved =
+      meshing.snap > 0. ? ", or set 'Mesh/Snap' to 0, which moves no face off "
+                          "its joint, for smaller time steps"
+                        : "";
     if (meshing.cells_across > 0.)
       return "lower 'Mesh/Least size' (now " +
              (meshing.least_size > 0.
                 ? text_of(meshing.least_size) + " m"
                 : std::string("a quarter of 'Size at excavation'")) +
              "), or raise 'Mesh/Cells across blocks' (now " +
-             text_of(meshing.cells_across) + ")";
+             text_of(meshing.cells_across) + ")" + unmoved;
     return "lower 'Mesh/Size' or 'Mesh/Size at excavation', or set "
-           "'Mesh/Cells across blocks'";
+           "'Mesh/Cells across blocks'" +
+           unmoved;
   }
 } // namespace Keyblock
 

@@ -11,12 +11,15 @@ namespace Keyblock
   /** What a wanted factor of a block asks for besides the support it has. */
   struct SupportDemand
   {
-    double factor   = 0.; ///< the wanted one; 0: none is wanted [-]
-    double force    = 0.; ///< against the free faces; infinite: none does [N]
-    double pressure = 0.; ///< the same, uniform on the free faces [Pa]
+    double factor = 0.; ///< the wanted one; 0: none is wanted [-]
+    /** Against the free faces, without the ground's surface that a block with a
+     * dug face moves away from; infinite: none does [N]. */
+    double force    = 0.;
+    double pressure = 0.; ///< the same, uniform on these faces [Pa]
 
-    /** The same by bolts of the scene's sets normal to the free faces: in 2D
-     * their number in each of the rings that the set's Spacing parts. */
+    /** The same by bolts of the scene's sets: in 2D their number in each of the
+     * rings that the set's Spacing parts. Where it has bolts of the set, more
+     * like them; 0: no number does. Else, of bolts normal to those faces. */
     std::vector<std::pair<std::string, unsigned int>> numbers;
   };
 } // namespace Keyblock
