@@ -128,8 +128,10 @@ def settings_section(run):
             f"{escape(shorten(value))}</td><td>"
             f"{escape(shorten(default)) or '–'}</td></tr>"
             for path, value, default in run.changed)
+        elsewhere = (" (joints are in joints.csv)" if (
+            run.folder / "joints.csv").exists() else "")
         text.append(f"<details><summary>{len(run.changed)} entries of used.prm "
-                    "that differ from their defaults (joints are in joints.csv)"
+                    f"that differ from their defaults{elsewhere}"
                     '</summary><div class="wide tall"><table><thead><tr><th>'
                     "entry</th><th>value</th><th>default</th></tr></thead>"
                     f"<tbody>{rows}</tbody></table></div></details>")
