@@ -179,6 +179,23 @@ def check_unjudged():
     assert "No safety factors were looked for" not in page
 
 
+def check_taken_away():
+    """The view opens while there still is a block with a factor."""
+    folder, path = FOLDER / "failed", FOLDER / "failed.html"
+    settings = ("Output/Write VTU=true", "Safety factor/Bracket=0.1",
+                "Stages/rest/Friction angle override=-1")
+    subprocess.run([KEYBLOCK, f"{PRM}/verification/factor_incline.prm",
+                    "--output", folder]
+                   + [word for s in settings for word in ("--set", s)],
+                   check=True, stdout=subprocess.DEVNULL)
+    for folder, opens in ((folder, 0), (FOLDER / "output", 1)):
+        subprocess.run([REPORT, folder, "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
+        page = path.read_text(encoding="utf-8")
+        meta = json.loads(re.search(r'id="view-meta">(.*?)</script>', page)[1])
+        assert len(meta["stages"]) == 2 and meta["opens"] == opens, folder
+
+
 def check_pipe():
     """A reader that has gone away is no error."""
     done = subprocess.run(
@@ -196,7 +213,8 @@ def main():
                     "Output/Write VTU=true"],
                    check=True, stdout=subprocess.DEVNULL)
     for case in (check_open, check_support, check_moving, check_held,
-                 check_demand, check_tie, check_lost, check_unjudged, check_pipe):
+                 check_demand, check_tie, check_lost, check_unjudged,
+                 check_taken_away, check_pipe):
         case()
         print(f"{case.__name__}: as it should be")
 

@@ -173,6 +173,14 @@ def tight_box(geometry, box):
             numpy.minimum(box[1], points.max(axis=0)))
 
 
+def state_to_open(geometry, rows):
+    """The last state in which a block with a factor is there, if any is."""
+    judged = numpy.isin(geometry.block, [
+        row["block"] for row in rows if row["factor"] or row["limit"]])
+    found = (geometry.is_there & judged).any(axis=1).nonzero()[0]
+    return int(found[-1]) if len(found) else len(geometry.is_there) - 1
+
+
 def describe(run, row):
     """What the view says of a block that is clicked."""
     factor = row["factor"]
@@ -243,6 +251,7 @@ def pack(geometry, rows):
             [0., 0., 1.] if down is None else (-down).tolist()),
         "stages": ["before the first stage" if i < 0 else f"after {name}"
                    for name, i, *_ in run.states[:len(small)]],
+        "opens": state_to_open(geometry, rows),
         "stress": stress, "exaggeration": exaggeration(geometry, box), "groups": groups,
         "colours": {key: [value[0], value[1]]
                     for key, value in STATES.items()},
