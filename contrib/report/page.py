@@ -24,8 +24,12 @@ def named(numbers):
 
 
 def further_verdict(rows):
-    """Blocks that still move, and those that something but joints holds."""
+    """Blocks that fail after others, that still move, and those that something
+    but joints holds."""
     text = ""
+    later = [row["block"] for row in rows if row["state"] == "follows"]
+    if later:
+        text += f" Once others have gone fail, too: {named(later)}."
     moving = [row["block"] for row in rows if row["state"] == "moves"]
     if moving:
         text += (" Still moving at the end of the last stage: "
@@ -96,7 +100,8 @@ def head(run, rows):
                 ("seeds of joint sets", escape(seeds)),
                 ("model", escape(size)), ("mesh", mesh),
                 ("run", ", ".join(t for t in (
-                    f"{facts_of_run.get('steps')} steps",
+                    f"{facts_of_run.get('steps')} steps" if run.takes_steps()
+                    else "no step, limit equilibrium alone",
                     f"{program.get('ranks', 1)} rank"
                     + ("s" if program.get("ranks", 1) != 1 else ""),
                     f"wall time {seconds(facts_of_run.get('wall_time'))}"

@@ -14,7 +14,8 @@ from .html import escape
 from .pictures import exaggeration
 from .polygons import clip_polygon
 from .style import GROUP_COLOURS
-from .tables import STATES, in_words, limit_in_words
+from .statics import statics_in_words
+from .tables import STATES, in_words
 from .words import demand_in_words, mode_in_words, number
 
 SHARP = 0.9  # faces at an edge that is drawn differ by more, as a cosine
@@ -196,8 +197,8 @@ def describe(run, row):
             {True: "held by clamping", None: "", False: ""}[row["clamped"]],
             f"needs {demand_in_words(row['demand'], run.is_plane)}"
             if row["demand"] else "",
-            f"limit equilibrium {limit_in_words(row['limit'])}"
-            if row["limit"] else "",
+            f"limit equilibrium {statics_in_words(row)}"
+            if row["limit"] or row["passed"] else "",
             f"strength reduction {in_words(factor)} after {factor['stage']}"
             if factor else "",
             f"failed and taken away in {row['removed']}" if row["removed"]
