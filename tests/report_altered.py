@@ -188,12 +188,23 @@ def check_taken_away():
                     "--output", folder]
                    + [word for s in settings for word in ("--set", s)],
                    check=True, stdout=subprocess.DEVNULL)
-    for folder, opens in ((folder, 0), (FOLDER / "output", 1)):
+    within = FOLDER / "within"  # with one more state, before the block goes
+    shutil.copytree(folder, within)
+    text = (within / "solution.pvd").read_text()
+    first = re.search(r' *<DataSet[^>]*file="rock_0000.vtu"/>\n', text)[0]
+    (within / "solution.pvd").write_text(text.replace(
+        first, first + first.replace('group="start"', 'group="rest"'), 1))
+    start, rest = "before the first stage", "after rest"
+    for folder, stages, opens in ((folder, [start, rest], 0),
+                                  (within, [start, "in rest", rest], 1),
+                                  (FOLDER / "output", [start, rest], 1)):
         subprocess.run([REPORT, folder, "-o", path], check=True,
                        stdout=subprocess.DEVNULL)
         page = path.read_text(encoding="utf-8")
+        assert "This report has no" not in page
         meta = json.loads(re.search(r'id="view-meta">(.*?)</script>', page)[1])
-        assert len(meta["stages"]) == 2 and meta["opens"] == opens, folder
+        assert (meta["stages"], meta["opens"]) == (stages, opens), meta
+        assert page.count('src="data:image/png;base64,') == 2
 
 
 def check_pipe():

@@ -250,8 +250,9 @@ def pack(geometry, rows):
             geometry, box)],
         "up": [0., 1., 0.] if run.is_plane else (
             [0., 0., 1.] if down is None else (-down).tolist()),
-        "stages": ["before the first stage" if i < 0 else f"after {name}"
-                   for name, i, *_ in run.states[:len(small)]],
+        "stages": ["before the first stage" if i < 0 else
+                   ("in " if run.is_within_stage(k) else "after ") + name
+                   for k, (name, i, *_) in enumerate(run.states[:len(small)])],
         "opens": state_to_open(geometry, rows),
         "stress": stress, "exaggeration": exaggeration(geometry, box), "groups": groups,
         "colours": {key: [value[0], value[1]]
