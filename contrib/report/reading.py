@@ -155,8 +155,9 @@ class Run:
     def states_of_stages(self):
         """State before the first stage, and at the end of each that has one.
 
-        Of a stage that takes blocks away the state before the end, too. A list of (name of the stage or "start", index of the stage or -1,
-        file of the rock, file of the joints)."""
+        Of a stage that takes blocks away the state before the end, too. A list
+        of (name of the stage or "start", index of the stage or -1, file of the
+        rock, file of the joints)."""
         states = read_states(self.folder)
         if not states:
             self.why_no_states = (
