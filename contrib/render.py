@@ -47,8 +47,8 @@ def when(collection, time, view):
 def describe(collection, time, grid, view, factor):
     """The caption."""
     if view.field == "block" and time == 0.:
-        n_blocks = len(numpy.unique(values_of(grid, "block")))
-        lines = [f"{n_blocks} block{'s' if n_blocks > 1 else ''}"]
+        n_blocks = len(numpy.setdiff1d(values_of(grid, "block"), [0]))
+        lines = [f"{n_blocks} block{'s' if n_blocks != 1 else ''}"]
     else:
         lines = [when(collection, time, view)]
     if factor != 1.:
@@ -61,11 +61,15 @@ def describe(collection, time, grid, view, factor):
         lines.append("drawn apart")
     if view.field in ("stress_major", "stress_minor"):
         lines.append("pressed: +")
-    if view.field not in ("block", "joint_state") and not numpy.isfinite(
-            magnitudes_of(grid, view.field)).all():
-        lines.append("grey: no value")
+    if view.field not in ("block", "joint_state"):
+        values = magnitudes_of(grid, view.field)
+        if not numpy.isfinite(values).all():
+            lines.append("grey: no value")
+        if not values.any():
+            lines.append(f"{view.field} 0 everywhere")
     text = "; ".join(lines)
-    if view.field in ("block", "joint_state") or view.has_depth():
+    if view.field in ("block", "joint_state") or view.has_depth() or not (
+            values_of(grid, "displacement").any()):
         return text
     return text + "\nred: first position of the blocks"
 
@@ -155,6 +159,7 @@ def draw(collection, picture, view):
     factor = choose_exaggeration(grid, view, [part for part, _ in parts])
     caption = describe(collection, time, grid, view, factor)
     is_block, is_state = view.field == "block", view.field == "joint_state"
+    is_still = not values_of(grid, "displacement").any()
     moved = move_points(grid, factor, view)
     first = moved if is_block else move_points(grid, 0., view)
     grids = [(moved, 1.)] if is_flat else list(move_parts(grid, parts, factor,
@@ -163,8 +168,8 @@ def draw(collection, picture, view):
     actors, colours = paint(grids, view, scale) if grids else ([], None)
     width = 1.5 * view.dpi / 100.
     if is_flat or not view.has_depth():
-        actors += make_outlines(first, DARK if is_block or is_state else RED,
-                                width)
+        actors += make_outlines(
+            first, DARK if is_block or is_state or is_still else RED, width)
     if view.cut and "rock" in view.parts:
         actors += [make_lines(lines, DARK, width) for lines in
                    parts_of.section_lines(moved, view.cut, view.eye)
@@ -172,12 +177,11 @@ def draw(collection, picture, view):
     elif not is_flat and (view.has_depth() or not is_block):
         for one, _ in grids:
             actors += make_outlines(one, DARK, width)
-    _, exposed = render_data.read_classes(collection)
+    exposed = parts_of.exposed_blocks(collection, grid)
     if is_block and is_flat:
         actors += make_numbers(moved, view, exposed)
-    elif "blocks" in view.parts and not view.inside and exposed:
-        actors += numbers_in_space(moved, view, exposed,
-                                   numpy.array(view.eye))
+    elif "blocks" in view.parts and not view.inside:
+        actors += numbers_in_space(moved, view, exposed)
     places = numpy.vstack([vtk_to_numpy(g.GetPoints().GetData()) for g in (
         [moved, first] if is_flat or not view.has_depth() else
         [g for g, _ in grids] or [moved])])
@@ -187,8 +191,7 @@ def draw(collection, picture, view):
     actors += faces
 
     has_bar = not (is_block or is_state or colours is None) and any(
-        numpy.isfinite(magnitudes_of(part, view.field)).any()
-        for part, _ in grids)
+        render_data.finite(magnitudes_of(part, view.field)).any() for part, _ in grids)
 
     def make_texts(size):
         """Caption, and colour bar or legend for a size of the picture."""

@@ -14,8 +14,8 @@ from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkFiltersGeneral import vtkTableBasedClipDataSet
 
 from render_data import (corners_of_cells, fail, find_joints, find_rock,
-                         make_grid, merge_points, outline_of, read_grid,
-                         values_of)
+                         make_grid, merge_points, outline_of, read_classes,
+                         read_grid, values_of)
 from report.geometry import FACES
 from report.polygons import clip_polygon
 from report.reading import ReportError
@@ -149,6 +149,24 @@ def dug_cells(collection, grid):
     left = corners_of_cells(grid)
     key = [key_of(c.mean(axis=1) + 0.) for c in (first, left)]
     return first[~numpy.isin(*key)]
+
+
+def exposed_blocks(collection, grid):
+    """Numbers of the blocks that are exposed, by the summary.json beside the
+    collection; without one those beside what is dug, now or later, that do not
+    reach the edge of a plane model."""
+    _, exposed = read_classes(collection)
+    corners = corners_of_cells(grid)
+    if exposed is not None or corners.shape[1] != 4:
+        return exposed or []
+    block = values_of(grid, "block")[::4]
+    dug = numpy.vstack([dug_cells(collection, grid), corners[block == 0]])
+    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+    at_edge = (numpy.isclose(corners, low) | numpy.isclose(corners, high))[
+        :, :, :2].any(axis=(1, 2))
+    beside = numpy.isin(key_of(corners.reshape(-1, 3) + 0.), key_of(
+        dug.reshape(-1, 3) + 0.)).reshape(block.size, 4).sum(axis=1) > 1
+    return numpy.setdiff1d(block[beside], [0, *block[at_edge]])
 
 
 def place_inside(collection, grid):

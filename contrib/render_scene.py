@@ -172,7 +172,7 @@ def make_numbers(grid, view, exposed):
     """The number of each block on the cell farthest from its outline (2D).
 
     Blocks whose cells come no farther than a line of type have none; of many
-    blocks those that are not exposed have none, too."""
+    blocks those that are not exposed have none, too, and what is to be dug."""
     corners = corners_of_cells(grid)
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     if view.box:
@@ -180,9 +180,11 @@ def make_numbers(grid, view, exposed):
     line = type_size(view.size) * max(high - low) / min(view.size)
     merged = merge_points(grid)
     centres, block = corners.mean(axis=1), values_of(grid, "block")[::4]
-    labelled = numpy.unique(block)
-    if len(labelled) > MOST_LABELS and exposed is not None:
-        labelled = numpy.intersect1d(labelled, exposed)
+    labelled = numpy.setdiff1d(block, [0])
+    is_exposed = numpy.isin(labelled, exposed)
+    labelled = labelled[is_exposed] if len(labelled) > MOST_LABELS else (
+        numpy.append(labelled[is_exposed], labelled[~is_exposed]))
+    places = {}
     for number in labelled:
         mine = centres[block == number]
         outline = outline_of(merged, number)
@@ -191,9 +193,20 @@ def make_numbers(grid, view, exposed):
                             (high - mine)[:, :2].min(axis=1))
         for end in ends:
             far = numpy.minimum(far, numpy.linalg.norm(mine - end, axis=1))
-        if far.max() < 0.6 * line:
-            continue
-        yield make_number(number, mine[far.argmax()], view)
+        if far.max() >= 0.6 * line:
+            places[number] = mine[far.argmax()]
+    return labels_at(places, line, view, True)
+
+
+def labels_at(places, line, view, is_flat):
+    """Labels of blocks at places, the first first, none over another."""
+    axes, put = axes_of(view, is_flat), []
+    for number, place in places.items():
+        seen, half = axes[:2] @ place, 0.3 * line * len(str(int(number)))
+        if all(abs(seen - other)[0] > half + width
+               or abs(seen - other)[1] > line for other, width in put):
+            put.append((seen, half))
+            yield make_number(number, place, view)
 
 
 def make_number(number, place, view):
@@ -207,16 +220,20 @@ def make_number(number, place, view):
     return text
 
 
-def numbers_in_space(grid, view, exposed, eye):
+def numbers_in_space(grid, view, exposed):
     """The numbers of exposed blocks before them, towards the eye (3D)."""
     corners = corners_of_cells(grid)
     block = values_of(grid, "block")[::8]
-    for number in numpy.intersect1d(numpy.unique(block), exposed):
+    shown = corners[numpy.isin(block, exposed)].reshape(-1, 3)
+    towards, places = axes_of(view, False)[2], {}
+    for number in numpy.intersect1d(block, exposed):
         mine = corners[block == number].reshape(-1, 3)
-        towards = eye / numpy.linalg.norm(eye)
         middle = 0.5 * (mine.min(axis=0) + mine.max(axis=0))
-        yield make_number(number, middle + 1.1 * towards * (
-            (mine - middle) @ towards).max(), view)
+        places[number] = middle + 1.1 * towards * (
+            (mine - middle) @ towards).max()
+    line = type_size(view.size) * numpy.ptp(shown, axis=0).max(
+        initial=0.) / min(view.size) if len(shown) else 0.
+    return labels_at(places, line, view, False)
 
 
 def type_size(size):
@@ -234,8 +251,8 @@ def style(text, size):
     text.ShadowOff()
 
 
-def extents(places, view, is_flat):
-    """Middle, width and height of places as the camera sees them; its axes."""
+def axes_of(view, is_flat):
+    """Axes of the camera: to the right, upwards, towards the eye."""
     back = numpy.array((0., 0., 1.) if is_flat else view.eye)
     angle = math.radians(view.tilt)
     up = numpy.array((-math.sin(angle), math.cos(angle), 0.) if is_flat else
@@ -243,7 +260,12 @@ def extents(places, view, is_flat):
     back /= numpy.linalg.norm(back)
     right = numpy.cross(up, back)
     right /= numpy.linalg.norm(right)
-    axes = numpy.array((right, numpy.cross(back, right), back))
+    return numpy.array((right, numpy.cross(back, right), back))
+
+
+def extents(places, view, is_flat):
+    """Middle, width and height of places as the camera sees them; its axes."""
+    axes = axes_of(view, is_flat)
     low, high = (places @ axes.T).min(axis=0), (places @ axes.T).max(axis=0)
     return axes.T @ (0.5 * (low + high)), *(high - low)[:2], axes
 

@@ -78,6 +78,38 @@ def finite_blocks(summary):
             if not {"infinite", "rigid"} & set(b["class"])}
 
 
+# labels and captions of render.py, also where there is no summary.json
+LABELS = """
+import pathlib
+import sys
+sys.path.insert(0, sys.argv[1])
+import render
+import render_data
+import render_parts
+import render_scene
+collection = sys.argv[2] + "/solution.pvd"
+view = render.View(field="block", size=(3000, 3000))
+for index in (0, -1):
+    time, path = render_data.find_rock(collection, index)
+    grid = render_data.read_grid(path)
+    exposed = set(render_parts.exposed_blocks(collection, grid))
+    numbers = [int(text.GetInput()) for text in render_scene.make_numbers(
+        grid, view, list(exposed))]
+    assert len(numbers) == len(set(numbers)) > 1, numbers
+    assert set(numbers) <= exposed and 0 not in numbers, (numbers, exposed)
+    moving = render.describe(collection, time, grid, render.View(), 1.)
+    assert ("red" in moving) == (index != 0), moving
+    assert ("displacement 0 everywhere" in moving) == (index == 0), moving
+places = {n: render_data.numpy.array((x, 0., 0.))
+          for n, x in ((1, 0.), (2, 0.4), (3, 2.))}
+put = [text.GetInput() for text in render_scene.labels_at(places, 1., view,
+                                                          True)]
+assert put == ["1", "3"], put
+pathlib.Path(sys.argv[2], "summary.json").unlink()
+assert set(render_parts.exposed_blocks(collection, grid)) == exposed
+"""
+
+
 def check_network():
     """Legends and labels of maps with many joints and blocks."""
     folder, summary = run_scene()
@@ -112,6 +144,7 @@ def check_network():
         sizes[dpi] = struct.unpack(">II", path.read_bytes()[16:24])
     # a box around what is drawn has both its ends rounded outwards
     assert all(abs(2 * a - b) <= 4 for a, b in zip(sizes[50], sizes[100])), sizes
+    call(PYTHON, "-c", LABELS, CONTRIB, folder)
 
 
 def colours_of(path, begin=0.):

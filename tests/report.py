@@ -156,6 +156,7 @@ def assert_page(summary, page):
     assert f"<h1>{summary['scene']['title']}</h1>" in page
     assert summary["program"]["commit"] in page
     assert summary["scene"]["digest"] in page
+    assert "(joints are in joints.csv)" in page
     for n, block in finite_blocks(summary).items():
         row = re.search(rf'<tr data-block="{n}">(.*?)</tr>', page)[1]
         volume = block.get("exact_volume", block["volume"])
@@ -279,7 +280,7 @@ def check_study():
     assert f"<code>{variable['entry']}</code>" in page
     assert f"<td class=n>{variable['rank_correlation']:.3g}</td>" in page
     assert "<code>Study/Samples</code></td><td>200</td><td>1000" in page
-    assert "This report has no" not in page
+    assert "This report has no" not in page and "joints.csv" not in page
     # nothing can slide where cohesion is large enough
     for key in ("least_factor", "failed_volume"):
         results.pop(key, None)

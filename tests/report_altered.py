@@ -179,6 +179,34 @@ def check_unjudged():
     assert "No safety factors were looked for" not in page
 
 
+def check_taken_away():
+    """The view opens while there still is a block with a factor."""
+    folder, path = FOLDER / "failed", FOLDER / "failed.html"
+    settings = ("Output/Write VTU=true", "Safety factor/Bracket=0.1",
+                "Stages/rest/Friction angle override=-1")
+    subprocess.run([KEYBLOCK, f"{PRM}/verification/factor_incline.prm",
+                    "--output", folder]
+                   + [word for s in settings for word in ("--set", s)],
+                   check=True, stdout=subprocess.DEVNULL)
+    within = FOLDER / "within"  # with one more state, before the block goes
+    shutil.copytree(folder, within)
+    text = (within / "solution.pvd").read_text()
+    first = re.search(r' *<DataSet[^>]*file="rock_0000.vtu"/>\n', text)[0]
+    (within / "solution.pvd").write_text(text.replace(
+        first, first + first.replace('group="start"', 'group="rest"'), 1))
+    start, rest = "before the first stage", "after rest"
+    for folder, stages, opens in ((folder, [start, rest], 0),
+                                  (within, [start, "in rest", rest], 1),
+                                  (FOLDER / "output", [start, rest], 1)):
+        subprocess.run([REPORT, folder, "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
+        page = path.read_text(encoding="utf-8")
+        assert "This report has no" not in page
+        meta = json.loads(re.search(r'id="view-meta">(.*?)</script>', page)[1])
+        assert (meta["stages"], meta["opens"]) == (stages, opens), meta
+        assert page.count('src="data:image/png;base64,') == 2
+
+
 def check_pipe():
     """A reader that has gone away is no error."""
     done = subprocess.run(
@@ -196,7 +224,8 @@ def main():
                     "Output/Write VTU=true"],
                    check=True, stdout=subprocess.DEVNULL)
     for case in (check_open, check_support, check_moving, check_held,
-                 check_demand, check_tie, check_lost, check_unjudged, check_pipe):
+                 check_demand, check_tie, check_lost, check_unjudged,
+                 check_taken_away, check_pipe):
         case()
         print(f"{case.__name__}: as it should be")
 

@@ -24,8 +24,12 @@ def named(numbers):
 
 
 def further_verdict(rows):
-    """Blocks that still move, and those that something but joints holds."""
+    """Blocks that fail after others, that still move, and those that something
+    but joints holds."""
     text = ""
+    later = [row["block"] for row in rows if row["state"] == "follows"]
+    if later:
+        text += f" Once others have gone fail, too: {named(later)}."
     moving = [row["block"] for row in rows if row["state"] == "moves"]
     if moving:
         text += (" Still moving at the end of the last stage: "
@@ -96,7 +100,8 @@ def head(run, rows):
                 ("seeds of joint sets", escape(seeds)),
                 ("model", escape(size)), ("mesh", mesh),
                 ("run", ", ".join(t for t in (
-                    f"{facts_of_run.get('steps')} steps",
+                    f"{facts_of_run.get('steps')} steps" if run.takes_steps()
+                    else "no step, limit equilibrium alone",
                     f"{program.get('ranks', 1)} rank"
                     + ("s" if program.get("ranks", 1) != 1 else ""),
                     f"wall time {seconds(facts_of_run.get('wall_time'))}"
@@ -128,8 +133,10 @@ def settings_section(run):
             f"{escape(shorten(value))}</td><td>"
             f"{escape(shorten(default)) or '–'}</td></tr>"
             for path, value, default in run.changed)
+        elsewhere = (" (joints are in joints.csv)" if (
+            run.folder / "joints.csv").exists() else "")
         text.append(f"<details><summary>{len(run.changed)} entries of used.prm "
-                    "that differ from their defaults (joints are in joints.csv)"
+                    f"that differ from their defaults{elsewhere}"
                     '</summary><div class="wide tall"><table><thead><tr><th>'
                     "entry</th><th>value</th><th>default</th></tr></thead>"
                     f"<tbody>{rows}</tbody></table></div></details>")

@@ -3,8 +3,9 @@
 import math
 
 from .html import clamped_text, escape, group_text
-from .tables import (STATES, few, in_words, is_held_by_clamping,
-                     limit_in_words, of_stage, size_of)
+from .statics import (follows_others, limit_in_words, mode_by_statics,
+                      own_factor, statics_in_words)
+from .tables import STATES, few, in_words, is_held_by_clamping, of_stage
 from .words import demand_in_words, mode_in_words, number
 
 MOST_ROWS = 60  # rows of blocks before the rest is folded away
@@ -30,10 +31,9 @@ def block_columns(run):
         ("cells across", True, lambda r: number(r["cells_across"], 2)),
         ("joint faces", False, lambda r: escape(few(list(r["faces"]), 8))
          or "–"),
-        ("how it fails", False, lambda r: escape(mode_in_words(
-            r["mode"] or (r["limit"] or {}).get("mode")) or "–")),
-        ("limit equilibrium", False, lambda r: escape(
-            limit_in_words(r["limit"]))),
+        ("how it fails", False, lambda r: escape(
+            mode_in_words(r["mode"]) or mode_by_statics(r["limit"]) or "–")),
+        ("limit equilibrium", False, lambda r: escape(statics_in_words(r))),
         ("strength reduction", False, lambda r: escape(
             f"{in_words(r['factor'])} after {r['factor']['stage']}").replace(
                 ", ", ",&nbsp;").replace(" [", "&nbsp;[")
@@ -93,16 +93,18 @@ def blocks_section(run, rows, has_view, files):
     empty = [name for name, _, text in columns
              if all(text(row) in ("–", "") for row in rows)]
     shown = [r for r in rows if r["exposed"] or r["removed"] or r["moved_off"] or r[
-        "moving"] or (r["factor"] and r["factor"].get("outcome") == "value")]
+        "moving"] or (r["factor"] and r["factor"].get("outcome") in (
+            "value", "falls freely"))]
     if not shown:
         shown = rows[:MOST_ROWS]
     ids = {r["block"] for r in shown}
     rest = [r for r in rows if r["block"] not in ids]
-    if any(r["factor"] or r["limit"] for r in rows):
+    if any(r["factor"] or r["limit"] or r["passed"] for r in rows):
         title = "Blocks, the most dangerous first"
         order = ("Exposed ones first, then those that failed, then by the least "
                  "factor, alone or of a group, of all stages; those that still "
-                 "move at the end as if it were 1 at most. ")
+                 "move at the end, or fail once others have gone, as if it were "
+                 "1 at most. ")
     else:
         title = "Blocks, the exposed and the largest first"
         order = ("Those that failed or still move stand before others. The run "
@@ -117,8 +119,10 @@ def blocks_section(run, rows, has_view, files):
             '<div class="wide tall">', table(columns, shown, has_view, empty),
             "</div>"]
     if rest:
-        text += [f"<details><summary>{len(rest)} more blocks: hidden, without "
-                 "a factor between two bounds</summary>",
+        judged = ("none of them was seen to fail by itself" if any(
+            r["factor"] for r in rest) else "no factor was looked for")
+        text += [f"<details><summary>{len(rest)} more blocks that are never "
+                 f"exposed; {judged}</summary>",
                  '<div class="wide tall">',
                  table(columns, rest, has_view, empty), "</div></details>"]
     notes = []
@@ -150,28 +154,37 @@ def blocks_section(run, rows, has_view, files):
         notes.append("* of the mesh, not exact.")
     if gravity_note(run):
         notes.append(gravity_note(run))
-    remarks = [(r["block"], r["limit"]["remark"]) for r in shown
-               if r["limit"] and r["limit"].get("remark")]
-    if remarks:
-        notes.append("Remarks of limit equilibrium: " + "; ".join(
-            f"block {n}: {remark}" for n, remark in remarks[:40]) + ".")
     if empty:
         notes.append("Left out, as the run has nothing on it: "
                      + ", ".join(empty) + ".")
     text.append('<ul class="notes">' + "".join(
         f"<li>{escape(note)}</li>" for note in notes if note) + "</ul>")
+    text.append(remarks_of(shown))
     return "\n".join(text)
+
+
+def remarks_of(rows, most=40):
+    """Remarks of limit equilibrium, a line for each block."""
+    lines = [f"<li>Block {r['block']}: {escape(r['limit']['remark'])}.</li>"
+             for r in rows if r["limit"] and r["limit"].get("remark")]
+    if not lines:
+        return ""
+    return ("<p class=faint>Remarks of limit equilibrium:</p>"
+            f'<ul class="notes">{"".join(lines[:most])}</ul>')
 
 
 def why_no_factors(run, rows):
     """A sentence on why there are no factors by strength reduction."""
     if not run.entries:
         return "There are no safety factors."
-    if run.entries.get("Safety factor/Method") == "limit equilibrium":
-        judged = [row for row in rows if row["limit"]]
-        falling = sum(size_of(row["limit"]) < 1. for row in judged)
+    if not run.takes_steps():
+        judged = sum(bool(row["limit"] or row["passed"]) for row in rows)
+        falling = sum(own_factor(row["limit"]) < 1. for row in rows)
+        later = sum(follows_others(row["limit"]) for row in rows)
         return (f"By limit equilibrium, which alone was asked for, {falling} of "
-                f"{len(judged)} blocks {'has' if falling == 1 else 'have'} a factor below 1.")
+                f"{judged} blocks {'has' if falling == 1 else 'have'} a factor below 1"
+                + (f", and {later} more fail{'s' if later == 1 else ''} once "
+                   "others have gone." if later else "."))
     asked = run.entries.get("Safety factor/Blocks", "none")
     if asked == "none":
         return "No safety factors were looked for (Safety factor/Blocks)."

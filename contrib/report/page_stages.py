@@ -29,6 +29,15 @@ def stage_facts(stage):
     ).replace(' class="facts"', "")
 
 
+def facts_of_statics(stage):
+    """The same where no step was taken."""
+    return facts([
+        ("steps", "none, blocks are judged by limit equilibrium"),
+        ("cells", stage.get("cells")),
+        ("remark", escape(stage["remark"]) if stage.get("remark") else None)]
+    ).replace(' class="facts"', "")
+
+
 def legend_of(marks):
     """The legend of the stages' pictures."""
     lines = []
@@ -55,7 +64,8 @@ def stages_section(run, pictures, marks, why, files):
             title, side = "Before the first stage", ""
         else:
             stage = run.summary["stages"][index]
-            title, side = stage["name"], stage_facts(stage)
+            title, side = stage["name"], (
+                stage_facts if run.takes_steps() else facts_of_statics)(stage)
         image = ""
         if picture:
             name, address, factor = picture
@@ -102,6 +112,8 @@ def joints_section(run, figure):
 
 def energy_section(run, figure):
     """The ledger over time, and what it left."""
+    if not run.takes_steps():
+        return ""
     energy = run.summary.get("energy", {})
     text = ["<h2 id=energy>Energy ledger</h2>"]
     if figure:

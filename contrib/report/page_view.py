@@ -28,7 +28,7 @@ def three_script():
             f"const OrbitControls=(()=>{{{body}\nreturn OrbitControls;}})();\n")
 
 
-def view_controls(is_plane):
+def view_controls(is_plane, is_moved):
     """What stands beside the view."""
     def box(name, label):
         return (f'<label><input type="checkbox" id="show-{name}"> {label}'
@@ -47,7 +47,7 @@ def view_controls(is_plane):
 <fieldset><legend>Stage</legend><span id="stage-name"></span>
 <input type="range" id="stage" min="0" step="1">
 <button id="earlier">earlier</button><button id="later">later</button></fieldset>
-<fieldset><legend>Displacement times <span id="factor-value"></span></legend>
+<fieldset{"" if is_moved else " hidden"}><legend>Displacement times <span id="factor-value"></span></legend>
 <input type="range" id="factor" min="0" step="1"></fieldset>
 <fieldset><legend>Look</legend>{"".join(
         f'<button id="look-{key}">{text}</button>'
@@ -58,7 +58,7 @@ def view_controls(is_plane):
 {box("edges", "outlines")}{box("labels", "numbers of exposed blocks")}</fieldset>
 <fieldset><legend>Colours</legend><select id="colouring">
 <option value="state">of blocks by factor</option>
-<option value="displacement">by displacement</option>
+{'<option value="displacement">by displacement</option>' if is_moved else ""}
 <option value="stress">by major principal stress</option>
 <option value="joint">by joint</option></select>
 <div id="states"></div><div id="largest"></div></fieldset>
@@ -80,7 +80,7 @@ def view_section(run, packed):
 <p class=faint>{hint} Click on a block for its row in the table.</p>
 <div id="view"><div id="canvas"><div id="labels"></div><div id="scale"></div>
 <div id="chosen" hidden></div></div>
-<div id="controls">{view_controls(run.is_plane)}</div></div>
+<div id="controls">{view_controls(run.is_plane, run.takes_steps())}</div></div>
 <script type="application/json" id="view-meta">{meta_text}</script>
 <script type="text/plain" id="view-data">{data}</script>
 <script type="module">

@@ -265,6 +265,8 @@ def draw_stages(geometry, rows):
     for k, (name, index, *_) in enumerate(geometry.run.states):
         if k >= len(geometry.is_there):
             break
+        if geometry.run.is_within_stage(k):
+            continue
         if not geometry.run.is_plane and not (
                 geometry.seen_in & numpy.uint32(1 << k)).any():
             continue

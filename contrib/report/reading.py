@@ -138,6 +138,10 @@ class Run:
         size = numpy.linalg.norm(gravity)
         return gravity / size if size > 0. else None
 
+    def takes_steps(self):
+        """Whether the run moves anything, and not only judges blocks."""
+        return self.entries.get("Safety factor/Method") != "limit equilibrium"
+
     def finite_blocks(self):
         """The numbers of the blocks that could move, in order."""
         return [number for number, block in sorted(self.blocks.items())
@@ -151,8 +155,9 @@ class Run:
     def states_of_stages(self):
         """State before the first stage, and at the end of each that has one.
 
-        A list of (name of the stage or "start", index of the stage or -1,
-        file of the rock, file of the joints)."""
+        Of a stage that takes blocks away the state before the end, too. A list
+        of (name of the stage or "start", index of the stage or -1, file of the
+        rock, file of the joints)."""
         states = read_states(self.folder)
         if not states:
             self.why_no_states = (
@@ -166,7 +171,11 @@ class Run:
         for k, name in enumerate(self.stages if by_name or ends else []):
             if by_name:
                 if name in by_name:
-                    found.append((name, k, *states[by_name[name]][1:]))
+                    end = by_name[name]
+                    if (name in self.removed().values()
+                            and end - 1 not in by_name.values()):
+                        found.append((name, k, *states[end - 1][1:]))
+                    found.append((name, k, *states[end][1:]))
                 continue
             # times are written with six digits; static stages take none
             near = abs(times - ends[k]) <= 1e-5 * max(ends[-1], 1e-300)
@@ -181,6 +190,10 @@ class Run:
             keep = numpy.linspace(0, len(found) - 1, MOST_STATES).astype(int)
             found = [found[i] for i in sorted(set(keep))]
         return found
+
+    def is_within_stage(self, k):
+        """Whether a state comes before that at the end of its stage."""
+        return self.states[k][1] in [state[1] for state in self.states[k + 1:]]
 
     def stage_ends(self, column):
         """Value of a column of the history at the end of each stage."""

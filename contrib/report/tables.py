@@ -4,15 +4,19 @@ import csv
 import io
 import math
 
+from .statics import (factor_by_statics, follows_others, force_of,
+                      last_factor, least_limit, passed_factor)
 from .words import demand_of, number
 
 # What a block is like, for colours: name, colour (of Okabe and Ito, which
 # colour-blind people tell apart), what the legend says
 STATES = {
     "fails": ("#d55e00", "failed in a stage, falls freely, or factor below 1"),
+    "follows": ("#7f3c00", "fails once others have gone"),
     "moves": ("#f0e442", "still moving at the end of the last stage"),
     "low": ("#e69f00", "factor 1 to 1.5"),
     "holds": ("#56b4e9", "factor above 1.5, or 1.5 and more as wanted"),
+    "passed": ("#0072b2", "not critical by limit equilibrium"),
     "firm": ("#009e73", "immovable, or above the highest factor tried"),
     "undecided": ("#cc79a7", "undecided"),
     "unknown": ("#999999", "no factor looked for")}
@@ -89,26 +93,9 @@ def least(results, limits=()):
     return min(reversed(results), key=order_of) if results else None
 
 
-def force_of(demand):
-    """The force that a demand for support asks for; infinite: none does."""
-    return demand.get("force", math.inf) if demand else 0.
-
-
 def of_stage(results, stage):
     """The result of a list after a stage, or None."""
     return next((r for r in results or [] if r.get("stage") == stage), None)
-
-
-def limit_in_words(result):
-    """What limit equilibrium says, in words."""
-    if not result:
-        return "–"
-    if result.get("outcome") == "stable":
-        return "stable"
-    if "value" not in result:
-        return "–"
-    value = number(result["value"])
-    return value + (" (falls)" if result.get("mode") == "falling" else "")
 
 
 def is_held_by_clamping(factor, limit):
@@ -126,18 +113,17 @@ def held_by(factor, limit):
     return "stress" if what in ("", "clamping") else what
 
 
-def state_of(has_failed, factor, is_moving=False):
+def state_of(row, is_moving):
     """Which of STATES a block is in; where it moves, only failure is worse."""
-    state = state_by_factor(has_failed, factor)
+    limit, factor = row["limit"], row["factor"]
+    state = state_by_factor(row["removed"] or row["moved_off"],
+                            factor or factor_by_statics(limit))
+    if not (row["removed"] or row["moved_off"] or factor):
+        if follows_others(limit):
+            state = "follows"
+        elif row["passed"] is not None:
+            state = "passed"
     return "moves" if is_moving and state != "fails" else state
-
-
-def factor_by_statics(limit):
-    """What limit equilibrium says, where it is all that was asked for."""
-    if not limit:
-        return None
-    return ({"outcome": "value", "value": limit["value"]}
-            if "value" in limit else {"outcome": "immovable"})
 
 
 def state_by_factor(has_failed, factor):
@@ -184,7 +170,7 @@ def row_of(run, geometry, n, moved_off, moving):
                        ("safety_factor", "limit_equilibrium"))
     worst = least(factors, limits)
     limit = (of_stage(limits, worst["stage"]) if worst else
-             least(limits, limits))
+             least_limit(limits))
     exposed = block.get("exposed_stage")
     row = {"block": n, "exposed": exposed is not None,
            "since": None if exposed is None else run.stage_name(exposed),
@@ -197,6 +183,7 @@ def row_of(run, geometry, n, moved_off, moving):
                               block.get("joint_areas", {})),
            "mode": (worst or {}).get("failure_mode") or None,
            "limit": limit, "factor": worst,
+           "passed": passed_factor(run, block),
            "stress_ratio": (of_stage(block.get("stress_ratio"),
                                      worst["stage"]) if worst else
                             None) or {},
@@ -211,16 +198,14 @@ def row_of(run, geometry, n, moved_off, moving):
            "removable": block.get("removable"),
            "centroid": block.get("centroid"),
            "where": None, "free_area": None, "displacement": None}
-    row["state"] = state_of(row["removed"] or row["moved_off"],
-                            worst or factor_by_statics(limit),
-                            row["moving"] in run.stages[-1:])
+    row["state"] = state_of(row, row["moving"] in run.stages[-1:])
     if geometry is not None:
         free = geometry.free_normal(n)
         if exposed is not None and free:
             row["where"] = where_is(free[0], run.down())
             row["free_area"] = float(free[1])
         moved = [d for d, state in zip(geometry.displacement(n), run.states)
-                 if d is not None and state[1] >= 0]
+                 if d is not None and state[1] >= 0 and run.takes_steps()]
         row["displacement"] = max(moved, default=None)
     return row
 
@@ -228,10 +213,12 @@ def row_of(run, geometry, n, moved_off, moving):
 def danger(row):
     """Sorting key: exposed first, then those that failed, then by factor.
 
-    One that still moves is less dangerous than one with a factor below 1."""
-    size = (-1. if row["removed"] or row["moved_off"] else size_of(row["factor"])
-            if row["factor"] else size_of(row["limit"]) if row["limit"]
-            else math.inf)
+    One that still moves, or fails once others have gone, is less dangerous
+    than one with a factor below 1."""
+    size = (-1. if row["removed"] or row["moved_off"] else
+            size_of(row["factor"]) if row["factor"] else
+            1. if row["state"] == "follows" else
+            row["passed"] or last_factor(row["limit"]))
     if row["state"] == "moves":
         size = min(size, 1.)
     return not row["exposed"], size, -(row["volume"] or 0.), row["block"]
@@ -284,14 +271,18 @@ STAGE_COLUMNS = {
 
 
 def stages_csv(run):
-    """stages.csv: a line for each stage."""
+    """stages.csv: a line for each stage; empty what no step has computed."""
+    def known(stage):
+        return stage if run.takes_steps() else {
+            key: stage.get(key) for key in ("name", "steps", "cells", "remark")}
+
     return as_csv(
         [*STAGE_COLUMNS.values(), "energy residual (J)",
          "relative energy residual"],
         [[stage.get(key) for key in STAGE_COLUMNS]
          + [stage.get("energy", {}).get(key) for key in
             ("residual", "relative_residual")]
-         for stage in run.summary["stages"]])
+         for stage in map(known, run.summary["stages"])])
 
 
 def few(names, most=6):

@@ -28,7 +28,7 @@ async function read() {
 class View {
   constructor(meta, data) {
     Object.assign(this, {meta, data, chosen: 0, exaggeration: meta.exaggeration,
-                         colouring: 'state', state: meta.stages.length - 1});
+                         colouring: 'state', state: meta.opens});
     this.shows = {rock: true, exposed: true, hidden: meta.plane, edges: true,
                   labels: true, groups: new Set()};
     const exposed = Object.values(meta.blocks).filter((b) => b.exposed).length;

@@ -14,7 +14,8 @@ from .html import escape
 from .pictures import exaggeration
 from .polygons import clip_polygon
 from .style import GROUP_COLOURS
-from .tables import STATES, in_words, limit_in_words
+from .statics import statics_in_words
+from .tables import STATES, in_words
 from .words import demand_in_words, mode_in_words, number
 
 SHARP = 0.9  # faces at an edge that is drawn differ by more, as a cosine
@@ -173,6 +174,14 @@ def tight_box(geometry, box):
             numpy.minimum(box[1], points.max(axis=0)))
 
 
+def state_to_open(geometry, rows):
+    """The last state in which a block with a factor is there, if any is."""
+    judged = numpy.isin(geometry.block, [
+        row["block"] for row in rows if row["factor"] or row["limit"]])
+    found = (geometry.is_there & judged).any(axis=1).nonzero()[0]
+    return int(found[-1]) if len(found) else len(geometry.is_there) - 1
+
+
 def describe(run, row):
     """What the view says of a block that is clicked."""
     factor = row["factor"]
@@ -188,8 +197,8 @@ def describe(run, row):
             {True: "held by clamping", None: "", False: ""}[row["clamped"]],
             f"needs {demand_in_words(row['demand'], run.is_plane)}"
             if row["demand"] else "",
-            f"limit equilibrium {limit_in_words(row['limit'])}"
-            if row["limit"] else "",
+            f"limit equilibrium {statics_in_words(row)}"
+            if row["limit"] or row["passed"] else "",
             f"strength reduction {in_words(factor)} after {factor['stage']}"
             if factor else "",
             f"failed and taken away in {row['removed']}" if row["removed"]
@@ -241,8 +250,10 @@ def pack(geometry, rows):
             geometry, box)],
         "up": [0., 1., 0.] if run.is_plane else (
             [0., 0., 1.] if down is None else (-down).tolist()),
-        "stages": ["before the first stage" if i < 0 else f"after {name}"
-                   for name, i, *_ in run.states[:len(small)]],
+        "stages": ["before the first stage" if i < 0 else
+                   ("in " if run.is_within_stage(k) else "after ") + name
+                   for k, (name, i, *_) in enumerate(run.states[:len(small)])],
+        "opens": state_to_open(geometry, rows),
         "stress": stress, "exaggeration": exaggeration(geometry, box), "groups": groups,
         "colours": {key: [value[0], value[1]]
                     for key, value in STATES.items()},

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reports of runs that judge blocks by limit equilibrium alone.
+
+usage: report_statics.py KEYBLOCK REPORT PRM FOLDER
+
+Of two blocks, one of which leans on the other: a block that fails once the other
+has gone is said to, one that is not critical has no grey, and nothing is shown of
+steps that were not taken.
+"""
+import csv
+import html
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+KEYBLOCK, REPORT, PRM, FOLDER = sys.argv[1:5]
+FOLDER = pathlib.Path(FOLDER)
+
+
+def report_of(friction):
+    """The page of a run with a friction angle below the lower block."""
+    folder, path = FOLDER / f"output_{friction}", FOLDER / f"{friction}.html"
+    settings = ["Safety factor/Method=limit equilibrium",
+                "Safety factor/Blocks=critical",
+                "Safety factor/Critical factor=1.01", "Output/Write VTU=true",
+                f"Joints/lower/Friction angle={friction}"]
+    subprocess.run([KEYBLOCK, f"{PRM}/verification/factor_group.prm",
+                    "--output", folder]
+                   + [word for s in settings for word in ("--set", s)],
+                   check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([REPORT, folder, "-o", path], check=True,
+                   stdout=subprocess.DEVNULL)
+    page = path.read_text(encoding="utf-8")
+    assert "This report has no" not in page
+    return page
+
+
+def blocks_of(page):
+    """What the view says of blocks."""
+    return json.loads(re.search(r'id="view-meta">(.*?)</script>',
+                                page)[1])["blocks"]
+
+
+def row_of(page, block):
+    """The row of a block in the table of blocks."""
+    return html.unescape(re.search(rf'<tr data-block="{block}">(.*?)</tr>',
+                                   page)[1])
+
+
+def check_followers():
+    """A block that fails only once another has gone."""
+    page = report_of(20)
+    blocks = blocks_of(page)
+    assert (blocks["1"]["state"], blocks["2"]["state"]) == (
+        "fails", "follows"), blocks
+    assert "Once others have gone fail, too: block 2." in page
+    assert "1 of 2 blocks has a factor below 1, and 1 more fails" in page
+    row = row_of(page, 2)
+    assert "stable; 0.6304 once block 1 has gone" in row, row
+    assert "sliding on upper, once others have gone" in row, row
+    assert len(re.findall(r"<li>Block \d: ", page)) == 2
+
+
+def check_not_critical():
+    """Blocks that limit equilibrium has judged, but written no result of."""
+    page = report_of(35)
+    for n, block in blocks_of(page).items():
+        assert block["state"] == "passed", block
+        assert "at least 1.01, not critical" in row_of(page, n)
+    assert "0 of 2 blocks have a factor below 1." in page
+    assert "The run was asked for no factors" not in page
+
+
+def check_no_steps():
+    """What no step has computed is not shown."""
+    page = report_of(20)
+    for text in ("unbalanced ratio", "converged", "sticking", "moved [mm]</th>",
+                 "<h2 id=energy>", "by displacement"):
+        assert text not in page, text
+    with open(FOLDER / "stages.csv", encoding="utf-8", newline="") as file:
+        row, = csv.DictReader(file)
+    assert row["stage"] == "rest" and row["cells"] == "79", row
+    assert not any(row[name] for name in (
+        "converged", "sticking points", "energy residual (J)")), row
+
+
+shutil.rmtree(FOLDER, ignore_errors=True)
+FOLDER.mkdir(parents=True)
+for case in (check_followers, check_not_critical, check_no_steps):
+    case()
+    print(f"{case.__name__}: as it should be")
