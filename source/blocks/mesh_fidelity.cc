@@ -2,6 +2,7 @@
 #include <keyblock/blocks/mesh_fidelity.h>
 
 #include <keyblock/base/number_text.h>
+#include <keyblock/mesh/excavation_region.h>
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/mesh/size_remedy.h>
 
@@ -23,6 +24,10 @@ namespace Keyblock
     /** Difference of volumes from which on their first order says no number
      * [-]. */
     constexpr double far_off = 0.5;
+
+    /** Distance of a cell from the curved face of a solid over the length of
+     * its chord that is not warned of: that of 16 chords in a circle [-]. */
+    constexpr double largest_sagitta = 0.05;
 
     constexpr unsigned int most_names = 5;
 
@@ -239,6 +244,83 @@ namespace Keyblock
              "there, or that the mesh has split); " +
              remedy_of_coarse_cells(scene.meshing) + ".";
     }
+    /** Where a face of a cell lies off the surface of the solids of an
+     * excavation, at its corners or its middle, over the edges of the simplices
+     * that cells were made of, two of its own. */
+    template <int dim>
+    Shift<dim>
+    shift_from_solids(const Mesh<dim> &mesh,
+                      const CellFace &face,
+                      const Excavation<dim> &excavation)
+    {
+      const double edge =
+        2. * std::pow(mesh.face_area_vector(face.cell, face.face).norm(),
+                      1. / (dim - 1));
+      Shift<dim> most;
+      const auto look_at = [&](const Point<dim> &place) {
+        const double distance = std::abs(depth_inside(excavation, place));
+        if (distance > most.distance)
+          most = {distance, distance / edge, none, place};
+      };
+      for (const unsigned int v : mesh.face_vertices(face.cell, face.face))
+        look_at(mesh.vertices[v]);
+      look_at(mesh.face_center(face.cell, face.face));
+      return most;
+    }
+
+    /** Excavations of a file whose surface cells leave: curved ones, which they
+     * follow by chords. */
+    template <int dim>
+    std::string
+    warning_of_chords(const Scene<dim> &scene, const Mesh<dim> &mesh)
+    {
+      if (scene.meshing.generator != MeshGenerator::gmsh)
+        return "";
+      std::vector<Shift<dim>> shifts(scene.excavations.size());
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          {
+            const unsigned int other = mesh.neighbor[c][f];
+            // cells that are gone from the start are none of the mesh
+            const bool is_bare = other == none && mesh.boundary[c][f] == none;
+            if (mesh.excavation[c] != none ||
+                (!is_bare && (other == none || mesh.excavation[other] == none)))
+              continue;
+            for (unsigned int e = 0; e < shifts.size(); ++e)
+              if (scene.excavations[e]->shape == ExcavationShape::file &&
+                  (is_bare || mesh.excavation[other] == e))
+                {
+                  const Shift<dim> shift =
+                    shift_from_solids(mesh,
+                                      CellFace{c, f},
+                                      *scene.excavations[e]);
+                  if (shift.in_cells > shifts[e].in_cells &&
+                      (!is_bare || shift.in_cells < largest_shift))
+                    shifts[e] = shift;
+                }
+          }
+      Shift<dim> most;
+      std::vector<std::string> names;
+      for (unsigned int e = 0; e < shifts.size(); ++e)
+        if (shifts[e].in_cells > largest_sagitta)
+          {
+            names.push_back(scene.excavations[e]->name);
+            if (shifts[e].in_cells > most.in_cells)
+              most = shifts[e];
+          }
+      if (names.empty())
+        return "";
+      std::string place;
+      for (unsigned int d = 0; d < dim; ++d)
+        place += (d ? ", " : "") + text_of(most.place[d], 3);
+      return "Cells leave the surface of " + list_some(names) + " by up to " +
+             text_of(most.distance, 2) + " m, at (" + place +
+             "), as they follow curved faces by chords, so that blocks there "
+             "are too large or too small; lower 'Mesh/Size at excavation'" +
+             (scene.meshing.size_at_excavation > 0.
+                ? " (now " + text_of(scene.meshing.size_at_excavation) + " m)."
+                : ".");
+    }
   } // namespace
 
 
@@ -256,6 +338,7 @@ namespace Keyblock
                             digits_of_place(split.mesh, 3)),
           warning_of_volumes(scene, blocks),
           warning_of_lost_corners(scene, blocks),
+          warning_of_chords(scene, split.mesh),
           warning_of_shifted_volumes(split, scene, blocks)})
       if (!warning.empty())
         warnings.push_back(warning);

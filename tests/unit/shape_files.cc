@@ -8,6 +8,8 @@
 #include <gmsh.h>
 #include <keyblock/base/errors.h>
 #include <keyblock/base/gmsh_session.h>
+#include <keyblock/blocks/block_geometry.h>
+#include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/mesh/excavation_region.h>
 #include <keyblock/mesh/mesh.h>
 #include <keyblock/mesh/polyhedron.h>
@@ -385,6 +387,15 @@ BOOST_AUTO_TEST_CASE(cylinder_from_step)
       std::abs(depth_inside(tunnel, Point<3>(0.6 * x, 1., 3 + 0.8 * x)) -
                (radius - x)) < 2. * sagitta);
   BOOST_TEST(narrowest_side(tunnel) > 8. - 2. * sagitta);
+
+  // twelve chords in a circle are said
+  scene->meshing.size_at_excavation = 1.2;
+  const BlockGeometry<3> made = make_block_geometry(world, *scene, silent);
+  const std::vector<std::string> warnings =
+    warnings_of_coarse_mesh(*scene, made.split, made.blocks);
+  BOOST_REQUIRE(warnings.size() == 1u);
+  BOOST_TEST(warnings[0].find("leave the surface of tunnel") !=
+             std::string::npos);
 
   // chords of edges of tetrahedra, three times as long as cells at most: their
   // part of the volume falls with the square of the size
