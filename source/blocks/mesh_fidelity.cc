@@ -244,6 +244,7 @@ namespace Keyblock
              "there, or that the mesh has split); " +
              remedy_of_coarse_cells(scene.meshing) + ".";
     }
+
     /** Where a face of a cell lies off the surface of the solids of an
      * excavation, at its corners or its middle, over the edges of the simplices
      * that cells were made of, two of its own. */

@@ -103,8 +103,8 @@ namespace Keyblock
           {
             if (number == 0)
               {
-                last << ", but no number of bolts like those of the set "
-                     << name;
+                last << ", which no number of bolts like those of the set "
+                     << name << " gives";
                 continue;
               }
             last << ", or " << number << (number == 1 ? " bolt" : " bolts")
