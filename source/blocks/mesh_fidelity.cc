@@ -275,7 +275,12 @@ namespace Keyblock
     std::string
     warning_of_chords(const Scene<dim> &scene, const Mesh<dim> &mesh)
     {
-      if (scene.meshing.generator != MeshGenerator::gmsh)
+      if (scene.meshing.generator != MeshGenerator::gmsh ||
+          std::none_of(scene.excavations.begin(),
+                       scene.excavations.end(),
+                       [](const auto &excavation) {
+                         return excavation->shape == ExcavationShape::file;
+                       }))
         return "";
       std::vector<Shift<dim>> shifts(scene.excavations.size());
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)

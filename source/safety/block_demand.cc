@@ -83,7 +83,9 @@ namespace Keyblock
       const Mesh<dim> &mesh = ground.split.mesh;
       const auto &own       = free.of_block(block);
       const auto is_dug     = [&](const CellFace &f) {
-        return mesh.neighbor[f.cell][f.face] != none;
+        // cells that are gone from the start are none of the mesh
+        return mesh.neighbor[f.cell][f.face] != none ||
+               mesh.boundary[f.cell][f.face] == none;
       };
       const bool has_dug =
         std::any_of(own.begin(), own.end(), [&](const auto i) {
