@@ -20,8 +20,8 @@ The stable step is compared with the cell size at the excavation over the
 velocity of pressure waves. With --run the tunnel is dug until all is at rest
 or blocks move off; with --initial one step is done, and no contact may slide or
 open in the hydrostatic state before. Exits with 1 if a scene was refused or crashed, has a ratio
-below --least, or a run a larger --residual of the energy ledger or a result
-that is not finite.
+below --least, or a run a larger --residual of the energy ledger, a result
+that is not finite, or contacts through the rock of a block.
 """
 import json
 import math
@@ -343,6 +343,9 @@ def main():
                     if not (abs(residual) < options.residual and
                             math.isfinite(stage["max_displacement"])):
                         n_failures += 1
+                    if stage["contacts_through_rock"] > 0:
+                        n_failures += 1
+                        print(f"    {stage['contacts_through_rock']} contacts through rock")
             if ratios:
                 worst = min(ratios)
                 print(f"{kind:8s} {n:6d}  {len(ratios)}/{len(options.seeds)}  "

@@ -52,7 +52,9 @@ def demand_in_words(demand, is_plane):
         return None
     after = f" after {demand['stage']}" if demand.get("stage") else ""
     if "force" not in demand:
-        return f"no pressure is enough for {number(demand['factor'])}{after}"
+        return " but ".join([
+            f"no pressure is enough for {number(demand['factor'])}{after}",
+            *bolts_in_words(demand, is_plane)])
     return " or ".join([
         f"{number(1e-3 * demand['force'])} kN{'/m' if is_plane else ''}, "
         f"{number(1e-3 * demand['pressure'])} kPa",

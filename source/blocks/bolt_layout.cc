@@ -165,7 +165,7 @@ namespace Keyblock
         });
         for (Bolt<dim> &bolt : of_set)
           {
-            trace_bolt(rock, split, set.segment_length, bolt);
+            trace_bolt(rock, split, set, bolt);
             check_place(bolt, set);
             check_pretension(bolt, set, ground);
             bolts.push_back(bolt);

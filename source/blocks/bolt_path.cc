@@ -10,8 +10,16 @@ namespace Keyblock
 {
   namespace
   {
-    /** Segments of a bolt if the scene does not say. */
+    /** Segments of a bolt, at least, if the scene does not say. */
     constexpr unsigned int default_segments = 20;
+
+    /** Segments then at the head and where blocks part, over the length in
+     * which the force of elastic grout dies away (the stiffness there is wrong
+     * by an eighth of the square), and how fast they grow from there [-]. */
+    constexpr double finest_segment = 0.3, growth = 0.3;
+
+    /** Shortest segment then, over the length of the bolt [-]. */
+    constexpr double least_segment = 1e-3;
 
     /** Pieces of a bolt one behind the other in one block, or in rock that is
      * in none until it is dug. */
@@ -44,21 +52,68 @@ namespace Keyblock
       return stretches;
     }
 
+    /** Distances that divide @p length into @p n equal segments. */
+    std::vector<double>
+    divide_equally(const double length, const unsigned int n)
+    {
+      std::vector<double> places;
+      for (unsigned int i = 0; i <= n; ++i)
+        places.push_back(length * i / n);
+      return places;
+    }
+
+    /** Distances of nodes that are @p finest apart where the bolt begins to
+     * bear, and further apart away from there. */
+    template <int dim>
+    std::vector<double>
+    divide_by_force(const Bolt<dim> &bolt,
+                    const double free_length,
+                    const double finest)
+    {
+      std::vector<double> loaded = {0., free_length};
+      for (const BoltCrossing<dim> &crossing : bolt.crossings)
+        loaded.insert(loaded.end(), {crossing.begin, crossing.end});
+      const double length  = bolt.length();
+      const auto wanted_at = [&](const double s) {
+        double wanted = length / default_segments;
+        for (const double place : loaded)
+          wanted = std::min(wanted, finest + growth * std::abs(s - place));
+        return wanted;
+      };
+      std::vector<double> places = {0.};
+      while (places.back() < length)
+        {
+          const double s = places.back();
+          places.push_back(s + wanted_at(s + 0.5 * wanted_at(s)));
+        }
+      // to the nearer of the last two
+      if (places.back() - length > length - *(places.end() - 2))
+        places.pop_back();
+      const double scale = length / places.back();
+      for (double &place : places)
+        place *= scale;
+      places.back() = length;
+      return places;
+    }
+
     /** Distances of the nodes from the head. */
     template <int dim>
     std::vector<double>
     set_out_nodes(const Bolt<dim> &bolt,
                   const std::vector<Stretch> &stretches,
-                  const double segment_length)
+                  const BoltSet<dim> &set)
     {
       const double length = bolt.length();
-      const unsigned int n =
-        segment_length > 0.
-          ? std::max(1., std::ceil(length / segment_length - 1e-9))
-          : default_segments;
-      std::vector<double> places;
-      for (unsigned int i = 0; i <= n; ++i)
-        places.push_back(length * i / n);
+      const double finest =
+        std::max(finest_segment * decay_length(set), least_segment * length);
+      std::vector<double> places =
+        set.segment_length > 0.
+          ? divide_equally(
+              length,
+              std::max(1., std::ceil(length / set.segment_length - 1e-9)))
+        : finest < length / default_segments
+          ? divide_by_force(bolt, set.free_length, finest)
+          : divide_equally(length, default_segments);
       for (const Stretch &stretch : stretches)
         {
           const double begin = stretch.first.begin, end = stretch.last.end;
@@ -120,10 +175,21 @@ namespace Keyblock
 
 
   template <int dim>
+  double
+  decay_length(const BoltSet<dim> &set)
+  {
+    return set.bond_stiffness > 0.
+             ? std::sqrt(set.young_modulus * set.area / set.bond_stiffness)
+             : std::numeric_limits<double>::infinity();
+  }
+
+
+
+  template <int dim>
   void
   trace_bolt(const CellLocator<dim> &rock,
              const SplitMesh<dim> &split,
-             const double segment_length,
+             const BoltSet<dim> &set,
              Bolt<dim> &bolt)
   {
     bolt.pieces                          = cut_by_cells(split.mesh,
@@ -138,18 +204,19 @@ namespace Keyblock
           stretches[k - 1].block != none && stretches[k].block != none)
         bolt.crossings.push_back(
           cross(bolt, stretches[k - 1], stretches[k], rock, split.mesh));
-    bolt.places = set_out_nodes(bolt, stretches, segment_length);
+    bolt.places = set_out_nodes(bolt, stretches, set);
     for (const double place : bolt.places)
       bolt.rock.push_back(
         rock.find_in(bolt.pieces[bolt.piece_at(place)].cell, bolt.at(place)));
   }
 
-  template void trace_bolt(const CellLocator<2> &,
-                           const SplitMesh<2> &,
-                           const double,
-                           Bolt<2> &);
-  template void trace_bolt(const CellLocator<3> &,
-                           const SplitMesh<3> &,
-                           const double,
-                           Bolt<3> &);
+#define INSTANTIATE(dim)                                                       \
+  template double decay_length(const BoltSet<dim> &);                          \
+  template void trace_bolt(const CellLocator<dim> &,                           \
+                           const SplitMesh<dim> &,                             \
+                           const BoltSet<dim> &,                               \
+                           Bolt<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Keyblock

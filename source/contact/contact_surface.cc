@@ -179,13 +179,7 @@ namespace Keyblock
   ContactSurface<dim>::start_distance(const unsigned int node,
                                       const unsigned int face) const
   {
-    Vector<dim> center{};
-    for (const unsigned int corner : nodes_of_face[face])
-      center = add<dim>(center,
-                        1. / nodes_of_face[face].size(),
-                        at<dim>(start_position, corner));
-    return dot<dim>(face_normal(start_position, face),
-                    difference<dim>(at<dim>(start_position, node), center));
+    return project(start_position, at<dim>(start_position, node), face).gap;
   }
 
 

@@ -118,11 +118,13 @@ namespace Keyblock
   double
   MeshSize<dim>::operator()(const Point<dim> &p) const
   {
-    namespace bgi          = boost::geometry::index;
-    double size            = far;
+    namespace bgi        = boost::geometry::index;
+    double size          = far;
+    const auto size_over = [&](const double least, const double away) {
+      return least + std::min(1., away / distance) * (far - least);
+    };
     const auto restrict_to = [&](const double least, const double away) {
-      const double part = std::min(1., away / distance);
-      size              = std::min(size, least + part * (far - least));
+      size = std::min(size, size_over(least, away));
     };
     const auto size_near = [&](const double least, const double away) {
       const double slope = std::min(steepest, (far - least) / distance);
@@ -132,7 +134,7 @@ namespace Keyblock
       for (const auto &excavation : scene.excavations)
         restrict_to(at_excavation, std::abs(depth_inside(*excavation, p)));
     for (const SizeAtJoint &joint : joints)
-      if (joint.size < size)
+      if (size_over(joint.size, std::abs(joint.extent.distance(p))) < size)
         restrict_to(joint.size, joint.extent.distance_to_joint(p));
     for (const auto &demand : places)
       if (demand->size < size)

@@ -53,10 +53,10 @@ namespace Keyblock
           json["outcome"]  = "support";
           json["force"]    = demand.force;
           json["pressure"] = demand.pressure;
-          for (const auto &[set, number] : demand.numbers)
-            if (number > 0)
-              json["bolts"][set] = number;
         }
+      for (const auto &[set, number] : demand.numbers)
+        if (number > 0)
+          json["bolts"][set] = number;
       return json;
     }
 

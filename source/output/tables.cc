@@ -76,7 +76,10 @@ namespace Keyblock
           bolts +=
             (bolts.empty() ? "" : "; ") + std::to_string(number) + " " + set;
       if (demand.factor > 0. && std::isinf(demand.force))
-        return {exact_text(demand.factor), "out of reach", "out of reach", ""};
+        return {exact_text(demand.factor),
+                "out of reach",
+                "out of reach",
+                bolts};
       if (demand.factor > 0.)
         return {exact_text(demand.factor),
                 exact_text(demand.force),

@@ -3,9 +3,55 @@
 
 #include <keyblock/base/number_text.h>
 #include <keyblock/blocks/bolt_layout.h>
+#include <keyblock/blocks/bolt_path.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Lack of stiffness that is not warned of [-]. */
+    constexpr double acceptable_lack = 0.1;
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_coarse_bolts(const Scene<dim> &scene)
+  {
+    // sets with the same text, by that
+    std::map<std::string, std::string> names;
+    for (const auto &set : scene.bolts)
+      {
+        const double decay = decay_length(*set);
+        // of grout in points in the middle between which a joint is, over exact
+        const double ratio =
+          1. / std::hypot(1., 0.5 * set->segment_length / decay);
+        if (ratio >= 1. - acceptable_lack)
+          continue;
+        std::string &list = names
+          [text_of(set->segment_length) +
+           " m, while the force of a bolt dies away in their grout within " +
+           text_of(decay, 3) + " m: until it slips, they are up to " +
+           text_of(100. * (1. - ratio), 2)];
+        list += (list.empty() ? "" : ", ") + set->name;
+      }
+    std::vector<std::string> warnings;
+    for (const auto &[text, list] : names)
+      warnings.push_back("The 'Segment length' of the bolts of '" + list +
+                         "' is " + text +
+                         " % too soft where they cross joints; their strength "
+                         "is right. Lower it, or set it to 0, for segments "
+                         "that are short there.");
+    return warnings;
+  }
+
+
+
   template <int dim>
   std::vector<std::string>
   warnings_of_cut_bolts(const Scene<dim> &scene, const SplitMesh<dim> &split)
@@ -120,6 +166,8 @@ namespace Keyblock
   }
 
 #define INSTANTIATE(dim)                                                       \
+  template std::vector<std::string> warnings_of_coarse_bolts(                  \
+    const Scene<dim> &);                                                       \
   template std::vector<std::string> warnings_of_idle_bolts(                    \
     const Scene<dim> &, const SplitMesh<dim> &);                               \
   template std::vector<std::string> warnings_of_cut_bolts(                     \

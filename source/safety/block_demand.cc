@@ -69,6 +69,30 @@ namespace Keyblock
       return high;
     }
 
+    /** The least force for which @p is_enough holds, from @p first on; more may
+     * push the block elsewhere. Infinite if there is none below @p most. */
+    template <typename IsEnough>
+    double
+    least_force(const IsEnough &is_enough,
+                const double first,
+                const double most)
+    {
+      double low = 0., high = first;
+      while (0. < high && high < most && !is_enough(high))
+        {
+          low = high;
+          high *= 1.1;
+        }
+      if (!(0. < high && high < most))
+        return std::numeric_limits<double>::infinity();
+      for (unsigned int i = 0; i < n_halvings; ++i)
+        {
+          const double middle              = 0.5 * (low + high);
+          (is_enough(middle) ? high : low) = middle;
+        }
+      return high;
+    }
+
     /** Free faces of a block that support can press on: all but, for one with a
      * face that was dug, the ground's surface where it leaves that along @p
      * way. Centres and vector areas, outwards. */
@@ -170,10 +194,7 @@ namespace Keyblock
     const std::vector<PointForce<dim>> free_faces = supported_faces(
       ground, free, block, around.free_area_ratio, bare.direction);
     const double area = sum_of(free_faces).norm();
-    demand.force = demand.pressure = std::numeric_limits<double>::infinity();
-    if (area == 0.)
-      return demand;
-    const auto does = [&](const LimitEquilibrium<dim> &limit) {
+    const auto does   = [&](const LimitEquilibrium<dim> &limit) {
       // so much that it lifts the block is none
       return limit.factor >= factor &&
              (limit.mode != Mode::lifting || bare.mode == Mode::lifting);
@@ -186,27 +207,10 @@ namespace Keyblock
     for (const BlockFace<dim> &face : around.faces)
       resultant += face.water_force * face.inward;
     const double most = most_demand * std::max(load.norm(), resultant.norm());
-    // the least force that does: more may push the block elsewhere
-    double low = 0., high = 0.;
-    for (double force = least_demand * resultant.norm(); force < most;
-         force *= 1.1)
-      {
-        if (is_enough(force))
-          {
-            high = force;
-            break;
-          }
-        low = force;
-      }
-    if (high == 0.)
-      return demand;
-    for (unsigned int i = 0; i < n_halvings; ++i)
-      {
-        const double middle              = 0.5 * (low + high);
-        (is_enough(middle) ? high : low) = middle;
-      }
-    demand.force    = high;
-    demand.pressure = high / area;
+    demand.force      = least_force(is_enough,
+                               least_demand * resultant.norm(),
+                               area > 0. ? most : 0.);
+    demand.pressure   = area > 0. ? demand.force / area : demand.force;
     for (unsigned int set = 0; set < ground.scene.bolts.size(); ++set)
       {
         const std::string &name = ground.scene.bolts[set]->name;
@@ -216,9 +220,10 @@ namespace Keyblock
               return does(limit_with(with_more_bolts(support, set, n), {}, 0.));
             }));
         else if (const double capacity = mean_bolt_capacity(ground, set);
-                 capacity > 0.)
-          demand.numbers.emplace_back(
-            name, static_cast<unsigned int>(std::ceil(high / capacity - 1e-9)));
+                 capacity > 0. && std::isfinite(demand.force))
+          demand.numbers.emplace_back(name,
+                                      static_cast<unsigned int>(std::ceil(
+                                        demand.force / capacity - 1e-9)));
       }
     return demand;
   }

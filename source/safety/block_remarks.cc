@@ -91,24 +91,28 @@ namespace Keyblock
         if (demand.force == 0.)
           return;
         add() << "a factor of " << demand.factor;
-        if (!std::isfinite(demand.force))
-          {
-            last << " is in reach of no pressure on its free faces";
-            return;
-          }
-        last << " asks for " << 1e-3 * demand.force << " kN"
-             << (dim == 2 ? "/m" : "") << " against its free faces, "
-             << 1e-3 * demand.pressure << " kPa";
+        const bool is_in_reach = std::isfinite(demand.force);
+        if (is_in_reach)
+          last << " asks for " << 1e-3 * demand.force << " kN"
+               << (dim == 2 ? "/m" : "") << " against its free faces, "
+               << 1e-3 * demand.pressure << " kPa";
+        else
+          last << " is in reach of no pressure on its free faces";
         for (const auto &[name, number] : demand.numbers)
           {
             if (number == 0)
               {
-                last << ", which no number of bolts like those of the set "
-                     << name << " gives";
+                last << (is_in_reach ? ", which no number of bolts like those "
+                                       "of the set " +
+                                         name + " gives"
+                                     : ", nor of any number of bolts like "
+                                       "those of the set " +
+                                         name);
                 continue;
               }
-            last << ", or " << number << (number == 1 ? " bolt" : " bolts")
-                 << " of the set " << name;
+            last << (is_in_reach ? ", or " : ", but of ") << number
+                 << (number == 1 ? " bolt" : " bolts") << " of the set "
+                 << name;
             for (const auto &set : scene.bolts)
               if (dim == 2 && set->name == name)
                 last << " every " << set->spacing.back() << " m of tunnel";

@@ -131,7 +131,8 @@ namespace Keyblock
     prm.add_parameter("Segment length",
                       segment_length,
                       "Length of the segments into which a bolt is divided; 0: "
-                      "a twentieth of the bolt [m].",
+                      "a twentieth of the bolt, and shorter at its head and "
+                      "where it crosses joints if its grout is stiff [m].",
                       not_negative);
   }
 

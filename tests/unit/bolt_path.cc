@@ -5,6 +5,7 @@
 #include "bolted_cavern.h"
 
 #include <keyblock/mesh/cell_locator.h>
+#include <keyblock/rock/bolt_chain.h>
 #include <keyblock/run/bolt_warnings.h>
 
 #include <array>
@@ -54,6 +55,49 @@ BOOST_AUTO_TEST_CASE(bolt_crosses_a_joint)
   BOOST_TEST(crossing.joint == 0u);
   BOOST_TEST(std::abs(crossing.normal[1] - 1.) < 1e-12);
   BOOST_TEST(crossing.block[0] != crossing.block[1]);
+}
+
+// Blocks that part pull a bolt by sqrt(E A K) tanh(length / decay length) on
+// either side over the elongation, both in series: of stiff grout, too, and
+// wherever the joint is.
+BOOST_AUTO_TEST_CASE(bolt_is_stiff_where_blocks_part)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(0., 1.);
+  for (unsigned int i = 0; i < 12; ++i)
+    {
+      const double grout = std::pow(10., 6.5 + 3.5 * any(random)),
+                   top   = 8.3 + any(random);
+      with_bolts<2>(
+        "  set Heads = 5, 7\n  set Ends = 5.1, " + std::to_string(top) +
+          "\n  set Bond stiffness = " + std::to_string(grout) +
+          "\n  set Bond strength = 1e12\n  set Yield force = 1e12\n",
+        "subsection Joints\n set Names = bed\n subsection bed\n"
+        "  set Point = 0, 8\n  set Dip = 0\n end\nend\n",
+        [&](const std::vector<Bolt<2>> &bolts,
+            const SplitMesh<2> &split,
+            const Scene<2> &scene) {
+          const Bolt<2> &bolt = bolts[0];
+          BoltChain chain(properties_of(*scene.bolts[0]), bolt.places);
+          const BoltRemains remains =
+            find_remains(bolt, Ground<2>{scene, split, 2});
+          chain.set_ground(remains.is_held, remains.is_cut, remains.grout);
+          const double joint = bolt.crossings[0].begin, opening = 1e-6;
+          std::vector<double> rock;
+          for (const double place : bolt.places)
+            rock.push_back(place > joint ? opening : 0.);
+          chain.follow(rock.data());
+          const double decay = std::sqrt(2e7 / grout),
+                       below = std::tanh(joint / decay),
+                       above = std::tanh((bolt.length() - joint) / decay),
+                       exact = std::sqrt(2e7 * grout) * opening /
+                               (1. / below + 1. / above);
+          const double force = chain.axial_force_of(chain.segment_at(joint));
+          BOOST_TEST(std::abs(force / exact - 1.) < 0.02);
+          BOOST_TEST(bolt.places.size() < 200u);
+          BOOST_TEST(warnings_of_coarse_bolts(scene).empty());
+        });
+    }
 }
 
 // The bed of 0.02 m is thin beside segments, wherever they end.

@@ -3,15 +3,24 @@
 #define keyblock_base_random_numbers_h
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#if __has_include(<quadmath.h>)
+#  include <boost/multiprecision/float128.hpp>
+#endif
 
 #include <cstdint>
 #include <random>
 
 namespace Keyblock
 {
-  /** Floating point of 113 bits in software: the same on every machine, where
-   * the logarithms and sines of C libraries differ in their last bits. */
+  /** Floating point of 113 bits in software, by the compiler's library or
+   * several times slower by Boost's: rounded to double, the same on every
+   * machine, where the logarithms and sines of C libraries differ in their last
+   * bits. */
+#if __has_include(<quadmath.h>)
+  using Real = boost::multiprecision::float128;
+#else
   using Real = boost::multiprecision::cpp_bin_float_quad;
+#endif
 
   /** The nearest double of @p value. */
   inline double

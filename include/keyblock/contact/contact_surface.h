@@ -80,8 +80,8 @@ namespace Keyblock
     /** Whether nodes of block @p a are slaves on faces of block @p b. */
     bool is_slave_block(const unsigned int a, const unsigned int b) const;
 
-    /** How far a surface node lay in front of a face's plane at the start [m].
-     */
+    /** How far a surface node lay in front of a face at the start, along the
+     * normal at its nearest point, as faces may be warped [m]. */
     double start_distance(const unsigned int node,
                           const unsigned int face) const;
 

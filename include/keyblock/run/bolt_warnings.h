@@ -9,6 +9,11 @@
 
 namespace Keyblock
 {
+  /** Sets of bolts whose segments are too long for their grout, as sentences.
+   */
+  template <int dim>
+  std::vector<std::string> warnings_of_coarse_bolts(const Scene<dim> &scene);
+
   /** Sets of bolts of which later stages dig something, as sentences. */
   template <int dim>
   std::vector<std::string> warnings_of_cut_bolts(const Scene<dim> &scene,

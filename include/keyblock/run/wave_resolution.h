@@ -13,7 +13,8 @@ namespace Keyblock
   /** Cells per wavelength that waves need, or they disperse. */
   constexpr double least_cells_per_wavelength = 10.;
 
-  /** A sentence for each history of a support with shear waves shorter than
+  /** A sentence for each history, or velocity by a formula, of a support with
+   * shear waves shorter than
    * that somewhere in the rock of its stage: up to the frequency below which 95
    * % of its energy lies. */
   template <int dim>
