@@ -2,6 +2,7 @@
 #include <keyblock/run/moving_blocks.h>
 #include <keyblock/safety/block_stiffness.h>
 #include <keyblock/step/block_balance.h>
+#include <keyblock/step/guided_blocks.h>
 
 namespace Keyblock
 {
@@ -24,11 +25,13 @@ namespace Keyblock
       model.contact->motions().measure(model.fields.velocity);
     const auto nodes =
       owned_nodes_of_blocks(model.split, *model.numbering, velocities.size());
+    const std::vector<bool> is_guided =
+      mark_guided_blocks(model.fields, nodes, model.communicator);
     const double duration = n_steps * model.step->dt;
     for (unsigned int b = 0; b < velocities.size(); ++b)
       {
         const Block<dim> &block = model.blocks.blocks[b];
-        if (block.is_infinite ||
+        if (block.is_infinite || is_guided[b] ||
             model.conditions->active_cells.is_removed_block(b))
           continue;
         const Vector<dim> &velocity = velocities[b].shift;

@@ -6,6 +6,7 @@
 #include <keyblock/run/bolt_warnings.h>
 #include <keyblock/run/stage_reporter.h>
 #include <keyblock/run/static_stage.h>
+#include <keyblock/step/guided_blocks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,9 +75,9 @@ namespace Keyblock
       return is_there;
     }
 
-    /** Finite blocks that have gone far, or are going on; those that went
-     * farthest first. Rock that moves as a whole takes its blocks along, which
-     * is no motion of theirs. */
+    /** Finite blocks that have gone far, or are going on, by themselves; those
+     * that went farthest first. Rock that moves as a whole takes its blocks
+     * along, which is no motion of theirs. */
     template <int dim>
     std::vector<Mover>
     choose_movers(const Model<dim> &model, const StageProgress<dim> &progress)
@@ -92,10 +93,14 @@ namespace Keyblock
       const auto in_stage              = motions.measure(displacement);
       const auto velocities            = motions.measure(model.fields.velocity);
       const std::vector<bool> is_there = find_present_blocks(model);
+      const std::vector<bool> is_guided = mark_guided_blocks(
+        model.fields,
+        owned_nodes_of_blocks(model.split, *model.numbering, is_there.size()),
+        model.communicator);
       for (unsigned int b = 0; b < is_there.size(); ++b)
         {
           const Block<dim> &block = model.blocks.blocks[b];
-          if (block.is_infinite || !is_there[b])
+          if (block.is_infinite || !is_there[b] || is_guided[b])
             continue;
           const double way = in_stage[b].way();
           const bool goes_off =

@@ -5,6 +5,7 @@
 #include <keyblock/run/static_stage.h>
 #include <keyblock/safety/block_stiffness.h>
 #include <keyblock/scene/step_count.h>
+#include <keyblock/step/guided_blocks.h>
 
 #include <algorithm>
 
@@ -203,6 +204,7 @@ namespace Keyblock
   StageRunner<dim>::mark_steady_blocks(
     const std::vector<BlockMotion<dim>> &motions,
     const std::vector<double> &ways,
+    const std::vector<bool> &can_fail,
     StageProgress<dim> &progress) const
   {
     std::vector<bool> is_steady(ways.size(), false);
@@ -211,18 +213,16 @@ namespace Keyblock
     const auto nodes =
       owned_nodes_of_blocks(model.split, *model.numbering, ways.size());
     std::vector<double> loads, sizes;
-    std::vector<bool> is_finite;
     for (unsigned int b = 0; b < ways.size(); ++b)
       {
         loads.push_back(motions[b].load);
         sizes.push_back(model.blocks.blocks[b].size);
-        is_finite.push_back(can_fail(b));
       }
     const SupportState<dim> support =
       measure_support(model.conditions->elements,
                       model.fields,
                       nodes,
-                      is_finite,
+                      can_fail,
                       model.communicator);
     const std::vector<bool> is_caught =
       mark_caught_blocks(progress.support, support, loads, sizes);
@@ -248,11 +248,19 @@ namespace Keyblock
 
 
   template <int dim>
-  bool
-  StageRunner<dim>::can_fail(const unsigned int block) const
+  std::vector<bool>
+  StageRunner<dim>::mark_blocks_that_can_fail() const
   {
-    return !model.blocks.blocks[block].is_infinite &&
-           !model.conditions->active_cells.is_removed_block(block);
+    const auto &blocks                = model.blocks.blocks;
+    const std::vector<bool> is_guided = mark_guided_blocks(
+      model.fields,
+      owned_nodes_of_blocks(model.split, *model.numbering, blocks.size()),
+      model.communicator);
+    std::vector<bool> can_fail;
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+      can_fail.push_back(!blocks[b].is_infinite && !is_guided[b] &&
+                         !model.conditions->active_cells.is_removed_block(b));
+    return can_fail;
   }
 
 
@@ -265,16 +273,17 @@ namespace Keyblock
       return {};
     std::vector<unsigned int> failed;
     std::vector<double> ways(model.blocks.blocks.size(), 0.);
-    const auto motions = model.contact->motions().measure();
+    const auto motions               = model.contact->motions().measure();
+    const std::vector<bool> can_fail = mark_blocks_that_can_fail();
     for (unsigned int b = 0; b < ways.size(); ++b)
-      if (can_fail(b))
+      if (can_fail[b])
         ways[b] = motions[b].way();
     if (model.conditions->loads.is_ramping())
       progress.restart_slips();
     const std::vector<bool> is_steady =
-      mark_steady_blocks(motions, ways, progress);
+      mark_steady_blocks(motions, ways, can_fail, progress);
     for (unsigned int b = 0; b < ways.size(); ++b)
-      if (can_fail(b) && (ways[b] > model.scene.safety.removal_slip *
+      if (can_fail[b] && (ways[b] > model.scene.safety.removal_slip *
                                       model.blocks.blocks[b].size ||
                           is_steady[b]))
         failed.push_back(b);

@@ -36,14 +36,16 @@ namespace Keyblock
     /** Blocks that have gone too far, or at a steady speed. */
     std::vector<unsigned int> list_failed_blocks(StageProgress<dim> &progress);
 
-    /** Whether a block is there that can be taken away. */
-    bool can_fail(const unsigned int block) const;
+    /** Finite blocks that are there, and that supports neither move nor hold.
+     */
+    std::vector<bool> mark_blocks_that_can_fail() const;
 
     /** Of the ways of all blocks [m], if they are to be recorded now, those
-     * that go at a steady speed. */
+     * that can fail and go at a steady speed. */
     std::vector<bool>
     mark_steady_blocks(const std::vector<BlockMotion<dim>> &motions,
                        const std::vector<double> &ways,
+                       const std::vector<bool> &can_fail,
                        StageProgress<dim> &progress) const;
     void pace_ramp(const Stage &stage);
     double ramp_duration_of(const Stage &stage) const;
