@@ -59,6 +59,12 @@ def check_followers():
         "fails", "follows"), blocks
     assert "Once others have gone fail, too: block 2." in page
     assert "1 of 2 blocks has a factor below 1, and 1 more fails" in page
+    summary = json.loads((FOLDER / "output_20" / "summary.json").read_text())
+    limit = summary["blocks"][1]["limit_equilibrium"][-1]
+    then = limit["once_gone"]
+    assert (limit["outcome"], then["blocks"], then["mode"]) == (
+        "stable", [1], "sliding on upper"), limit
+    assert abs(then["value"] / 0.6304 - 1.) < 1e-4, then
     row = row_of(page, 2)
     assert "stable; 0.6304 once block 1 has gone" in row, row
     assert "sliding on upper, once others have gone" in row, row

@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What limit equilibrium says of blocks, alone and once others have gone."""
 import math
-import re
 
 from .words import demand_of, mode_in_words, number
 
 
 def once_gone(limit):
     """Factor, mode and the words for what has gone, of a block that is safer
-    as long as others stay; or None. The remark alone tells it."""
-    found = re.search(r"(?:^|; )([\d.e+-]+), ([^;]+), "
-                      r"once (blocks? [\d, ]+ ha(?:s|ve) gone)",
-                      (limit or {}).get("remark", ""))
-    return found and (float(found[1]), found[2], found[3])
+    as long as others stay; or None."""
+    then = (limit or {}).get("once_gone")
+    if not then:
+        return None
+    ids = ", ".join(str(block) for block in then["blocks"])
+    gone = f"block {ids} has" if len(then["blocks"]) == 1 else f"blocks {ids} have"
+    return then["value"], then["mode"], f"{gone} gone"
 
 
 def own_factor(limit):

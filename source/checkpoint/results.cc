@@ -48,6 +48,7 @@ namespace Keyblock
     action(factor.group_lower);
     action(factor.group_upper);
     action(factor.limit_factor);
+    action(factor.limit_once_gone.factor);
     action(factor.stress_ratio);
     action(factor.support_demand.factor);
     action(factor.support_demand.force);
@@ -127,6 +128,34 @@ namespace Keyblock
                                                            numbers.at(next));
         }
     }
+
+    /** What limit equilibrium says once others have gone, but for the factor.
+     */
+    void
+    exchange_once_gone(StateFile &file,
+                       const std::string &group,
+                       std::vector<SafetyFactor> &factors)
+    {
+      std::vector<std::string> modes;
+      std::vector<unsigned int> n_blocks, blocks;
+      for (const SafetyFactor &factor : factors)
+        {
+          const OnceGone &then = factor.limit_once_gone;
+          modes.push_back(then.mode);
+          n_blocks.push_back(then.blocks.size());
+          blocks.insert(blocks.end(), then.blocks.begin(), then.blocks.end());
+        }
+      file.exchange(group + "once_gone_modes", modes);
+      file.exchange(group + "n_once_gone", n_blocks);
+      file.exchange(group + "once_gone", blocks);
+      auto next = blocks.begin();
+      for (unsigned int f = 0; f < factors.size(); ++f)
+        {
+          factors[f].limit_once_gone.mode = modes.at(f);
+          factors[f].limit_once_gone.blocks.assign(next, next + n_blocks.at(f));
+          next += n_blocks[f];
+        }
+    }
   } // namespace
 
 
@@ -152,6 +181,7 @@ namespace Keyblock
                    factors,
                    &SafetyFactor::limit_remark);
     exchange_bolt_numbers(file, group, factors);
+    exchange_once_gone(file, group, factors);
     std::vector<unsigned int> n_trials, group_sizes, group_ids;
     std::vector<Trial> trials;
     for (const SafetyFactor &factor : factors)

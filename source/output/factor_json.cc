@@ -112,6 +112,10 @@ namespace Keyblock
                       {"mode", factor.limit_mode},
                       {"remark", factor.limit_remark}};
         put_limit_factor(factor.limit_factor, cheap);
+        if (const OnceGone &then = factor.limit_once_gone; !then.blocks.empty())
+          cheap["once_gone"] = {{"blocks", then.blocks},
+                                {"value", then.factor},
+                                {"mode", then.mode}};
         if (factor.support_demand.factor > 0.)
           cheap["support_demand"] = demand_as_json(factor.support_demand);
         limit.push_back(cheap);

@@ -61,13 +61,14 @@ namespace Keyblock
     for (const JudgedBlock<dim> &one : judged)
       {
         SafetyFactor factor;
-        factor.block          = one.block;
-        factor.stage          = model.scene.stages[record.present.index]->name;
-        factor.outcome        = SafetyFactor::Outcome::by_statics;
-        factor.limit_mode     = one.statics.mode();
-        factor.limit_remark   = one.statics.remark();
-        factor.limit_factor   = one.statics.limit.factor;
-        factor.support_demand = one.statics.demand;
+        factor.block           = one.block;
+        factor.stage           = model.scene.stages[record.present.index]->name;
+        factor.outcome         = SafetyFactor::Outcome::by_statics;
+        factor.limit_mode      = one.statics.mode();
+        factor.limit_remark    = one.statics.remark();
+        factor.limit_factor    = one.statics.limit.factor;
+        factor.limit_once_gone = one.once_gone;
+        factor.support_demand  = one.statics.demand;
         factors.push_back(factor);
       }
     return factors;

@@ -37,11 +37,11 @@ namespace Keyblock
     }
 
     std::string
-    text_of_ids(const std::set<unsigned int> &ids)
+    text_of_ids(const std::vector<unsigned int> &ids)
     {
       std::string text = ids.size() == 1 ? "block " : "blocks ";
       for (const unsigned int id : ids)
-        text += (id == *ids.begin() ? "" : ", ") + std::to_string(id);
+        text += (id == ids.front() ? "" : ", ") + std::to_string(id);
       return text + (ids.size() == 1 ? " has gone" : " have gone");
     }
   } // namespace
@@ -66,11 +66,10 @@ namespace Keyblock
                              BlockClass::exposed)
           {
             judged.push_back(
-              {b, judge_block(ground, free, blocks, b, time, broken), 0.});
+              {b, judge_block(ground, free, blocks, b, time, broken), 0., {}});
             judged.back().least_factor = judged.back().statics.limit.factor;
           }
       }
-    std::vector<std::string> once_gone(judged.size());
     for (bool is_new = true; is_new;)
       {
         is_new = false;
@@ -84,9 +83,8 @@ namespace Keyblock
                                 ground.stage_number,
                                 &is_gone};
         std::unique_ptr<FreeFaces<dim>> free_later;
-        for (unsigned int k = 0; k < judged.size(); ++k)
+        for (JudgedBlock<dim> &one : judged)
           {
-            JudgedBlock<dim> &one = judged[k];
             const std::set<unsigned int> gone =
               gone_beside(one.statics, is_gone, blocks);
             if (is_gone[one.block] || gone.empty())
@@ -98,13 +96,16 @@ namespace Keyblock
             if (!(then.limit.factor < (1. - least_decrease) * one.least_factor))
               continue;
             one.least_factor = then.limit.factor;
-            once_gone[k] = text_of(then.limit.factor, 4) + ", " + then.mode() +
-                           ", once " + text_of_ids(gone);
+            one.once_gone    = {{gone.begin(), gone.end()},
+                                then.limit.factor,
+                                then.mode()};
           }
       }
-    for (unsigned int k = 0; k < judged.size(); ++k)
-      if (!once_gone[k].empty())
-        judged[k].statics.remarks.push_back(once_gone[k]);
+    for (JudgedBlock<dim> &one : judged)
+      if (!one.once_gone.blocks.empty())
+        one.statics.remarks.push_back(text_of(one.once_gone.factor, 4) + ", " +
+                                      one.once_gone.mode + ", once " +
+                                      text_of_ids(one.once_gone.blocks));
     return judged;
   }
 

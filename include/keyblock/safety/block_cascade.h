@@ -3,6 +3,7 @@
 #define keyblock_safety_block_cascade_h
 
 #include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/once_gone.h>
 
 namespace Keyblock
 {
@@ -16,6 +17,8 @@ namespace Keyblock
     /** The factor between neighbours that stay, or the least one when others
      * that fail have gone [-]. */
     double least_factor;
+
+    OnceGone once_gone;
   };
 
   /**

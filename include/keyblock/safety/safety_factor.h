@@ -2,6 +2,7 @@
 #ifndef keyblock_safety_safety_factor_h
 #define keyblock_safety_safety_factor_h
 
+#include <keyblock/safety/once_gone.h>
 #include <keyblock/safety/strength_trial.h>
 #include <keyblock/safety/support_demand.h>
 
@@ -50,6 +51,7 @@ namespace Keyblock
     // the two cheap answers
     std::string limit_mode, limit_remark;
     double limit_factor = 0.;     ///< infinite: stable
+    OnceGone limit_once_gone;     ///< known without a search only
     bool limit_moves    = false;  ///< it finds a way; known in the search only
     double stress_ratio = 0.;     ///< on the faces it slides on; 0: none
     SupportDemand support_demand; ///< by limit equilibrium
