@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace Keyblock
@@ -47,6 +48,42 @@ namespace Keyblock
                          " % too soft where they cross joints; their strength "
                          "is right. Lower it, or set it to 0, for segments "
                          "that are short there.");
+    return warnings;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_brittle_bolts(const Scene<dim> &scene,
+                            const SplitMesh<dim> &split)
+  {
+    // shortest segments that cross a joint
+    std::vector<double> shortest(scene.bolts.size(),
+                                 std::numeric_limits<double>::infinity());
+    for (const Bolt<dim> &bolt : split.bolts)
+      for (const BoltCrossing<dim> &crossing : bolt.crossings)
+        {
+          const auto end = std::upper_bound(bolt.places.begin(),
+                                            bolt.places.end() - 1,
+                                            crossing.begin);
+          double &length = shortest[bolt.set];
+          length         = std::min(length, *end - *(end - 1));
+        }
+    std::vector<std::string> warnings;
+    for (unsigned int s = 0; s < scene.bolts.size(); ++s)
+      {
+        const BoltSet<dim> &set = *scene.bolts[s];
+        if (set.rupture_strain > 0. && set.segment_length == 0. &&
+            std::isfinite(shortest[s]))
+          warnings.push_back(
+            "Bolts of '" + set.name +
+            "' break where a joint opens by 'Rupture strain' times the length "
+            "of their segment there, " +
+            text_of(set.rupture_strain * shortest[s], 3) +
+            " m; give a 'Segment length', which is the length of bar that "
+            "stretches.");
+      }
     return warnings;
   }
 
@@ -168,6 +205,8 @@ namespace Keyblock
 #define INSTANTIATE(dim)                                                       \
   template std::vector<std::string> warnings_of_coarse_bolts(                  \
     const Scene<dim> &);                                                       \
+  template std::vector<std::string> warnings_of_brittle_bolts(                 \
+    const Scene<dim> &, const SplitMesh<dim> &);                               \
   template std::vector<std::string> warnings_of_idle_bolts(                    \
     const Scene<dim> &, const SplitMesh<dim> &);                               \
   template std::vector<std::string> warnings_of_cut_bolts(                     \

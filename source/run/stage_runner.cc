@@ -204,7 +204,6 @@ namespace Keyblock
   StageRunner<dim>::mark_steady_blocks(
     const std::vector<BlockMotion<dim>> &motions,
     const std::vector<double> &ways,
-    const std::vector<bool> &can_fail,
     StageProgress<dim> &progress) const
   {
     std::vector<bool> is_steady(ways.size(), false);
@@ -213,16 +212,18 @@ namespace Keyblock
     const auto nodes =
       owned_nodes_of_blocks(model.split, *model.numbering, ways.size());
     std::vector<double> loads, sizes;
+    std::vector<bool> is_finite;
     for (unsigned int b = 0; b < ways.size(); ++b)
       {
         loads.push_back(motions[b].load);
         sizes.push_back(model.blocks.blocks[b].size);
+        is_finite.push_back(can_fail(b));
       }
     const SupportState<dim> support =
       measure_support(model.conditions->elements,
                       model.fields,
                       nodes,
-                      can_fail,
+                      is_finite,
                       model.communicator);
     const std::vector<bool> is_caught =
       mark_caught_blocks(progress.support, support, loads, sizes);
@@ -248,19 +249,11 @@ namespace Keyblock
 
 
   template <int dim>
-  std::vector<bool>
-  StageRunner<dim>::mark_blocks_that_can_fail() const
+  bool
+  StageRunner<dim>::can_fail(const unsigned int block) const
   {
-    const auto &blocks                = model.blocks.blocks;
-    const std::vector<bool> is_guided = mark_guided_blocks(
-      model.fields,
-      owned_nodes_of_blocks(model.split, *model.numbering, blocks.size()),
-      model.communicator);
-    std::vector<bool> can_fail;
-    for (unsigned int b = 0; b < blocks.size(); ++b)
-      can_fail.push_back(!blocks[b].is_infinite && !is_guided[b] &&
-                         !model.conditions->active_cells.is_removed_block(b));
-    return can_fail;
+    return !model.blocks.blocks[block].is_infinite &&
+           !model.conditions->active_cells.is_removed_block(block);
   }
 
 
@@ -273,20 +266,29 @@ namespace Keyblock
       return {};
     std::vector<unsigned int> failed;
     std::vector<double> ways(model.blocks.blocks.size(), 0.);
-    const auto motions               = model.contact->motions().measure();
-    const std::vector<bool> can_fail = mark_blocks_that_can_fail();
+    const auto motions = model.contact->motions().measure();
     for (unsigned int b = 0; b < ways.size(); ++b)
-      if (can_fail[b])
+      if (can_fail(b))
         ways[b] = motions[b].way();
     if (model.conditions->loads.is_ramping())
       progress.restart_slips();
     const std::vector<bool> is_steady =
-      mark_steady_blocks(motions, ways, can_fail, progress);
+      mark_steady_blocks(motions, ways, progress);
     for (unsigned int b = 0; b < ways.size(); ++b)
-      if (can_fail[b] && (ways[b] > model.scene.safety.removal_slip *
+      if (can_fail(b) && (ways[b] > model.scene.safety.removal_slip *
                                       model.blocks.blocks[b].size ||
                           is_steady[b]))
         failed.push_back(b);
+    if (failed.empty())
+      return {};
+    const std::vector<bool> is_guided = mark_guided_blocks(
+      model.fields,
+      owned_nodes_of_blocks(model.split, *model.numbering, ways.size()),
+      model.communicator);
+    failed.erase(std::remove_if(failed.begin(),
+                                failed.end(),
+                                [&](const auto b) { return is_guided[b]; }),
+                 failed.end());
     return failed;
   }
 

@@ -3,8 +3,6 @@
 
 #include <keyblock/step/guided_blocks.h>
 
-#include <map>
-
 namespace Keyblock
 {
   namespace
@@ -22,7 +20,7 @@ namespace Keyblock
                      const std::vector<std::vector<unsigned int>> &nodes,
                      const Communicator &communicator)
   {
-    std::map<unsigned int, unsigned int> block_of;
+    std::vector<unsigned int> block_of(fields.reference.size() / dim, none);
     for (unsigned int b = 0; b < nodes.size(); ++b)
       for (const unsigned int node : nodes[b])
         block_of[node] = b;
@@ -31,10 +29,9 @@ namespace Keyblock
     constexpr unsigned int n_sums = dim * dim + 1;
     std::vector<double> sums(n_sums * nodes.size(), 0.);
     for (const NodeSupport<dim> &support : fields.supports)
-      if (const auto found = block_of.find(support.node);
-          found != block_of.end())
+      if (const unsigned int block = block_of[support.node]; block != none)
         {
-          double *const held = sums.data() + n_sums * found->second;
+          double *const held = sums.data() + n_sums * block;
           for (unsigned int k = 0; k < support.n_directions; ++k)
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)

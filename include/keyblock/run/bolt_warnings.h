@@ -14,6 +14,13 @@ namespace Keyblock
   template <int dim>
   std::vector<std::string> warnings_of_coarse_bolts(const Scene<dim> &scene);
 
+  /** Sets of bolts that break at an opening which their segments decide on, as
+   * sentences. */
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_brittle_bolts(const Scene<dim> &scene,
+                            const SplitMesh<dim> &split);
+
   /** Sets of bolts of which later stages dig something, as sentences. */
   template <int dim>
   std::vector<std::string> warnings_of_cut_bolts(const Scene<dim> &scene,

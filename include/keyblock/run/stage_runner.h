@@ -33,19 +33,18 @@ namespace Keyblock
     /** Whether any was there to be removed. */
     bool remove_failed_blocks(const Stage &stage, StageProgress<dim> &progress);
 
-    /** Blocks that have gone too far, or at a steady speed. */
+    /** Blocks that have gone too far, or at a steady speed, and not where
+     * supports move them. */
     std::vector<unsigned int> list_failed_blocks(StageProgress<dim> &progress);
 
-    /** Finite blocks that are there, and that supports neither move nor hold.
-     */
-    std::vector<bool> mark_blocks_that_can_fail() const;
+    /** Whether a block is there that can be taken away. */
+    bool can_fail(const unsigned int block) const;
 
     /** Of the ways of all blocks [m], if they are to be recorded now, those
-     * that can fail and go at a steady speed. */
+     * that go at a steady speed. */
     std::vector<bool>
     mark_steady_blocks(const std::vector<BlockMotion<dim>> &motions,
                        const std::vector<double> &ways,
-                       const std::vector<bool> &can_fail,
                        StageProgress<dim> &progress) const;
     void pace_ramp(const Stage &stage);
     double ramp_duration_of(const Stage &stage) const;
