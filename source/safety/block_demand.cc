@@ -93,6 +93,22 @@ namespace Keyblock
       return high;
     }
 
+    /** Whether a free face is not one of the domain's, but left by digging. A
+     * domain from a file has its sides alone, those of its bounding box. */
+    template <int dim>
+    bool
+    is_dug(const Ground<dim> &ground, const CellFace &f)
+    {
+      const Mesh<dim> &mesh = ground.split.mesh;
+      // cells that are gone from the start are none of the mesh
+      if (mesh.neighbor[f.cell][f.face] != none)
+        return true;
+      const bool has_numbered_sides =
+        ground.scene.domain.shape == DomainShape::polygon;
+      return mesh.boundary[f.cell][f.face] == none &&
+             !(has_numbered_sides && mesh.boundary_id[f.cell][f.face] != none);
+    }
+
     /** Free faces of a block that support can press on: all but, for one with a
      * face that was dug, the ground's surface where it leaves that along @p
      * way. Centres and vector areas, outwards. */
@@ -106,21 +122,17 @@ namespace Keyblock
     {
       const Mesh<dim> &mesh = ground.split.mesh;
       const auto &own       = free.of_block(block);
-      const auto is_dug     = [&](const CellFace &f) {
-        // cells that are gone from the start are none of the mesh
-        return mesh.neighbor[f.cell][f.face] != none ||
-               mesh.boundary[f.cell][f.face] == none;
-      };
       const bool has_dug =
         std::any_of(own.begin(), own.end(), [&](const auto i) {
-          return is_dug(free.faces[i]);
+          return is_dug(ground, free.faces[i]);
         });
       std::vector<PointForce<dim>> faces;
       for (const unsigned int i : own)
         {
           const CellFace &f         = free.faces[i];
           const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
-          if (!has_dug || is_dug(f) || area * way >= -1e-6 * area.norm())
+          if (!has_dug || is_dug(ground, f) ||
+              area * way >= -1e-6 * area.norm())
             faces.push_back(
               {mesh.face_center(f.cell, f.face), area_ratio * area});
         }
