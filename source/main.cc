@@ -2,11 +2,13 @@
 #include <deal.II/base/mpi.h>
 
 #include <keyblock/base/last_resort.h>
+#include <keyblock/base/single_process.h>
 #include <keyblock/run/program.h>
 
 int
 main(int argc, char *argv[])
 {
+  Keyblock::start_no_daemon();
   // the libraries that are started here need not see the scene's arguments
   int n_names       = 1;
   char *only_name[] = {argv[0], nullptr}, **names = only_name;

@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <keyblock/base/interrupt_scope.h>
+#include <keyblock/base/single_process.h>
 
 #include <algorithm>
 #include <mutex>
@@ -48,6 +49,7 @@ namespace Keyblock::Python
     MPI_Initialized(&is_somebodys);
     if (is_somebodys == 0)
       {
+        start_no_daemon();
         int n_names  = 1;
         char name[]  = "keyblock";
         char *all[]  = {name, nullptr};

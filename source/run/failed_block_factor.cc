@@ -41,7 +41,7 @@ namespace Keyblock
     const double lowest = model.scene.safety.lowest;
     recall(record.before, model.parts());
     model.step->excavate(record.present.number());
-    search.tell_ways(block);
+    search.tell_ways({block, {}, false});
     typename StrengthReductionSearch<dim>::Known known;
     known.stable   = lowest;
     known.unstable = 1.;
@@ -55,11 +55,9 @@ namespace Keyblock
         return search.find(block, record.present.number(), known);
       }
     // with those that failed beside it, it may hold: they carry it along
-    const std::vector<unsigned int> carriers = list_failed_beside(block);
-    std::vector<unsigned int> group          = carriers;
-    group.push_back(block);
-    if (!carriers.empty() && hold_when_strong(group))
-      return search.find_with(carriers, block, record.present.number(), known);
+    const TriedBlocks carried{block, list_failed_beside(block), true};
+    if (!carried.companions.empty() && hold_when_strong(carried.all()))
+      return search.find_with(carried, record.present.number(), known);
     SafetyFactor result;
     result.block   = block;
     result.outcome = SafetyFactor::Outcome::falls_freely;

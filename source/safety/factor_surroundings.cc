@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <set>
 #include <sstream>
 
 namespace Keyblock
@@ -72,13 +73,29 @@ namespace Keyblock
 
   template <int dim>
   std::vector<unsigned int>
-  StrengthReductionSearch<dim>::ids_of_group(const unsigned int block) const
+  StrengthReductionSearch<dim>::ids_of(const TriedBlocks &group) const
   {
-    std::vector<unsigned int> ids = {blocks.blocks[block].id};
-    for (const unsigned int b : trials.companions)
+    std::vector<unsigned int> ids;
+    for (const unsigned int b : group.all())
       ids.push_back(blocks.blocks[b].id);
     std::sort(ids.begin(), ids.end());
     return ids;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  StrengthReductionSearch<dim>::blocks_pressed_on(
+    const TriedBlocks &group) const
+  {
+    std::set<unsigned int> pressed;
+    for (const unsigned int b : group.all())
+      for (const unsigned int other :
+           run.contact->report().list_blocks_pressed_on(b))
+        if (!blocks.blocks[other].is_infinite && !group.contains(other))
+          pressed.insert(other);
+    return {pressed.begin(), pressed.end()};
   }
 
 
@@ -96,7 +113,7 @@ namespace Keyblock
                        block,
                        run.step.time,
                        run.conditions.broken_segments());
-    if (const double way = trials.way_from_place(block); way > 0.)
+    if (const double way = trials.measures.way_from_place(block); way > 0.)
       {
         std::ostringstream text;
         text << "judged where it was before it moved by "
@@ -122,28 +139,31 @@ namespace Keyblock
 
   template <int dim>
   Tensor<1, dim>
-  StrengthReductionSearch<dim>::tell_ways(const unsigned int block)
+  StrengthReductionSearch<dim>::tell_ways(const TriedBlocks &tried)
   {
     const Ground<dim> ground = run.conditions.active_cells.ground();
     const FreeFaces<dim> free(ground);
-    const std::vector<Tensor<1, dim>> ways = find_ways_without_support(
-      ground, free, blocks, trials.mark_tied_blocks(block), run.step.time);
+    const std::vector<Tensor<1, dim>> ways =
+      find_ways_without_support(ground,
+                                free,
+                                blocks,
+                                trials.measures.tied.mark_neighbors(tried),
+                                run.step.time);
     run.conditions.take_ways(ways);
-    return ways[block];
+    return ways[tried.block];
   }
 
 
 
   template <int dim>
   bool
-  StrengthReductionSearch<dim>::freeze_beyond_reach(const unsigned int block)
+  StrengthReductionSearch<dim>::freeze_beyond_reach(const TriedBlocks &tried)
   {
     const SafetySettings &settings = scene.safety;
     if (settings.reach == 0. || settings.reduced_joints == ReducedJoints::all ||
         settings.reduces_rock)
       return false;
-    std::vector<unsigned int> moving = trials.companions;
-    moving.push_back(block);
+    const std::vector<unsigned int> moving = tried.all();
     std::vector<bool> is_frozen(split.mesh.n_cells());
     for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
       is_frozen[c] =
@@ -158,20 +178,24 @@ namespace Keyblock
   }
 
   template bool
-  StrengthReductionSearch<2>::freeze_beyond_reach(const unsigned int);
+  StrengthReductionSearch<2>::freeze_beyond_reach(const TriedBlocks &);
   template bool
-  StrengthReductionSearch<3>::freeze_beyond_reach(const unsigned int);
+  StrengthReductionSearch<3>::freeze_beyond_reach(const TriedBlocks &);
   template Tensor<1, 2>
-  StrengthReductionSearch<2>::tell_ways(const unsigned int);
+  StrengthReductionSearch<2>::tell_ways(const TriedBlocks &);
   template Tensor<1, 3>
-  StrengthReductionSearch<3>::tell_ways(const unsigned int);
+  StrengthReductionSearch<3>::tell_ways(const TriedBlocks &);
   template std::vector<unsigned int>
-  StrengthReductionSearch<2>::ids_of_group(const unsigned int) const;
+  StrengthReductionSearch<2>::ids_of(const TriedBlocks &) const;
+  template std::vector<unsigned int>
+  StrengthReductionSearch<2>::blocks_pressed_on(const TriedBlocks &) const;
   template void
   StrengthReductionSearch<2>::add_cheap_answers(const unsigned int,
                                                 SafetyFactor &) const;
   template std::vector<unsigned int>
-  StrengthReductionSearch<3>::ids_of_group(const unsigned int) const;
+  StrengthReductionSearch<3>::ids_of(const TriedBlocks &) const;
+  template std::vector<unsigned int>
+  StrengthReductionSearch<3>::blocks_pressed_on(const TriedBlocks &) const;
   template void
   StrengthReductionSearch<3>::add_cheap_answers(const unsigned int,
                                                 SafetyFactor &) const;

@@ -46,9 +46,10 @@ namespace Keyblock
     SafetyFactor result;
     result.block = block;
     add_cheap_answers(block, result);
-    trials.forget_failure();
+    trials.failure.forget();
+    TriedBlocks tried{block, {}, false};
     {
-      Search search(*this, block, number, known, result.trials);
+      Search search(*this, tried, number, known, result.trials);
       result.outcome = scene.safety.method == FactorSearch::sweep
                          ? sweep(search)
                          : bisect(search, known);
@@ -59,8 +60,9 @@ namespace Keyblock
              result.lower < result.upper,
            dealii::ExcInternalError());
     if (result.outcome != SafetyFactor::Outcome::immovable)
-      result.failure_mode =
-        result.outcome == SafetyFactor::Outcome::met ? "" : trials.failure();
+      result.failure_mode = result.outcome == SafetyFactor::Outcome::met
+                              ? ""
+                              : trials.failure.mode();
     else if (result.limit_moves)
       result.outcome = SafetyFactor::Outcome::clamped;
     const bool is_bracketed =
@@ -70,11 +72,9 @@ namespace Keyblock
       {
         Known guess = known;
         guess.hint  = is_bracketed ? result.value() : result.lower;
-        find_group(is_bracketed ? trials.blocks_along()
-                                : std::vector<unsigned int>(),
-                   number,
-                   guess,
-                   result);
+        if (is_bracketed)
+          tried.companions = trials.failure.blocks_along();
+        find_group(tried, number, guess, result);
       }
     return result;
   }
@@ -83,25 +83,21 @@ namespace Keyblock
 
   template <int dim>
   SafetyFactor
-  StrengthReductionSearch<dim>::find_with(
-    const std::vector<unsigned int> &carriers,
-    const unsigned int block,
-    const unsigned int number,
-    const Known &known)
+  StrengthReductionSearch<dim>::find_with(const TriedBlocks &carried,
+                                          const unsigned int number,
+                                          const Known &known)
   {
     // where all joints are reduced, those of the carriers are, too
     if (scene.safety.reduced_joints == ReducedJoints::all)
-      return find(block, number, known);
+      return find(carried.block, number, known);
     SafetyFactor result;
-    result.block = block;
-    add_cheap_answers(block, result);
-    trials.forget_failure();
-    trials.is_carried = true;
-    find_group(carriers, number, known, result);
-    trials.is_carried = false;
+    result.block = carried.block;
+    add_cheap_answers(carried.block, result);
+    trials.failure.forget();
+    find_group(carried, number, known, result);
     if (result.outcome != SafetyFactor::Outcome::carried &&
         result.outcome != SafetyFactor::Outcome::met)
-      result.failure_mode = trials.failure();
+      result.failure_mode = trials.failure.mode();
     return result;
   }
 
@@ -109,33 +105,33 @@ namespace Keyblock
 
   template <int dim>
   void
-  StrengthReductionSearch<dim>::find_group(std::vector<unsigned int> others,
+  StrengthReductionSearch<dim>::find_group(TriedBlocks tried,
                                            const unsigned int number,
                                            Known guess,
                                            SafetyFactor &result)
   {
+    std::vector<unsigned int> others = tried.companions;
+    tried.companions.clear();
     while (true)
       {
         const double held     = held_so_far(result);
         const bool move_along = !others.empty();
         if (!move_along)
-          others = find_weaker_neighbors(number, guess, result);
+          others = find_weaker_neighbors(tried, number, guess, result);
         if (others.empty())
           break;
-        trials.companions.insert(trials.companions.end(),
-                                 others.begin(),
-                                 others.end());
-        std::vector<Trial> tried;
-        Search search(*this, result.block, number, guess, tried);
+        tried = tried.with(others);
+        std::vector<Trial> of_group;
+        Search search(*this, tried, number, guess, of_group);
         const auto outcome = bisect(search, guess);
         search.finish();
-        for (Trial &trial : tried)
+        for (Trial &trial : of_group)
           {
             trial.is_of_group = true;
             result.trials.push_back(trial);
           }
         // what is carried along has no bounds of its own
-        if (trials.is_carried && result.group.empty())
+        if (tried.is_carried && result.group.empty())
           {
             if (outcome != SafetyFactor::Outcome::bracketed)
               search.note_bounds(result);
@@ -148,56 +144,44 @@ namespace Keyblock
         if (outcome != SafetyFactor::Outcome::bracketed ||
             (!move_along && search.stable >= held))
           break;
-        result.group       = ids_of_group(result.block);
+        result.group       = ids_of(tried);
         result.group_lower = search.stable;
         result.group_upper = search.unstable;
         // those that move with the group only
-        others = trials.blocks_along();
-        others.erase(std::remove_if(others.begin(),
-                                    others.end(),
-                                    [&](const unsigned int b) {
-                                      return std::count(
-                                               trials.companions.begin(),
-                                               trials.companions.end(),
-                                               b) > 0;
-                                    }),
-                     others.end());
+        others.clear();
+        for (const unsigned int b : trials.failure.blocks_along())
+          if (!tried.contains(b))
+            others.push_back(b);
         guess.hint = result.value_of_group();
       }
-    trials.companions.clear();
   }
 
 
 
   template <int dim>
   std::vector<unsigned int>
-  StrengthReductionSearch<dim>::find_weaker_neighbors(const unsigned int number,
+  StrengthReductionSearch<dim>::find_weaker_neighbors(const TriedBlocks &group,
+                                                      const unsigned int number,
                                                       const Known &known,
                                                       SafetyFactor &result)
   {
-    const std::vector<unsigned int> group = trials.companions;
-    const std::vector<unsigned int> pressed =
-      trials.blocks_pressed_on(result.block);
-    const double held = held_so_far(result);
+    const std::vector<unsigned int> pressed = blocks_pressed_on(group);
+    const double held                       = held_so_far(result);
     if (pressed.empty() || held == 0.)
       return {};
-    trials.companions.insert(trials.companions.end(),
-                             pressed.begin(),
-                             pressed.end());
     std::vector<Trial> tried;
-    Search search(*this, result.block, number, known, tried);
+    Search search(*this, group.with(pressed), number, known, tried);
     search.holds_at(held);
     const bool fails = search.unstable == held;
     search.finish();
-    trials.companions    = group;
     tried[0].is_of_group = true;
     result.trials.push_back(tried[0]);
     std::vector<unsigned int> weaker;
     if (fails)
       std::set_intersection(pressed.begin(),
                             pressed.end(),
-                            trials.blocks_moving().begin(),
-                            trials.blocks_moving().end(),
+                            trials.failure.blocks_moving().begin(),
+                            trials.failure.blocks_moving().end(),
                             std::back_inserter(weaker));
     return weaker;
   }

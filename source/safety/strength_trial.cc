@@ -55,33 +55,51 @@ namespace Keyblock
                                       const Blocks<dim> &blocks,
                                       const Numbering<dim> &numbering,
                                       const RunParts<dim> &run)
-    : communicator(numbering.communicator)
+    : measures(scene, split, blocks, numbering, run)
+    , failure(scene,
+              blocks,
+              measures.nodes_of_block,
+              run.fields,
+              numbering.communicator)
+    , communicator(numbering.communicator)
     , scene(scene)
-    , split(split)
     , blocks(blocks)
     , run(run)
-    , nodes_of_block(
-        owned_nodes_of_blocks(split, numbering, blocks.blocks.size()))
   {}
 
 
 
   template <int dim>
   void
-  StrengthTrials<dim>::reduce(const unsigned int block, const double factor)
+  StrengthTrials<dim>::reduce(const TriedBlocks &tried, const double factor)
   {
     StrengthReduction reduction;
     if (scene.safety.reduced_joints != ReducedJoints::all)
-      {
-        reduction.blocks = companions;
-        reduction.blocks.push_back(block);
-      }
+      reduction.blocks = tried.all();
     reduction.joints = list_reduced_joints(scene);
     reduction.share  = 1. / factor;
     run.contact->reduce_strength(reduction);
     run.conditions.reduce_strength(reduction);
     if (scene.safety.reduces_rock)
       run.conditions.active_cells.reduce_strength(1. / factor);
+  }
+
+
+
+  template <int dim>
+  Stage
+  StrengthTrials<dim>::quiet_stage(const unsigned int block) const
+  {
+    Stage quiet;
+    quiet.kind          = StageKind::quasi_static;
+    quiet.local_damping = scene.safety.local_damping;
+    quiet.damping_ratio = scene.safety.damping_ratio;
+    // critical for the block's lowest mode: 2 omega
+    run.conditions.scale_density(true);
+    quiet.mass_damping = scene.safety.mass_damping * dealii::numbers::PI /
+                         (2. * measures.n_across(block)) *
+                         run.conditions.stable_step.frequency;
+    return quiet;
   }
 
 
@@ -99,7 +117,7 @@ namespace Keyblock
     for (; trial.n_steps < last; ++trial.n_steps)
       {
         run.step.advance(false);
-        const double now = kinetic_energy(block);
+        const double now = measures.kinetic_energy(block);
         peak             = std::max(peak, now);
         if (now < drop * peak)
           {
@@ -113,16 +131,16 @@ namespace Keyblock
 
   template <int dim>
   void
-  StrengthTrials<dim>::change_strength(const unsigned int block, Trial &trial)
+  StrengthTrials<dim>::change_strength(const TriedBlocks &tried, Trial &trial)
   {
     // along half a cosine
-    const unsigned int ramp = ramp_periods * period_of(block);
+    const unsigned int ramp = ramp_periods * measures.period(tried.block);
     for (; trial.n_steps < ramp; ++trial.n_steps)
       {
         const double s =
           0.5 *
           (1. - std::cos(dealii::numbers::PI * (trial.n_steps + 1.) / ramp));
-        reduce(block, trial.start * std::pow(trial.factor / trial.start, s));
+        reduce(tried, trial.start * std::pow(trial.factor / trial.start, s));
         run.step.advance(false);
       }
   }
@@ -130,40 +148,31 @@ namespace Keyblock
 
 
   template <int dim>
-  double
-  StrengthTrials<dim>::way_between(const Motion &from, const Motion &to)
-  {
-    return std::min(norm<dim>(add<dim>(to.slip, -1., from.slip)),
-                    norm<dim>(
-                      add<dim>(to.displacement, -1., from.displacement)));
-  }
-
-
-
-  template <int dim>
   bool
-  StrengthTrials<dim>::settle(const unsigned int block,
+  StrengthTrials<dim>::settle(const TriedBlocks &tried,
                               const double full_damping,
                               const Vector<dim> &first,
                               Trial &trial)
   {
-    const double size         = blocks.blocks[block].size;
-    const unsigned int period = period_of(block);
+    const double size         = blocks.blocks[tried.block].size;
+    const unsigned int period = measures.period(tried.block);
     const unsigned int window =
       std::max(1., std::round(scene.safety.window * period));
-    const Motion begin        = measure(block);
+    const Motion begin        = measures.motion(tried);
     Motion before             = begin;
     double least              = std::numeric_limits<double>::max();
     unsigned int n_stuck      = 0;
-    SupportState<dim> support = support_of(block);
-    SlowMode<dim> creep(communicator, run.fields, nodes_of_block[block]);
+    SupportState<dim> support = measures.support(tried);
+    SlowMode<dim> creep(communicator,
+                        run.fields,
+                        measures.nodes_of_block[tried.block]);
     double slowest = 0.; // angular frequency of the creep [rad/s]
     double last    = scene.safety.maximum_periods * period;
     for (double step = 0.; step < last; step += window)
       {
         stop_if_asked(communicator);
         step_damped_until(trial.n_steps + window,
-                          block,
+                          tried.block,
                           slowest > 0. ? creep_drop : 1.,
                           trial);
         if (scene.safety.adaptive_damping)
@@ -174,14 +183,17 @@ namespace Keyblock
                 ? std::min(full_damping, 2. * creep_damping * slowest)
                 : full_damping);
           }
-        const Motion now   = measure(block);
-        const double moved = way_between(before, now) * period / window;
-        trial.unbalanced   = now.unbalanced;
-        trial.slip         = norm<dim>(add<dim>(now.slip, -1., first));
-        trial.velocity     = moved / (period * run.step.dt);
-        const SupportState<dim> borne = support_of(block);
-        const double swing = swing_period(block, support, borne, before, now);
-        const double unbalanced = unbalanced_with_tied(block, now.unbalanced);
+        const Motion now = measures.motion(tried);
+        const double moved =
+          measures.way_between(before, now) * period / window;
+        trial.unbalanced = now.unbalanced;
+        trial.slip       = norm<dim>(add<dim>(now.slip, -1., first));
+        trial.velocity   = moved / (period * run.step.dt);
+        const SupportState<dim> borne = measures.support(tried);
+        const double swing =
+          measures.swing_period(tried.block, support, borne, before, now);
+        const double unbalanced =
+          measures.unbalanced_with_tied(tried.block, now.unbalanced);
         if (unbalanced < rest_unbalanced &&
             moved * std::max(1., swing / period) < rest_slip * size)
           return true;
@@ -192,7 +204,8 @@ namespace Keyblock
         if (n_stuck == 0)
           least = unbalanced;
         if (n_stuck >= patience ||
-            has_passed(block, norm<dim>(add<dim>(now.slip, -1., begin.slip))))
+            measures.has_passed(tried.block,
+                                norm<dim>(add<dim>(now.slip, -1., begin.slip))))
           break;
         before = now;
       }
@@ -212,12 +225,12 @@ namespace Keyblock
 
   template <int dim>
   typename StrengthTrials<dim>::Verdict
-  StrengthTrials<dim>::decide(const unsigned int block,
+  StrengthTrials<dim>::decide(const TriedBlocks &tried,
                               const unsigned int number,
                               const Vector<dim> &first,
                               Trial &trial)
   {
-    const Stage quiet = quiet_stage(block);
+    const Stage quiet = quiet_stage(tried.block);
     Stage moving;
     moving.damping_ratio = scene.safety.damping_ratio;
     moving.reset_motion  = true;
@@ -225,7 +238,7 @@ namespace Keyblock
       moving.kind = StageKind::quasi_static;
 
     run.step.begin_stage(quiet, number);
-    change_strength(block, trial);
+    change_strength(tried, trial);
     unsigned int n_failures = 0;
     for (unsigned int round = 0; round < n_rounds; ++round)
       {
@@ -233,18 +246,18 @@ namespace Keyblock
         trial.phase        = 1;
         if (round > 0)
           run.step.begin_stage(quiet, number);
-        const bool rests = settle(block, quiet.mass_damping, first, trial);
+        const bool rests = settle(tried, quiet.mass_damping, first, trial);
         trial.phase_1_seconds += MPI_Wtime() - begin;
         if (rests)
           return Verdict::holds;
         trial.phase = 2;
         run.step.begin_stage(moving, number);
         const Verdict verdict =
-          watch(block, (round + 1) * watch_periods, first, trial);
+          watch(tried, (round + 1) * watch_periods, first, trial);
         if (verdict == Verdict::holds)
           return verdict;
         if (verdict == Verdict::fails &&
-            (companions.empty() || ++n_failures > 1 ||
+            (tried.companions.empty() || ++n_failures > 1 ||
              trial.unbalanced > plain_unbalanced))
           return verdict;
       }
@@ -255,7 +268,7 @@ namespace Keyblock
 
   template <int dim>
   Trial
-  StrengthTrials<dim>::try_factor(const unsigned int block,
+  StrengthTrials<dim>::try_factor(const TriedBlocks &tried,
                                   const unsigned int number,
                                   const double start,
                                   const double factor,
@@ -265,27 +278,25 @@ namespace Keyblock
     Trial trial;
     trial.factor = factor;
     trial.start  = start;
-    reduce(block, start);
+    reduce(tried, start);
     run.conditions.scale_density(false);
-    const double true_mass = mass_in_use(block);
+    const double true_mass = measures.mass_in_use(tried.block);
     const MeasuredSteps<dim> guard(run.step);
-    const unsigned int n_bonds = n_intact(block);
-    const Verdict verdict      = decide(block, number, first, trial);
+    const unsigned int n_bonds = measures.n_intact(tried.block);
+    const Verdict verdict      = decide(tried, number, first, trial);
     trial.is_stable            = verdict == Verdict::holds;
     trial.is_undecided         = verdict == Verdict::open;
-    trial.n_broken             = n_bonds - std::min(n_bonds, n_intact(block));
+    trial.n_broken =
+      n_bonds - std::min(n_bonds, measures.n_intact(tried.block));
     const std::vector<double> weakened =
-      run.contact->report().weakened_area(block);
+      run.contact->report().weakened_area(tried.block);
     trial.weakened_area = std::accumulate(weakened.begin(), weakened.end(), 0.);
     for (; trial.n_steps < scene.safety.trial_steps; ++trial.n_steps)
       run.step.advance(false);
     if (verdict == Verdict::fails)
-      {
-        last_failure = name_failure(block);
-        note_blocks_that_moved(block);
-      }
+      failure.note(tried.block);
     // of the true masses
-    const double ratio = mass_in_use(block) / true_mass;
+    const double ratio = measures.mass_in_use(tried.block) / true_mass;
     trial.velocity *= std::sqrt(ratio);
     trial.acceleration *= ratio;
     trial.seconds = MPI_Wtime() - begin;

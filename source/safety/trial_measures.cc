@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What a trial measures of a block, and the stage that its measures ask for.
 #include <keyblock/rock/nodal_force.h>
 #include <keyblock/safety/block_stiffness.h>
-#include <keyblock/safety/strength_trial.h>
+#include <keyblock/safety/trial_measures.h>
 #include <keyblock/step/block_balance.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace Keyblock
 {
@@ -20,13 +18,30 @@ namespace Keyblock
 
 
   template <int dim>
-  typename StrengthTrials<dim>::Motion
-  StrengthTrials<dim>::measure(const unsigned int block) const
+  TrialMeasures<dim>::TrialMeasures(const Scene<dim> &scene,
+                                    const SplitMesh<dim> &split,
+                                    const Blocks<dim> &blocks,
+                                    const Numbering<dim> &numbering,
+                                    const RunParts<dim> &run)
+    : tied(scene, split, blocks)
+    , nodes_of_block(
+        owned_nodes_of_blocks(split, numbering, blocks.blocks.size()))
+    , communicator(numbering.communicator)
+    , scene(scene)
+    , blocks(blocks)
+    , run(run)
+  {}
+
+
+
+  template <int dim>
+  typename TrialMeasures<dim>::Motion
+  TrialMeasures<dim>::motion(const TriedBlocks &tried) const
   {
     // mass, momentum, and mass times displacement
     std::vector<double> sums(2 * dim + 1, 0.);
     const Fields<dim> &fields = run.fields;
-    for (const unsigned int node : nodes_of_block[block])
+    for (const unsigned int node : nodes_of_block[tried.block])
       for (unsigned int d = 0; d < dim; ++d)
         {
           const unsigned int i = dim * node + d;
@@ -36,7 +51,7 @@ namespace Keyblock
         }
     communicator.sum_lists(sums);
     const BlockBalance<dim> balance =
-      measure_balance(fields, nodes_of_block[block], communicator);
+      measure_balance(fields, nodes_of_block[tried.block], communicator);
     Motion motion;
     motion.load       = balance.load;
     motion.unbalanced = balance.unbalanced_ratio();
@@ -47,9 +62,9 @@ namespace Keyblock
       }
     // where all joints are reduced, what it touches may go along
     motion.slip =
-      is_carried || scene.safety.reduced_joints == ReducedJoints::all
+      tried.is_carried || scene.safety.reduced_joints == ReducedJoints::all
         ? motion.displacement
-        : run.contact->report().mean_slip(block);
+        : run.contact->report().mean_slip(tried.block);
     return motion;
   }
 
@@ -57,7 +72,83 @@ namespace Keyblock
 
   template <int dim>
   double
-  StrengthTrials<dim>::way_from_place(const unsigned int block) const
+  TrialMeasures<dim>::way_between(const Motion &from, const Motion &to)
+  {
+    return std::min(norm<dim>(add<dim>(to.slip, -1., from.slip)),
+                    norm<dim>(
+                      add<dim>(to.displacement, -1., from.displacement)));
+  }
+
+
+
+  template <int dim>
+  double
+  TrialMeasures<dim>::unbalanced_with_tied(const unsigned int block,
+                                           const double own) const
+  {
+    const std::vector<bool> is_tied = tied.mark_row(block);
+    double largest                  = own;
+    for (unsigned int b = 0; b < is_tied.size(); ++b)
+      if (is_tied[b] && b != block &&
+          !run.conditions.active_cells.is_removed_block(b))
+        largest =
+          std::max(largest,
+                   measure_balance(run.fields, nodes_of_block[b], communicator)
+                     .unbalanced_ratio());
+    return largest;
+  }
+
+
+
+  template <int dim>
+  SupportState<dim>
+  TrialMeasures<dim>::support(const TriedBlocks &tried) const
+  {
+    return measure_support(run.conditions.elements,
+                           run.fields,
+                           nodes_of_block,
+                           tied.mark_neighbors(tried),
+                           communicator);
+  }
+
+
+
+  template <int dim>
+  double
+  TrialMeasures<dim>::swing_period(const unsigned int block,
+                                   const SupportState<dim> &from,
+                                   const SupportState<dim> &to,
+                                   const Motion &before,
+                                   const Motion &now) const
+  {
+    if (to.numbers.empty())
+      return 0.;
+    const double gone =
+      norm<dim>(add<dim>(now.displacement, -1., before.displacement));
+    // the block of which they take up most leads
+    TakeUp<dim> most(from, to, block);
+    unsigned int leader = block;
+    for (unsigned int b = 0; b < to.n_blocks(); ++b)
+      if (const TakeUp<dim> change(from, to, b); change.energy > most.energy)
+        {
+          most   = change;
+          leader = b;
+        }
+    const double length = far_off * blocks.blocks[block].size;
+    return most.bears(now.load, length, gone) ||
+               most.is_notable(now.unbalanced * now.load, gone)
+             ? 2. * dealii::numbers::PI *
+                 std::sqrt(to.mass(leader) * dot<dim>(most.way, most.way) /
+                           most.energy) /
+                 run.step.dt
+             : 0.;
+  }
+
+
+
+  template <int dim>
+  double
+  TrialMeasures<dim>::way_from_place(const unsigned int block) const
   {
     const double way = run.contact->motions().measure()[block].way();
     return way > far_off * blocks.blocks[block].size ? way : 0.;
@@ -67,8 +158,8 @@ namespace Keyblock
 
   template <int dim>
   bool
-  StrengthTrials<dim>::has_passed(const unsigned int block,
-                                  const double slip) const
+  TrialMeasures<dim>::has_passed(const unsigned int block,
+                                 const double slip) const
   {
     return slip > far_off * blocks.blocks[block].size;
   }
@@ -77,8 +168,8 @@ namespace Keyblock
 
   template <int dim>
   std::string
-  StrengthTrials<dim>::list_holders(const unsigned int block,
-                                    const Tensor<1, dim> &way) const
+  TrialMeasures<dim>::list_holders(const unsigned int block,
+                                   const Tensor<1, dim> &way) const
   {
     const auto &elements = run.conditions.elements;
     // resultants on the block: of loads, of supports, then of each element
@@ -152,7 +243,7 @@ namespace Keyblock
 
   template <int dim>
   double
-  StrengthTrials<dim>::n_across(const unsigned int block) const
+  TrialMeasures<dim>::n_across(const unsigned int block) const
   {
     const Block<dim> &b = blocks.blocks[block];
     return std::max(4., b.size / std::pow(b.volume / b.n_cells, 1. / dim));
@@ -162,7 +253,7 @@ namespace Keyblock
 
   template <int dim>
   unsigned int
-  StrengthTrials<dim>::period_of(const unsigned int block) const
+  TrialMeasures<dim>::period(const unsigned int block) const
   {
     return std::ceil(4. * n_across(block) / scene.time_stepping.safety);
   }
@@ -171,7 +262,7 @@ namespace Keyblock
 
   template <int dim>
   double
-  StrengthTrials<dim>::wave_speed(const unsigned int block) const
+  TrialMeasures<dim>::wave_speed(const unsigned int block) const
   {
     return largest_in_block(run.conditions.active_cells.ground(),
                             block,
@@ -184,8 +275,8 @@ namespace Keyblock
 
   template <int dim>
   double
-  StrengthTrials<dim>::compression(const unsigned int block,
-                                   const double load) const
+  TrialMeasures<dim>::compression(const unsigned int block,
+                                  const double load) const
   {
     return compression_of_block(run.conditions.active_cells.ground(),
                                 block,
@@ -197,7 +288,7 @@ namespace Keyblock
 
   template <int dim>
   double
-  StrengthTrials<dim>::kinetic_energy(const unsigned int block) const
+  TrialMeasures<dim>::kinetic_energy(const unsigned int block) const
   {
     double energy = 0.;
     for (const unsigned int node : nodes_of_block[block])
@@ -211,7 +302,7 @@ namespace Keyblock
 
   template <int dim>
   double
-  StrengthTrials<dim>::mass_in_use(const unsigned int block) const
+  TrialMeasures<dim>::mass_in_use(const unsigned int block) const
   {
     double mass = 0.;
     for (const unsigned int node : nodes_of_block[block])
@@ -223,7 +314,7 @@ namespace Keyblock
 
   template <int dim>
   unsigned int
-  StrengthTrials<dim>::n_intact(const unsigned int block) const
+  TrialMeasures<dim>::n_intact(const unsigned int block) const
   {
     unsigned int n = 0;
     for (const JointSums<dim> &sums :
@@ -232,100 +323,6 @@ namespace Keyblock
     return n;
   }
 
-
-
-  template <int dim>
-  std::string
-  StrengthTrials<dim>::name_failure(const unsigned int block) const
-  {
-    // a motion that varies over the block more than its mean is a rotation
-    std::vector<double> sums(dim + 2, 0.);
-    for (const unsigned int node : nodes_of_block[block])
-      {
-        const double m = run.fields.mass[node];
-        sums[0] += m;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double way = run.fields.displacement[dim * node + d] -
-                               displacement_before[dim * node + d];
-            sums[1] += m * way * way;
-            sums[2 + d] += m * way;
-          }
-      }
-    communicator.sum_lists(sums);
-    double mean = 0.;
-    for (unsigned int d = 0; d < dim; ++d)
-      mean += sums[2 + d] * sums[2 + d];
-    mean /= sums[0];
-    const bool rotates = mean < 0.75 * sums[1];
-
-    const double total =
-      std::accumulate(joint_force.begin(), joint_force.end(), 0.);
-    std::string names;
-    for (unsigned int j = 0; j < joint_force.size(); ++j)
-      if (joint_force[j] > 0.01 * total && joint_force[j] > 0.)
-        names += (names.empty() ? "" : "/") + (j < scene.joints.size()
-                                                 ? scene.joints[j]->name
-                                                 : std::string("a free face"));
-    if (names.empty())
-      return "falling";
-    return (rotates ? "rotating on " : "sliding on ") + names;
-  }
-
-
-
-  template <int dim>
-  Stage
-  StrengthTrials<dim>::quiet_stage(const unsigned int block) const
-  {
-    Stage quiet;
-    quiet.kind          = StageKind::quasi_static;
-    quiet.local_damping = scene.safety.local_damping;
-    quiet.damping_ratio = scene.safety.damping_ratio;
-    // critical for the block's lowest mode: 2 omega
-    run.conditions.scale_density(true);
-    quiet.mass_damping = scene.safety.mass_damping * dealii::numbers::PI /
-                         (2. * n_across(block)) *
-                         run.conditions.stable_step.frequency;
-    return quiet;
-  }
-
-  template StrengthTrials<2>::Motion
-  StrengthTrials<2>::measure(const unsigned int) const;
-  template StrengthTrials<3>::Motion
-  StrengthTrials<3>::measure(const unsigned int) const;
-  template double StrengthTrials<2>::way_from_place(const unsigned int) const;
-  template double StrengthTrials<3>::way_from_place(const unsigned int) const;
-  template bool StrengthTrials<2>::has_passed(const unsigned int,
-                                              const double) const;
-  template bool StrengthTrials<3>::has_passed(const unsigned int,
-                                              const double) const;
-  template double StrengthTrials<2>::n_across(const unsigned int) const;
-  template double StrengthTrials<3>::n_across(const unsigned int) const;
-  template unsigned int StrengthTrials<2>::period_of(const unsigned int) const;
-  template unsigned int StrengthTrials<3>::period_of(const unsigned int) const;
-  template double StrengthTrials<2>::wave_speed(const unsigned int) const;
-  template double StrengthTrials<3>::wave_speed(const unsigned int) const;
-  template double StrengthTrials<2>::compression(const unsigned int,
-                                                 const double) const;
-  template double StrengthTrials<3>::compression(const unsigned int,
-                                                 const double) const;
-  template double StrengthTrials<2>::kinetic_energy(const unsigned int) const;
-  template double StrengthTrials<3>::kinetic_energy(const unsigned int) const;
-  template std::string
-  StrengthTrials<2>::list_holders(const unsigned int,
-                                  const Tensor<1, 2> &) const;
-  template std::string
-  StrengthTrials<3>::list_holders(const unsigned int,
-                                  const Tensor<1, 3> &) const;
-  template double StrengthTrials<2>::mass_in_use(const unsigned int) const;
-  template double StrengthTrials<3>::mass_in_use(const unsigned int) const;
-  template unsigned int StrengthTrials<2>::n_intact(const unsigned int) const;
-  template unsigned int StrengthTrials<3>::n_intact(const unsigned int) const;
-  template std::string
-  StrengthTrials<2>::name_failure(const unsigned int) const;
-  template std::string
-  StrengthTrials<3>::name_failure(const unsigned int) const;
-  template Stage StrengthTrials<2>::quiet_stage(const unsigned int) const;
-  template Stage StrengthTrials<3>::quiet_stage(const unsigned int) const;
+  template class TrialMeasures<2>;
+  template class TrialMeasures<3>;
 } // namespace Keyblock

@@ -74,63 +74,37 @@ namespace Keyblock
 
 
   template <int dim>
-  double
-  StrengthTrials<dim>::swing_period(const unsigned int block,
-                                    const SupportState<dim> &from,
-                                    const SupportState<dim> &to,
-                                    const Motion &before,
-                                    const Motion &now) const
+  unsigned int
+  StrengthTrials<dim>::watched_window(const unsigned int block) const
   {
-    if (to.numbers.empty())
-      return 0.;
-    const double gone =
-      norm<dim>(add<dim>(now.displacement, -1., before.displacement));
-    // the block of which they take up most leads
-    TakeUp<dim> most(from, to, block);
-    unsigned int leader = block;
-    for (unsigned int b = 0; b < to.n_blocks(); ++b)
-      if (const TakeUp<dim> change(from, to, b); change.energy > most.energy)
-        {
-          most   = change;
-          leader = b;
-        }
-    const double length = far_off * blocks.blocks[block].size;
-    return most.bears(now.load, length, gone) ||
-               most.is_notable(now.unbalanced * now.load, gone)
-             ? 2. * dealii::numbers::PI *
-                 std::sqrt(to.mass(leader) * dot<dim>(most.way, most.way) /
-                           most.energy) /
-                 run.step.dt
-             : 0.;
+    const double period = scene.safety.true_masses
+                            ? 4. * blocks.blocks[block].size /
+                                (measures.wave_speed(block) * run.step.dt)
+                            : measures.period(block);
+    return std::max(1., std::ceil(scene.safety.window * period));
   }
 
 
 
   template <int dim>
   typename StrengthTrials<dim>::Verdict
-  StrengthTrials<dim>::watch(const unsigned int block,
+  StrengthTrials<dim>::watch(const TriedBlocks &tried,
                              const double periods,
                              const Vector<dim> &first,
                              Trial &trial)
   {
-    const double size = blocks.blocks[block].size;
-    const unsigned int window =
-      std::max(1.,
-               std::ceil(scene.safety.window *
-                         (scene.safety.true_masses
-                            ? 4. * size / (wave_speed(block) * run.step.dt)
-                            : period_of(block))));
-    const double seconds = window * run.step.dt;
+    const double size         = blocks.blocks[tried.block].size;
+    const unsigned int window = watched_window(tried.block);
+    const double seconds      = window * run.step.dt;
     double n_windows =
       std::max(n_steady + 1.,
                std::min(periods, scene.safety.maximum_periods) /
                  scene.safety.window);
-    const Motion at_rest = measure(block);
-    const double mass    = mass_in_use(block);
-    displacement_before  = run.fields.displacement;
-    joint_force.assign(scene.joints.size() + 1, 0.);
+    const Motion at_rest = measures.motion(tried);
+    const double mass    = measures.mass_in_use(tried.block);
+    failure.begin();
     Motion before             = at_rest;
-    SupportState<dim> support = support_of(block);
+    SupportState<dim> support = measures.support(tried);
     std::vector<double> velocity(1, 0.);
     std::vector<Vector<dim>> block_velocity(1);
     for (unsigned int w = 1; w <= n_windows; ++w)
@@ -139,10 +113,8 @@ namespace Keyblock
         for (unsigned int step = 0; step < window; ++step)
           run.step.advance(false);
         trial.n_steps += window;
-        const Motion now = measure(block);
-        const auto sums  = run.contact->report().sum_over_block(block);
-        for (unsigned int j = 0; j < sums.size(); ++j)
-          joint_force[j] += sums[j].normal;
+        const Motion now = measures.motion(tried);
+        failure.add(run.contact->report().sum_over_block(tried.block));
         const Vector<dim> way   = add<dim>(now.slip, -1., at_rest.slip);
         const Vector<dim> moved = add<dim>(now.slip, -1., before.slip);
         const double slip       = norm<dim>(way);
@@ -154,11 +126,12 @@ namespace Keyblock
         block_velocity.push_back(now.velocity);
         trial.velocity     = velocity[w];
         trial.acceleration = (velocity[w] - velocity[w - 1]) / seconds;
-        const SupportState<dim> borne = support_of(block);
-        const double swing = swing_period(block, support, borne, before, now);
+        const SupportState<dim> borne = measures.support(tried);
+        const double swing =
+          measures.swing_period(tried.block, support, borne, before, now);
         const bool rests =
           now.unbalanced < rest_unbalanced &&
-          way_between(before, now) * std::max(1., swing / window) <
+          measures.way_between(before, now) * std::max(1., swing / window) <
             rest_slip * size;
         const bool is_taken_up = swing > 0.;
         n_windows = std::max(n_windows, n_swings_watched * swing / window);
@@ -171,7 +144,7 @@ namespace Keyblock
                            velocity[w - 2] > 0.;
         const double own_way =
           norm<dim>(add<dim>(now.displacement, -1., at_rest.displacement));
-        const double squeezed = compression(block, now.load);
+        const double squeezed = measures.compression(tried.block, now.load);
         const bool has_moved =
           slip > failure_slip * size &&
           own_way > std::max(failure_slip * size, squeezed);
@@ -189,7 +162,8 @@ namespace Keyblock
                 (!gain.is_passed || own_way > squeezed) &&
                 velocity[w - n_steady] >= 0. && gain.is_steady && is_driven)
               return Verdict::fails;
-            if (!has_moved && !is_driven && has_passed(block, slip))
+            if (!has_moved && !is_driven &&
+                measures.has_passed(tried.block, slip))
               return Verdict::holds;
           }
       }
@@ -198,23 +172,17 @@ namespace Keyblock
 
 
 
-  template double StrengthTrials<2>::swing_period(const unsigned int,
-                                                  const SupportState<2> &,
-                                                  const SupportState<2> &,
-                                                  const Motion &,
-                                                  const Motion &) const;
-  template double StrengthTrials<3>::swing_period(const unsigned int,
-                                                  const SupportState<3> &,
-                                                  const SupportState<3> &,
-                                                  const Motion &,
-                                                  const Motion &) const;
+  template unsigned int
+  StrengthTrials<2>::watched_window(const unsigned int) const;
+  template unsigned int
+  StrengthTrials<3>::watched_window(const unsigned int) const;
   template StrengthTrials<2>::Verdict
-  StrengthTrials<2>::watch(const unsigned int,
+  StrengthTrials<2>::watch(const TriedBlocks &,
                            const double,
                            const Vector<2> &,
                            Trial &);
   template StrengthTrials<3>::Verdict
-  StrengthTrials<3>::watch(const unsigned int,
+  StrengthTrials<3>::watch(const TriedBlocks &,
                            const double,
                            const Vector<3> &,
                            Trial &);

@@ -17,20 +17,20 @@ namespace Keyblock
   {
   public:
     Search(StrengthReductionSearch &owner,
-           const unsigned int block,
+           const TriedBlocks &tried,
            const unsigned int number,
            const Known &known,
            std::vector<Trial> &trials)
       : stable(known.stable)
       , unstable(known.unstable)
       , owner(owner)
-      , block(block)
+      , tried(tried)
       , number(number)
       , start(known.start)
-      , first_slip(owner.trials.slip_of(block))
-      , way(owner.tell_ways(block))
+      , first_slip(owner.trials.measures.motion(tried).slip)
+      , way(owner.tell_ways(tried))
       , before(take_snapshot(owner.run))
-      , state(owner.freeze_beyond_reach(block) ? take_snapshot(owner.run)
+      , state(owner.freeze_beyond_reach(tried) ? take_snapshot(owner.run)
                                                : before)
       , trials(trials)
     {}
@@ -44,7 +44,7 @@ namespace Keyblock
       const bool is_above = warm && warm_start <= factor;
       recall(is_above ? *warm : state, owner.run);
       const Trial trial =
-        owner.trials.try_factor(block,
+        owner.trials.try_factor(tried,
                                 number,
                                 is_above ? warm_start : start_of(factor),
                                 factor,
@@ -53,14 +53,14 @@ namespace Keyblock
       if (trial.is_stable)
         {
           if (owner.scene.safety.warm_start && factor > stable &&
-              !owner.trials.has_passed(block, trial.slip))
+              !owner.trials.measures.has_passed(tried.block, trial.slip))
             {
               warm = std::make_unique<Snapshot<dim>>(take_snapshot(owner.run));
               warm_start = factor;
             }
           stable = std::max(stable, factor);
           if (stable >= owner.scene.safety.highest)
-            held_by = owner.trials.list_holders(block, way);
+            held_by = owner.trials.measures.list_holders(tried.block, way);
         }
       else if (trial.is_undecided)
         {
@@ -200,7 +200,8 @@ namespace Keyblock
     }
 
     StrengthReductionSearch &owner;
-    const unsigned int block, number;
+    const TriedBlocks tried;
+    const unsigned int number;
     const double start; ///< factor of the state
     const Vector<dim> first_slip;
     const Tensor<1, dim> way; ///< without support

@@ -126,9 +126,8 @@ namespace Keyblock
                       const Known &known);
 
     /** The same of a block that fails whatever its own joints' strength: factor
-     * of it and its @p carriers (indices) as a group. */
-    SafetyFactor find_with(const std::vector<unsigned int> &carriers,
-                           const unsigned int block,
+     * of it and of the companions that carry it, as a group. */
+    SafetyFactor find_with(const TriedBlocks &carried,
                            const unsigned int number,
                            const Known &known);
 
@@ -136,34 +135,39 @@ namespace Keyblock
     void add_cheap_answers(const unsigned int block,
                            SafetyFactor &result) const;
 
-    /** Tell support which ways @p block and its companions would take without
-     * it, for reduced strengths; returns the block's. */
-    Tensor<1, dim> tell_ways(const unsigned int block);
+    /** Tell support which ways the blocks that are @p tried would take without
+     * it, for reduced strengths; returns that of the one that is looked at. */
+    Tensor<1, dim> tell_ways(const TriedBlocks &tried);
 
   private:
     class Search;
 
-    /** Factor of the block of @p result together with @p others (indices), and
-     * all that then move along. */
-    void find_group(std::vector<unsigned int> others,
+    /** Factor of the block of @p result together with those that are @p tried
+     * with it at first, and all that then move along. */
+    void find_group(TriedBlocks tried,
                     const unsigned int number,
                     Known guess,
                     SafetyFactor &result);
 
-    /** Blocks (indices) that the block of @p result and those of its group
-     * press on, and that move, too, where it fails once their joints are as
-     * weak as the group's: at the highest factor at which the group holds. None
-     * where it holds there. Adds the trial to @p result. */
-    std::vector<unsigned int> find_weaker_neighbors(const unsigned int number,
+    /** Blocks (indices) that those of the @p group press on, and that move,
+     * too, where it fails once their joints are as weak as the group's: at the
+     * highest factor at which the group holds. None where it holds there. Adds
+     * the trial to @p result. */
+    std::vector<unsigned int> find_weaker_neighbors(const TriedBlocks &group,
+                                                    const unsigned int number,
                                                     const Known &known,
                                                     SafetyFactor &result);
 
-    /** Ids of @p block and its companions, as SafetyFactor::group. */
-    std::vector<unsigned int> ids_of_group(const unsigned int block) const;
+    /** Finite blocks (indices) that those of the @p group press on now, and
+     * that are none of these (collective). */
+    std::vector<unsigned int> blocks_pressed_on(const TriedBlocks &group) const;
 
-    /** Leave all but the surroundings of @p block and its companions as they
+    /** Ids of these blocks, as SafetyFactor::group. */
+    std::vector<unsigned int> ids_of(const TriedBlocks &group) const;
+
+    /** Leave all but the surroundings of the blocks that are @p tried as they
      * are; whether there is anything to leave. */
-    bool freeze_beyond_reach(const unsigned int block);
+    bool freeze_beyond_reach(const TriedBlocks &tried);
 
     /** Try a factor on either side of @p guess, unless it is known by now
      * whether the block holds there.

@@ -2,8 +2,8 @@
 #ifndef keyblock_safety_strength_trial_h
 #define keyblock_safety_strength_trial_h
 
-#include <keyblock/safety/support_state.h>
-#include <keyblock/step/snapshot.h>
+#include <keyblock/safety/trial_failure.h>
+#include <keyblock/safety/trial_measures.h>
 
 namespace Keyblock
 {
@@ -56,92 +56,21 @@ namespace Keyblock
                    const RunParts<dim> &run);
 
     /**
-     * Change the factor of @p block from @p start, at which the present state
-     * of stage @p number is an equilibrium, to @p factor (collective).
+     * Change the factor of the blocks that are tried from @p start, at which
+     * the present state of stage @p number is an equilibrium, to @p factor
+     * (collective).
      * @param first mean slip of the block at the end of the stage [m]
      */
-    Trial try_factor(const unsigned int block,
+    Trial try_factor(const TriedBlocks &tried,
                      const unsigned int number,
                      const double start,
                      const double factor,
                      const Vector<dim> &first);
 
-    /** Mean slip of @p block on its contacts, or, where the strength of all
-     * joints is reduced or it is carried, its mean displacement [m]
-     * (collective). */
-    Vector<dim>
-    slip_of(const unsigned int block) const
-    {
-      return measure(block).slip;
-    }
+    const TrialMeasures<dim> measures;
 
-    /** Divide the strength of the joints of the block, and of its companions,
-     * by @p factor. */
-    void reduce(const unsigned int block, const double factor);
-
-    /** Blocks (indices) whose joints are reduced with those of the block that
-     * is tried; empty: none. */
-    std::vector<unsigned int> companions;
-
-    /** Companions carry the block along, so that it may not slip on what it
-     * touches: its slip is its displacement. */
-    bool is_carried = false;
-
-    /** Which blocks are those whose joints are reduced when @p block is tried,
-     * or are tied to one of them by bolts or shotcrete, by index. */
-    std::vector<bool> mark_tied_blocks(const unsigned int block) const;
-
-    /** Nothing has failed yet. */
-    void
-    forget_failure()
-    {
-      last_failure.clear();
-      last_along.clear();
-      last_moving.clear();
-    }
-
-    /** Blocks (indices) that moved along in the last trial that failed: other
-     * finite ones, by at least half of its way in its direction. */
-    const std::vector<unsigned int> &
-    blocks_along() const
-    {
-      return last_along;
-    }
-
-    /** Those that moved at all in that trial: by at least a tenth of its way,
-     * wherever to. */
-    const std::vector<unsigned int> &
-    blocks_moving() const
-    {
-      return last_moving;
-    }
-
-    /** Other finite blocks (indices) which @p block or its companions press on
-     * now, and that are none of these (collective). */
-    std::vector<unsigned int> blocks_pressed_on(const unsigned int block) const;
-
-    /** How far @p block has left the place where limit equilibrium judges it
-     * [m]; 0: by less than a twentieth of its size (collective). */
-    double way_from_place(const unsigned int block) const;
-
-    /** Whether @p block and what it touches are no more where they were, by a
-     * mean slip of @p slip [m] on its contacts: if the block did not move, a
-     * neighbour has. */
-    bool has_passed(const unsigned int block, const double slip) const;
-
-    /** What holds @p block against @p way (unit vector; zero: its load) now, in
-     * words: every kind of support that bears a tenth of its load, and, if that
-     * is left a tenth, clamping, or what it lies on if it has left its place
-     * (collective). */
-    std::string list_holders(const unsigned int block,
-                             const Tensor<1, dim> &way) const;
-
-    /** How the block moved in the last trial that failed; empty: none. */
-    const std::string &
-    failure() const
-    {
-      return last_failure;
-    }
+    /** Of the last trial that failed. */
+    TrialFailure<dim> failure;
 
   private:
     // what counts as rest (method: see doc/theory.md, section 12)
@@ -152,43 +81,7 @@ namespace Keyblock
      * not told from rest [-]. */
     static constexpr double resolution = 0.02;
 
-    struct Motion
-    {
-      Vector<dim> slip{};         ///< as slip_of() [m]
-      Vector<dim> displacement{}; ///< of its masses, mean [m]
-      Vector<dim> velocity{};     ///< of its masses, mean [m/s]
-      double unbalanced = 0.;     ///< everything but damping over the loads [-]
-      double load       = 0.;     ///< these [N]
-    };
-
-    /** Largest resultant over the load of @p block and of those that hang on
-     * it, or it on them, in whatever row, by what support ties together: a
-     * block that its stiff support balances is not at rest while those move
-     * whose load comes on it later (collective) [-].
-     * @param own that of @p block */
-    double unbalanced_with_tied(const unsigned int block,
-                                const double own) const;
-
-    /** What elements do to the blocks of mark_tied_blocks() now (collective).
-     */
-    SupportState<dim> support_of(const unsigned int block) const;
-
-    /** Steps in a swing of blocks on their elements, by Rayleigh's quotient of
-     * how they have moved in a time, at whose ends @p block has these motions;
-     * 0: elements bear no more than before, so that nothing may yet hold it. */
-    double swing_period(const unsigned int block,
-                        const SupportState<dim> &from,
-                        const SupportState<dim> &to,
-                        const Motion &before,
-                        const Motion &now) const;
-
-    /** Mean slip and displacement of the block, and the forces on it. */
-    Motion measure(const unsigned int block) const;
-
-    /** How far a block has moved against what it touches between two states:
-     * the slip on its contacts, but no more than its own displacement, since a
-     * neighbour that slides past a block at rest slips on it, too [m]. */
-    static double way_between(const Motion &from, const Motion &to);
+    using Motion = typename TrialMeasures<dim>::Motion;
 
     enum class Verdict
     {
@@ -197,8 +90,11 @@ namespace Keyblock
       fails
     };
 
+    /** Divide the strength of the joints of the blocks by @p factor. */
+    void reduce(const TriedBlocks &tried, const double factor);
+
     /** Both phases, in turn until one decides. */
-    Verdict decide(const unsigned int block,
+    Verdict decide(const TriedBlocks &tried,
                    const unsigned int number,
                    const Vector<dim> &first,
                    Trial &trial);
@@ -206,20 +102,23 @@ namespace Keyblock
     /** Settings of the first phase. */
     Stage quiet_stage(const unsigned int block) const;
 
-    void change_strength(const unsigned int block, Trial &trial);
+    void change_strength(const TriedBlocks &tried, Trial &trial);
 
     /** Phase 1; whether the block has come to rest.
      * @param full_damping of the masses, where no slow mode shows [1/s] */
-    bool settle(const unsigned int block,
+    bool settle(const TriedBlocks &tried,
                 const double full_damping,
                 const Vector<dim> &first,
                 Trial &trial);
 
     /** Phase 2, over @p periods of the block's lowest mode at most. */
-    Verdict watch(const unsigned int block,
+    Verdict watch(const TriedBlocks &tried,
                   const double periods,
                   const Vector<dim> &first,
                   Trial &trial);
+
+    /** Steps in a window of the second phase. */
+    unsigned int watched_window(const unsigned int block) const;
 
     /** Whether the resultant is too small for the bracket to tell. */
     bool is_as_good_as_at_rest(const Trial &trial) const;
@@ -231,42 +130,10 @@ namespace Keyblock
                            const double drop,
                            Trial &trial);
 
-    /** Cells along the block's size. */
-    double n_across(const unsigned int block) const;
-
-    /** Steps in a period of the block's lowest mode, with scaled density: a
-     * wave crosses one cell a step, and the block four times. */
-    unsigned int period_of(const unsigned int block) const;
-
-    /** By how much @p load [N] compresses the block [m]. */
-    double compression(const unsigned int block, const double load) const;
-
-    /** Largest speed of compression waves in the block [m/s]. */
-    double wave_speed(const unsigned int block) const;
-
-    double kinetic_energy(const unsigned int block) const;
-    double mass_in_use(const unsigned int block) const;
-
-    /** Bonds of the block's joints that are intact. */
-    unsigned int n_intact(const unsigned int block) const;
-
-    std::string name_failure(const unsigned int block) const;
-
-    /** Note blocks_along() and blocks_moving(). */
-    void note_blocks_that_moved(const unsigned int block);
-
-    bool is_finite(const unsigned int block) const;
-
     const Communicator communicator;
     const Scene<dim> &scene;
-    const SplitMesh<dim> &split;
     const Blocks<dim> &blocks;
     RunParts<dim> run;
-    std::vector<std::vector<unsigned int>> nodes_of_block; ///< owned ones
-    std::string last_failure;
-    std::vector<unsigned int> last_along, last_moving;
-    std::vector<double> displacement_before; ///< of the second phase [m]
-    std::vector<double> joint_force;         ///< in its windows, added up [N]
   };
 } // namespace Keyblock
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_safety_tried_blocks_h
+#define keyblock_safety_tried_blocks_h
+
+#include <algorithm>
+#include <vector>
+
+namespace Keyblock
+{
+  /** The block that a trial looks at, and those whose joints it weakens with
+   * its own; by index. */
+  struct TriedBlocks
+  {
+    unsigned int block = 0;
+    std::vector<unsigned int> companions;
+
+    /** Companions carry the block along, so that it may not slip on what it
+     * touches: its slip is its displacement. */
+    bool is_carried = false;
+
+    std::vector<unsigned int>
+    all() const
+    {
+      std::vector<unsigned int> indices = companions;
+      indices.push_back(block);
+      return indices;
+    }
+
+    bool
+    contains(const unsigned int other) const
+    {
+      return other == block ||
+             std::find(companions.begin(), companions.end(), other) !=
+               companions.end();
+    }
+
+    /** These and @p others. */
+    TriedBlocks
+    with(const std::vector<unsigned int> &others) const
+    {
+      TriedBlocks more = *this;
+      more.companions.insert(more.companions.end(),
+                             others.begin(),
+                             others.end());
+      return more;
+    }
+  };
+} // namespace Keyblock
+
+#endif
