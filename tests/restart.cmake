@@ -1,5 +1,5 @@
 # friction, and surface contact once the block slides
-keyblock_restart(sliding_block tutorial/sliding_block)
+keyblock_restart(sliding_block tutorial/sliding_block ARGUMENTS --breaks 2)
 keyblock_restart(sliding_block_2 tutorial/sliding_block SLOW RANKS 2
   ARGUMENTS --ranks 2)
 keyblock_restart(sliding_block_stopped tutorial/sliding_block

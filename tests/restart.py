@@ -4,7 +4,7 @@
 usage: restart.py KEYBLOCK SCENE FOLDER [options]
 
   --breaks N       how many runs that had saved themselves are broken off, at
-                   random moments (2)
+                   random moments (1)
   --by HOW         kill: SIGKILL; stop: SIGTERM, or SIGUSR1 on several ranks,
                    after which the exit code must be 143 or 138; full: no room
                    for files (kill)
@@ -14,9 +14,9 @@ usage: restart.py KEYBLOCK SCENE FOLDER [options]
                    number or 1; 0: equal bytes (0)
   --set A=B        as for keyblock
 
-All runs but the first, uninterrupted one save themselves every 20 ms. What was
-broken off must have been resumed, from its checkpoint. At last a run goes on
-from the last checkpoint of one that ended.
+All runs but the first, uninterrupted one save themselves some twenty times, but
+not oftener than every 20 ms. What was broken off must have been resumed, from its
+checkpoint. At last a run goes on from the last checkpoint of one that ended.
 """
 import argparse
 import csv
@@ -36,7 +36,7 @@ parser = argparse.ArgumentParser()
 parser.add_argument("keyblock")
 parser.add_argument("scene")
 parser.add_argument("folder")
-parser.add_argument("--breaks", type=int, default=2)
+parser.add_argument("--breaks", type=int, default=1)
 parser.add_argument("--by", choices=["kill", "stop", "full"], default="kill")
 parser.add_argument("--ranks", type=int, nargs="+", default=[1])
 parser.add_argument("--tolerance", type=float, default=0.)
@@ -232,6 +232,7 @@ reference = options.folder + "_reference"
 expect(run(command_of(reference, options.ranks[0], 0, [])), 0)
 # of the run itself, without what the program takes to start and to end
 duration = schema.read(reference + "/summary.json")["run"]["wall_time"]
+interval = max(0.02, duration / 20.)
 
 broken, resumed, n_runs, largest = 0, 0, 0, 0.
 while broken < options.breaks:
@@ -245,7 +246,7 @@ while broken < options.breaks:
         restart = ["--restart", checkpoint] if os.path.exists(checkpoint) else []
         ranks = options.ranks[turn % len(options.ranks)]
         turn += 1
-        command = command_of(folder, ranks, 0.02, restart)
+        command = command_of(folder, ranks, interval, restart)
         begin = time.time()
         process = subprocess.Popen(command, stdout=subprocess.PIPE,
                                    stderr=subprocess.STDOUT, text=True)
@@ -277,7 +278,8 @@ while broken < options.breaks:
 
 # nothing is left to be done after the last checkpoint of a run
 ended, at_end = options.folder + "_ended", options.folder + "_at_end"
-expect(run(command_of(ended, options.ranks[0], 1e-6, [])), 0)
+expect(run(command_of(ended, options.ranks[0], 1e-6,
+                      ["--restart", checkpoint])), 0)
 done = run(command_of(at_end, options.ranks[-1], 0,
                       ["--restart", ended + "/checkpoint.h5"]))
 expect(done, 0, "Resumed ")
