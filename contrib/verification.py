@@ -101,7 +101,7 @@ def read_tests():
         scene, *words = split_words(call)
         options, option = {}, None
         for word in words:
-            if word in ("RANKS", "REFERENCES", "SET", "SLOW"):
+            if word in ("ALIKE", "RANKS", "REFERENCES", "SET", "SLOW"):
                 option = word
                 options[option] = []
             else:
