@@ -74,7 +74,10 @@ namespace Keyblock
             break;
           border[1] = std::max(begin, bolt.pieces[k].begin);
         }
-      if (border[0] == end && border[1] == begin)
+      bool is_whole = block_of(first).has_value();
+      for (unsigned int k = first + 1; k <= last; ++k)
+        is_whole = is_whole && block_of(k) == block_of(first);
+      if (is_whole)
         border.fill(0.5 * (begin + end));
       return border;
     }

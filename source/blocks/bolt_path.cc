@@ -15,8 +15,9 @@ namespace Keyblock
 
     /** Segments then at the head and where blocks part, over the length in
      * which the force of elastic grout dies away (the stiffness there is wrong
-     * by an eighth of the square), and how fast they grow from there [-]. */
-    constexpr double finest_segment = 0.3, growth = 0.3;
+     * by an eighth of the square, where a node lies on a joint by a third), and
+     * how fast they grow from there [-]. */
+    constexpr double finest_segment = 0.2, growth = 0.3;
 
     /** Shortest segment then, over the length of the bolt [-]. */
     constexpr double least_segment = 1e-3;
@@ -59,6 +60,7 @@ namespace Keyblock
       std::vector<double> places;
       for (unsigned int i = 0; i <= n; ++i)
         places.push_back(length * i / n);
+      places.back() = length;
       return places;
     }
 

@@ -22,24 +22,44 @@ namespace Keyblock
 
   template <int dim>
   std::vector<std::string>
-  warnings_of_coarse_bolts(const Scene<dim> &scene)
+  warnings_of_coarse_bolts(const Scene<dim> &scene, const SplitMesh<dim> &split)
   {
+    // longest way from a joint to the next node, over the decay length
+    std::vector<double> farthest(scene.bolts.size(), 0.);
+    for (const Bolt<dim> &bolt : split.bolts)
+      for (const BoltCrossing<dim> &crossing : bolt.crossings)
+        {
+          const auto next         = std::upper_bound(bolt.places.begin(),
+                                             bolt.places.end() - 1,
+                                             crossing.begin);
+          const BoltSet<dim> &set = *scene.bolts[bolt.set];
+          if (*next <= set.free_length)
+            continue;
+          const double way =
+            std::max(crossing.begin - *(next - 1), *next - crossing.begin);
+          farthest[bolt.set] =
+            std::max(farthest[bolt.set], way / decay_length(set));
+        }
     // sets with the same text, by that
     std::map<std::string, std::string> names;
-    for (const auto &set : scene.bolts)
+    for (unsigned int s = 0; s < scene.bolts.size(); ++s)
       {
-        const double decay = decay_length(*set);
-        // of grout in points in the middle between which a joint is, over exact
-        const double ratio =
-          1. / std::hypot(1., 0.5 * set->segment_length / decay);
+        const BoltSet<dim> &set = *scene.bolts[s];
+        const double decay      = decay_length(set);
+        if (set.segment_length == 0. || !std::isfinite(decay))
+          continue;
+        // of a long bar in points of grout over exact, if it begins to be held
+        // a way before the first of them
+        const double regular = std::hypot(1., 0.5 * set.segment_length / decay),
+                     ratio = 1. / (farthest[s] + 1. / (farthest[s] + regular));
         if (ratio >= 1. - acceptable_lack)
           continue;
         std::string &list = names
-          [text_of(set->segment_length) +
+          [text_of(set.segment_length) +
            " m, while the force of a bolt dies away in their grout within " +
            text_of(decay, 3) + " m: until it slips, they are up to " +
            text_of(100. * (1. - ratio), 2)];
-        list += (list.empty() ? "" : ", ") + set->name;
+        list += (list.empty() ? "" : ", ") + set.name;
       }
     std::vector<std::string> warnings;
     for (const auto &[text, list] : names)
@@ -204,7 +224,7 @@ namespace Keyblock
 
 #define INSTANTIATE(dim)                                                       \
   template std::vector<std::string> warnings_of_coarse_bolts(                  \
-    const Scene<dim> &);                                                       \
+    const Scene<dim> &, const SplitMesh<dim> &);                               \
   template std::vector<std::string> warnings_of_brittle_bolts(                 \
     const Scene<dim> &, const SplitMesh<dim> &);                               \
   template std::vector<std::string> warnings_of_idle_bolts(                    \

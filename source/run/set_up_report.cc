@@ -228,7 +228,7 @@ namespace Keyblock
             model.communicator, model.scene, model.split, model.cells),
           warnings_of_short_waves(model.scene, model.split),
           warnings_of_free_fields(model.scene, model.split.mesh),
-          warnings_of_coarse_bolts(model.scene),
+          warnings_of_coarse_bolts(model.scene, model.split),
           warnings_of_brittle_bolts(model.scene, model.split),
           warnings_of_cut_bolts(model.scene, model.split),
           warnings_of_idle_bolts(model.scene, model.split),

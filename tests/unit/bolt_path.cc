@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(bolt_is_stiff_where_blocks_part)
           const double force = chain.axial_force_of(chain.segment_at(joint));
           BOOST_TEST(std::abs(force / exact - 1.) < 0.015);
           BOOST_TEST(bolt.places.size() < 200u);
-          BOOST_TEST(warnings_of_coarse_bolts(scene).empty());
+          BOOST_TEST(warnings_of_coarse_bolts(scene, split).empty());
         });
     }
 }
@@ -187,6 +187,43 @@ BOOST_AUTO_TEST_CASE(bolt_grout_ends_at_joints)
                                       << length[l]);
         });
     }
+}
+
+// All of a bolt's length is that of the grout of one node, however it is
+// divided.
+BOOST_AUTO_TEST_CASE(bolt_grout_is_as_long_as_the_bolt)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(0., 1.);
+  std::string heads, ends;
+  for (unsigned int i = 0; i < 60; ++i)
+    {
+      const std::string separator = i == 0 ? "" : "; ";
+      heads += separator + std::to_string(3.5 + 3. * any(random)) + ", 7";
+      ends += separator + std::to_string(3.5 + 3. * any(random)) + ", " +
+              std::to_string(7.2 + 2.5 * any(random));
+    }
+  const std::string place =
+    "  set Heads = " + heads + "\n  set Ends = " + ends + "\n";
+  for (const std::string segment : {"0", "0.05", "0.27", "0.1", "0.031"})
+    with_bolts<2>(
+      place + "  set Segment length = " + segment + "\n",
+      "",
+      [&](const std::vector<Bolt<2>> &bolts,
+          const SplitMesh<2> &split,
+          const Scene<2> &scene) {
+        BOOST_REQUIRE(bolts.size() == 60u);
+        for (const Bolt<2> &bolt : bolts)
+          {
+            const BoltRemains remains =
+              find_remains(bolt,
+                           Ground<2>{scene, split, scene.stage_number("dig")});
+            double length = 0.;
+            for (const auto &grout : remains.grout)
+              length += grout[1] - grout[0];
+            BOOST_TEST(std::abs(length / bolt.length() - 1.) < 1e-12);
+          }
+      });
 }
 
 // and with the rock that is dug later

@@ -12,7 +12,9 @@ namespace Keyblock
   /** Sets of bolts whose segments are too long for their grout, as sentences.
    */
   template <int dim>
-  std::vector<std::string> warnings_of_coarse_bolts(const Scene<dim> &scene);
+  std::vector<std::string>
+  warnings_of_coarse_bolts(const Scene<dim> &scene,
+                           const SplitMesh<dim> &split);
 
   /** Sets of bolts that break at an opening which their segments decide on, as
    * sentences. */
