@@ -81,6 +81,17 @@ namespace Keyblock
                   "' has " + std::to_string(table.header.fields.size()) +
                   " columns; it needs " + std::to_string(n_components + 1) +
                   ": the time and one for each axis."));
+    const auto is_number = [&](const std::string &field) {
+      double value = 0.;
+      return read_number(field, table.has_decimal_comma(), value);
+    };
+    AssertThrow(!std::all_of(table.header.fields.begin(),
+                             table.header.fields.end(),
+                             is_number),
+                InputError("The history '" + file_name + "' of the entry '" +
+                           entry +
+                           "' begins with numbers; give it a first line with "
+                           "names of its columns, as time,x,y."));
     AssertThrow(table.rows.size() >= 2,
                 InputError("The history '" + file_name + "' of the entry '" +
                            entry + "' has " +

@@ -287,8 +287,10 @@ namespace Keyblock
         for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
           {
             const unsigned int other = mesh.neighbor[c][f];
-            // cells that are gone from the start are none of the mesh
-            const bool is_bare = other == none && mesh.boundary[c][f] == none;
+            // cells that are gone from the start are none of the mesh; nor are
+            // they beyond a joint
+            const bool is_bare = other == none && mesh.boundary[c][f] == none &&
+                                 mesh.joint[c][f] == none;
             if (mesh.excavation[c] != none ||
                 (!is_bare && (other == none || mesh.excavation[other] == none)))
               continue;

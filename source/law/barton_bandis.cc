@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/angle.h>
 #include <keyblock/base/errors.h>
+#include <keyblock/base/number_text.h>
 #include <keyblock/law/barton_bandis.h>
 #include <keyblock/law/slip_weakening.h>
 
@@ -17,6 +18,9 @@ namespace Keyblock
     /** Length of the samples that JRC and JCS are given for [m]. */
     constexpr double sample_length = 0.1;
 
+    /** Weaker walls than of any rock are given in another unit [Pa]. */
+    constexpr double least_wall_strength = 1e4;
+
     class BartonBandis : public JointLaw
     {
     public:
@@ -28,7 +32,7 @@ namespace Keyblock
         const double length = entries.value_of("Joint length");
         if (length > 0.)
           {
-            const double ratio = length / sample_length;
+            const double ratio = std::max(1., length / sample_length);
             wall_strength *= std::pow(ratio, -0.03 * roughness);
             roughness *= std::pow(ratio, -0.02 * roughness);
           }
@@ -73,6 +77,11 @@ namespace Keyblock
               "JCS",
               "is 0; the law barton-bandis needs the compressive strength of "
               "the joint's walls in pascals.");
+      require(entries.value_of("JCS") >= least_wall_strength,
+              "JCS",
+              "is " + text_of(entries.value_of("JCS")) +
+                " Pa, which no rock is as weak as; give it in pascals, 50 MPa "
+                "as 50e6.");
       require(entries.value_of("JRC") >= 0.,
               "JRC",
               "is not given; the law barton-bandis needs the roughness "
@@ -125,7 +134,7 @@ namespace Keyblock
               "m",
               "Length of the joint between others [m], for the law "
               "barton-bandis: JRC and JCS, measured on 0.1 m, are scaled to "
-              "it; 0: they are those of the joint."}},
+              "it if it is longer; 0: they are those of the joint."}},
             make_barton_bandis};
   }
 } // namespace Keyblock

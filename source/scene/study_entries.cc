@@ -163,6 +163,14 @@ namespace Keyblock
         return try_value(path, value) == Answer::taken;
       }
 
+      /** Whether it takes any number. */
+      bool
+      takes_numbers(const Path &path)
+      {
+        return takes(path, 0.) || takes(path, 0.5) || takes(path, 1.) ||
+               takes(path, 1e3);
+      }
+
     private:
       /** No name that a file can give. */
       static constexpr const char *any_joint = "any/joint";
@@ -231,6 +239,11 @@ namespace Keyblock
                   variable->entry +
                   "', but the scene has no such entry; entries are listed in "
                   "doc/parameters.md (or by --print-parameters).");
+        require(entries.takes_numbers(paths.back()),
+                "The entry 'Study/" + variable->name + "/Entry' is '" +
+                  variable->entry +
+                  "', which takes no single number, but a list of them or a "
+                  "word; a study varies entries of one number.");
       }
     for (unsigned int b = 1; b < paths.size(); ++b)
       for (unsigned int a = 0; a < b; ++a)

@@ -416,6 +416,29 @@ BOOST_AUTO_TEST_CASE(cylinder_from_step)
 
 
 
+// flat faces lose nothing, whatever joints pass close to them
+BOOST_AUTO_TEST_CASE(joint_beside_a_solid_is_no_chord)
+{
+  if (world.is_root())
+    std::ofstream("angle.stl") << ascii_stl(make_angle());
+  for (const std::string normal : {"0.3, 0.2, 1", "1, 0.4, 0.2", "0.5, 1, 0.4"})
+    {
+      const auto scene            = read_scene(scene_of_cylinder,
+                                    {"Excavations/tunnel/File=angle.stl",
+                                                "Excavations/tunnel/Scale=4",
+                                                "Joints/Names=near",
+                                                "Joints/near/Point=4.2, 4.2, 8.3",
+                                                "Joints/near/Normal=" + normal});
+      const BlockGeometry<3> made = make_block_geometry(world, *scene, silent);
+      for (const std::string &warning :
+           warnings_of_coarse_mesh(*scene, made.split, made.blocks))
+        BOOST_TEST(warning.find("leave the surface") == std::string::npos,
+                   warning);
+    }
+}
+
+
+
 // a closed surface inside another is told of, one beside it is none
 BOOST_AUTO_TEST_CASE(nested_solids_are_named)
 {
