@@ -115,6 +115,11 @@ def main():
     one = done("--factors", kept, "--output", FOLDER / "named",
                settings=FINE + ["Safety factor/Stages=dig"])
     assert factors_of(one) == wanted and len(one["stages"]) == 2
+    # without a trial
+    static = done("--factors", kept, "--output", FOLDER / "static",
+                  settings=FINE + ["Safety factor/Method=limit equilibrium"])
+    assert any("limit_equilibrium" in block for block in static["blocks"])
+    assert not factors_of(static)
     after = {path.name: path.read_bytes() for path in kept.iterdir()}
     assert after == before, "the run's own files have changed"
     if int(RANKS) == 1:

@@ -45,8 +45,9 @@ namespace Keyblock
                     const Scene<dim> &scene)
   {
     out << "Blocks\n  id  class      removable  "
-        << (dim == 2 ? "area [m2]  " : "volume [m3]")
-        << "   weight [kN]  centroid [m]                 joints\n";
+        << (dim == 2 ? "area [m2]   weight [kN/m]"
+                     : "volume [m3]   weight [kN]")
+        << "  centroid [m]                 joints\n";
     const double weight = weight_per_mass(scene);
     for (const auto &block : blocks.blocks)
       {

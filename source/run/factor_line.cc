@@ -4,6 +4,7 @@
 #include <keyblock/run/safety_study.h>
 #include <keyblock/safety/block_statics.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 
@@ -23,6 +24,54 @@ namespace Keyblock
            << factor.value_of_group() << " [" << factor.group_lower << ", "
            << factor.group_upper << "]";
       return text.str();
+    }
+
+
+
+    /** Whether friction of a joint falls where it has slipped. */
+    template <int dim>
+    bool
+    has_kinetic_friction(const Scene<dim> &scene)
+    {
+      return std::any_of(scene.joints.begin(),
+                         scene.joints.end(),
+                         [](const auto &joint) {
+                           return joint->kinetic_friction_angle >= 0. &&
+                                  joint->kinetic_friction_angle <
+                                    joint->friction_angle;
+                         });
+    }
+
+
+
+    /** Why strength reduction differs from limit equilibrium, where that is
+     * known and not a matter of the bracket; else empty. */
+    template <int dim>
+    std::string
+    explain_difference(const SafetyFactor &factor, const Scene<dim> &scene)
+    {
+      constexpr double more = 1.005, less = 0.98;
+      const double limit = factor.limit_factor;
+      if (factor.outcome != SafetyFactor::Outcome::bracketed ||
+          !std::isfinite(limit) || !(limit > 0.))
+        return "";
+      const bool is_on_two_planes =
+        dim == 3 && factor.limit_mode.find('/') != std::string::npos;
+      if (factor.lower > more * limit && is_on_two_planes &&
+          !has_initial_stress(scene) && scene.bolts.empty() &&
+          scene.liners.empty())
+        return "; shear across its way helps to hold the wedge, limit "
+               "equilibrium is on the safe side";
+      if (factor.upper >= less * limit)
+        return "";
+      if (has_kinetic_friction(scene))
+        return "; less than limit equilibrium, as friction falls to its "
+               "kinetic value where points slip";
+      if (has_initial_stress(scene))
+        return "; less than limit equilibrium, as stress in the rock pushes, "
+               "too: that it begins to move counts, though it may come to "
+               "rest";
+      return "";
     }
 
 
@@ -95,7 +144,14 @@ namespace Keyblock
     for (const Trial &trial : factor.trials)
       if (trial.is_stable && !trial.is_of_group && trial.factor == factor.lower)
         last = trial;
-    if (last.n_broken > 0)
+    // a bond that keeps its cohesion has lost no more than its tensile strength
+    const bool bears_tension =
+      std::any_of(scene.joints.begin(),
+                  scene.joints.end(),
+                  [](const auto &joint) {
+                    return joint->tensile_strength > 0.;
+                  });
+    if (last.n_broken > 0 && (bears_tension || last.weakened_area > 0.))
       out << "; " << last.n_broken << " bonds broke in the last that held";
     if (last.weakened_area > 0.)
       out << "; cohesion lost on " << last.weakened_area
@@ -103,6 +159,7 @@ namespace Keyblock
           << (std::isfinite(factor.limit_factor)
                 ? ", counted by limit equilibrium"
                 : "");
+    out << explain_difference(factor, scene);
     if (is_too_coarse(block, scene))
       out << "; only " << std::setprecision(2) << block.cells_across()
           << " cells across, not " << scene.meshing.cells_across;

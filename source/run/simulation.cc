@@ -11,6 +11,23 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Limit equilibrium alone leaves no states; --factors reads them. */
+    template <int dim>
+    void
+    check_kept_stages(const Scene<dim> &scene)
+    {
+      AssertThrow(!scene.safety.is_by_statics() || !scene.output.keeps_stages,
+                  InputError("The entry 'Safety factor/Method' is limit "
+                             "equilibrium, but 'Output/Keep stages' is true, "
+                             "where no stage comes to rest; set one of them "
+                             "otherwise."));
+    }
+  } // namespace
+
+
+
   template <int dim>
   Simulation<dim>::Simulation(const Communicator &communicator,
                               const std::string &scene_file,
@@ -88,6 +105,7 @@ namespace Keyblock
   void
   Simulation<dim>::validate()
   {
+    check_kept_stages(model.scene);
     model.make_geometry();
     set_up();
     if (model.out.is_active())
@@ -181,6 +199,7 @@ namespace Keyblock
                            "equilibrium, with which nothing is stepped that "
                            "--restart could go on with; leave --restart "
                            "out."));
+    check_kept_stages(model.scene);
     if (is_by_statics)
       model.scene.output.checkpoint_interval = 0.;
     groups = std::make_unique<RankGroups>(model.communicator,

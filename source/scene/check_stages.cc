@@ -279,10 +279,6 @@ namespace Keyblock
             "The entry 'Safety factor/" +
               std::string(safety.is_by_statics() ? "Method" : "Blocks") +
               "' needs contact; set 'Contact/Method' to exact.");
-    require(!safety.is_by_statics() || !scene.output.keeps_stages,
-            "The entry 'Safety factor/Method' is limit equilibrium, but "
-            "'Output/Keep stages' is true, where no stage comes to rest; set "
-            "one of them otherwise.");
     require(!safety.is_by_statics() ||
               scene.checks.closed_form == ClosedForm::none,
             "The entry 'Safety factor/Method' is limit equilibrium, with which "
