@@ -210,6 +210,13 @@ def main():
         if abs(float(values[3]) / factor - 1) > 1e-6:
             faults.append(f"row '{row}' is not tan(phi) / tan(28)")
             break
+    # what limit equilibrium does not take is told of
+    warnings = study(keyblock, scene, folder / "idle", "Study/Samples=4",
+                     "Study/friction/Entry=Materials/rock/Young modulus",
+                     "Study/friction/Mean=20e6",
+                     "Study/friction/Deviation=1e6")[1]["warnings"]
+    if not any("'friction' changes nothing" in text for text in warnings):
+        faults.append(f"no warning of stiffness: {warnings}")
     # the weaker of two joints at one place rules, whichever that is in a sample
     drawn = study(keyblock, scene, folder / "shared", "Study/Samples=8",
                   "Joints/Names=base, again", "Joints/again/Point=0, 0",

@@ -172,6 +172,31 @@ namespace Keyblock
 
 
 
+    /** That sliding on a joint gains more energy by opening it than friction
+     * takes, or empty. */
+    template <int dim>
+    std::string
+    warning_of_steep_dilation(const Scene<dim> &scene)
+    {
+      for (const auto &joint : scene.joints)
+        {
+          const double dilation = joint->value_of("Dilation angle"),
+                       friction = joint->kinetic_friction_angle >= 0.
+                                    ? joint->kinetic_friction_angle
+                                    : joint->friction_angle;
+          if (dilation > friction)
+            return "The joint '" + joint->name +
+                   "' has a 'Dilation angle' of " + text_of(dilation) +
+                   " degrees, above its friction angle of " +
+                   text_of(friction) +
+                   ": sliding opens it at a gain of energy; lower the one or "
+                   "raise the other.";
+        }
+      return "";
+    }
+
+
+
     /** Whether rock that yields lies on a boundary that a support names. */
     template <int dim>
     bool
@@ -220,7 +245,8 @@ namespace Keyblock
             model.communicator, model.scene, model.split, model.cells),
           warning_of_welded_joints(model.scene, model.split, model.mesh_report),
           warning_of_compliant_joints(model.scene),
-          warning_of_dilation(model.scene)})
+          warning_of_dilation(model.scene),
+          warning_of_steep_dilation(model.scene)})
       if (!warning.empty())
         warnings.push_back(warning);
     for (const std::vector<std::string> &more :

@@ -2,6 +2,9 @@
 #include <keyblock/blocks/block_measures.h>
 #include <keyblock/mesh/size_remedy.h>
 #include <keyblock/run/study_report.h>
+#include <keyblock/scene/study_entries.h>
+
+#include <boost/algorithm/string/join.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -185,20 +188,30 @@ namespace Keyblock
   std::vector<std::string>
   StudyReport<dim>::warnings() const
   {
-    const auto n = std::count_if(results.begin(),
+    const auto n                 = std::count_if(results.begin(),
                                  results.end(),
                                  [](const SampleResult &result) {
                                    return result.is_coarse;
                                  });
+    std::vector<std::string> all = mesh_warnings;
+    const auto idle              = list_variables_of_stress(scene);
+    if (scene.study.level == StudyLevel::rigid && !idle.empty())
+      all.push_back(
+        "Limit equilibrium takes neither stress nor stiffness of the "
+        "rock: '" +
+        boost::join(idle, "', '") +
+        "' changes nothing, and its rank correlation is chance; "
+        "set 'Study/Level' to full.");
     if (!mesh_warnings.empty() || n == 0)
-      return mesh_warnings;
-    return {"In " + std::to_string(n) + " of " +
-            std::to_string(results.size()) +
-            " samples the mesh has moved faces of blocks off their joints by "
-            "more than half a cell, or changed volumes by more than 5 %; limit "
-            "equilibrium takes faces as plane and, where they are known, exact "
-            "volumes; " +
-            remedy_of_coarse_cells(scene.meshing) + "."};
+      return all;
+    all.push_back(
+      "In " + std::to_string(n) + " of " + std::to_string(results.size()) +
+      " samples the mesh has moved faces of blocks off their joints by "
+      "more than half a cell, or changed volumes by more than 5 %; limit "
+      "equilibrium takes faces as plane and, where they are known, exact "
+      "volumes; " +
+      remedy_of_coarse_cells(scene.meshing) + ".");
+    return all;
   }
 
 

@@ -286,6 +286,33 @@ namespace Keyblock
       }
   }
 
+  template <int dim>
+  std::vector<std::string>
+  list_variables_of_stress(const Scene<dim> &scene)
+  {
+    const std::vector<Path> idle = {{"Ground", "K0"},
+                                    {"Ground", "Azimuth"},
+                                    {"Initial state",
+                                     "Vertical stress gradient"},
+                                    {"Initial state", "Surface stress"},
+                                    {"Initial state", "Lateral ratios"},
+                                    {"Initial state", "Lateral azimuth"},
+                                    {"Materials", "Young modulus"},
+                                    {"Materials", "Poisson ratio"}};
+    std::vector<std::string> names;
+    for (const auto &variable : scene.study_variables)
+      {
+        const Path path = path_of(*variable);
+        if (std::count(idle.begin(),
+                       idle.end(),
+                       Path{path.front(), path.back()}) > 0)
+          names.push_back(variable->name);
+      }
+    return names;
+  }
+
+  template std::vector<std::string> list_variables_of_stress(const Scene<2> &);
+  template std::vector<std::string> list_variables_of_stress(const Scene<3> &);
   template void check_study_entries(const Scene<2> &);
   template void check_study_entries(const Scene<3> &);
   template void check_study_values(const Scene<2> &,

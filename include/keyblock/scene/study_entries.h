@@ -19,6 +19,11 @@ namespace Keyblock
   template <int dim>
   void check_study_values(const Scene<dim> &scene,
                           const std::vector<std::vector<double>> &values);
+
+  /** Names of the variables that set what limit equilibrium does not take, as
+   * in-situ stress and stiffness. */
+  template <int dim>
+  std::vector<std::string> list_variables_of_stress(const Scene<dim> &scene);
 } // namespace Keyblock
 
 #endif
