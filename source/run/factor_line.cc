@@ -3,6 +3,7 @@
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/run/safety_study.h>
 #include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/kinetic_friction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,22 +25,6 @@ namespace Keyblock
            << factor.value_of_group() << " [" << factor.group_lower << ", "
            << factor.group_upper << "]";
       return text.str();
-    }
-
-
-
-    /** Whether friction of a joint falls where it has slipped. */
-    template <int dim>
-    bool
-    has_kinetic_friction(const Scene<dim> &scene)
-    {
-      return std::any_of(scene.joints.begin(),
-                         scene.joints.end(),
-                         [](const auto &joint) {
-                           return joint->kinetic_friction_angle >= 0. &&
-                                  joint->kinetic_friction_angle <
-                                    joint->friction_angle;
-                         });
     }
 
 
@@ -67,11 +52,21 @@ namespace Keyblock
       if (has_kinetic_friction(scene))
         return "; less than limit equilibrium, as friction falls to its "
                "kinetic value where points slip";
-      if (has_initial_stress(scene))
-        return "; less than limit equilibrium, as stress in the rock pushes, "
-               "too: that it begins to move counts, though it may come to "
-               "rest";
-      return "";
+      if (!has_initial_stress(scene))
+        return "";
+      std::ostringstream text;
+      text << "; less than limit equilibrium, as stress in the rock pushes, "
+              "too: ";
+      double lost = 0.; // by the trial that failed
+      for (const Trial &trial : factor.trials)
+        if (!trial.is_of_group && trial.factor == factor.upper)
+          lost = trial.weakened_area;
+      if (lost > 0.)
+        text << "it moves until cohesion is lost on " << std::setprecision(5)
+             << lost << (dim == 2 ? " m" : " m2");
+      else
+        text << "that it begins to move counts, though it may come to rest";
+      return text.str();
     }
 
 

@@ -14,7 +14,8 @@ namespace Keyblock
 {
   namespace
   {
-    /** Say on how much of the faces cohesion counts which the run has lost.
+    /** Say on how much of the faces cohesion counts which the run has lost,
+     * and the factor with what is left at least.
      * @param area ContactReport::weakened_area() */
     template <int dim>
     void
@@ -22,17 +23,29 @@ namespace Keyblock
                             const std::vector<double> &area,
                             BlockStatics<dim> &statics)
     {
+      BlockSurroundings<dim> weakened = statics.around;
+      std::ostringstream text;
+      text << std::setprecision(4);
       for (const unsigned int i : statics.limit.faces)
         for (unsigned int j = 0; j < area.size(); ++j)
           if (area[j] > 0. &&
               scene.joints[j]->name == statics.around.faces[i].name)
             {
-              std::ostringstream text;
-              text << "cohesion of " << scene.joints[j]->name << " counted on "
-                   << std::setprecision(4) << area[j]
-                   << (dim == 2 ? " m" : " m2") << " that have lost it";
-              statics.remarks.push_back(text.str());
+              text << (text.tellp() > 0 ? ", " : "") << "cohesion of "
+                   << scene.joints[j]->name << " counted on " << area[j]
+                   << (dim == 2 ? " m" : " m2");
+              BlockFace<dim> &face = weakened.faces[i];
+              face.cohesion *= std::max(0., 1. - area[j] / face.area);
             }
+      if (text.tellp() == 0)
+        return;
+      const bool is_passive =
+        scene.safety.bolt_convention == BoltConvention::passive;
+      text
+        << " that have lost it; "
+        << find_motion<dim>(weakened, statics.support, is_passive).limit.factor
+        << " without that";
+      statics.remarks.push_back(text.str());
     }
   } // namespace
 

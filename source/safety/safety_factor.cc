@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The search for the factor between holding and failing.
+#include <keyblock/safety/block_statics.h>
 #include <keyblock/safety/factor_bracket.h>
+#include <keyblock/safety/kinetic_friction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +18,17 @@ namespace Keyblock
     held_so_far(const SafetyFactor &result)
     {
       return result.group.empty() ? result.lower : result.group_lower;
+    }
+
+
+
+    /** Whether limit equilibrium knows all that acts on blocks. */
+    template <int dim>
+    bool
+    is_known_to_statics(const Scene<dim> &scene)
+    {
+      return !has_initial_stress(scene) && !has_kinetic_friction(scene) &&
+             scene.bolts.empty() && scene.liners.empty();
     }
   } // namespace
 
@@ -47,7 +60,11 @@ namespace Keyblock
     result.block = block;
     add_cheap_answers(block, result);
     trials.failure.forget();
-    TriedBlocks tried{block, {}, false};
+    TriedBlocks tried;
+    tried.block = block;
+    if (result.limit_moves && std::isfinite(result.limit_factor) &&
+        is_known_to_statics(scene))
+      tried.limit = result.limit_factor;
     {
       Search search(*this, tried, number, known, result.trials);
       result.outcome = scene.safety.method == FactorSearch::sweep

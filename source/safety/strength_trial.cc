@@ -32,11 +32,6 @@ namespace Keyblock
     /** Swings of a block on soft support in which it may come to rest. */
     constexpr double n_swings = 20.;
 
-    /** Length of the second phase, at most, in periods of the block's lowest
-     * mode, the first time and so much longer each time after it: what is open
-     * then goes back to the first one, which damps [-]. */
-    constexpr double watch_periods = 20.;
-
     /** Resultant over the load of a group of blocks that fails at once; a
      * smaller one may be that of rock which still relaxes, and is damped once
      * more before a motion counts as failure. A block by itself fails at the
@@ -105,6 +100,20 @@ namespace Keyblock
 
 
   template <int dim>
+  Stage
+  StrengthTrials<dim>::moving_stage() const
+  {
+    Stage moving;
+    moving.damping_ratio = scene.safety.damping_ratio;
+    moving.reset_motion  = true;
+    if (!scene.safety.true_masses)
+      moving.kind = StageKind::quasi_static;
+    return moving;
+  }
+
+
+
+  template <int dim>
   void
   StrengthTrials<dim>::step_damped_until(const unsigned int last,
                                          const unsigned int block,
@@ -131,18 +140,21 @@ namespace Keyblock
 
   template <int dim>
   void
-  StrengthTrials<dim>::change_strength(const TriedBlocks &tried, Trial &trial)
+  StrengthTrials<dim>::change_strength(const TriedBlocks &tried,
+                                       const double from,
+                                       const double to,
+                                       Trial &trial)
   {
     // along half a cosine
     const unsigned int ramp = ramp_periods * measures.period(tried.block);
-    for (; trial.n_steps < ramp; ++trial.n_steps)
+    for (unsigned int step = 1; step <= ramp; ++step)
       {
         const double s =
-          0.5 *
-          (1. - std::cos(dealii::numbers::PI * (trial.n_steps + 1.) / ramp));
-        reduce(tried, trial.start * std::pow(trial.factor / trial.start, s));
+          0.5 * (1. - std::cos(dealii::numbers::PI * step / ramp));
+        reduce(tried, from * std::pow(to / from, s));
         run.step.advance(false);
       }
+    trial.n_steps += ramp;
   }
 
 
@@ -227,18 +239,14 @@ namespace Keyblock
   typename StrengthTrials<dim>::Verdict
   StrengthTrials<dim>::decide(const TriedBlocks &tried,
                               const unsigned int number,
+                              const double from,
                               const Vector<dim> &first,
                               Trial &trial)
   {
-    const Stage quiet = quiet_stage(tried.block);
-    Stage moving;
-    moving.damping_ratio = scene.safety.damping_ratio;
-    moving.reset_motion  = true;
-    if (!scene.safety.true_masses)
-      moving.kind = StageKind::quasi_static;
-
+    const Stage quiet  = quiet_stage(tried.block);
+    const Stage moving = moving_stage();
     run.step.begin_stage(quiet, number);
-    change_strength(tried, trial);
+    change_strength(tried, from, trial.factor, trial);
     unsigned int n_failures = 0;
     for (unsigned int round = 0; round < n_rounds; ++round)
       {
@@ -283,9 +291,11 @@ namespace Keyblock
     const double true_mass = measures.mass_in_use(tried.block);
     const MeasuredSteps<dim> guard(run.step);
     const unsigned int n_bonds = measures.n_intact(tried.block);
-    const Verdict verdict      = decide(tried, number, first, trial);
-    trial.is_stable            = verdict == Verdict::holds;
-    trial.is_undecided         = verdict == Verdict::open;
+    Verdict verdict            = decide(tried, number, start, first, trial);
+    if (verdict == Verdict::holds && tried.is_above_limit(factor))
+      verdict = decide_as_it_slides(tried, number, first, trial);
+    trial.is_stable    = verdict == Verdict::holds;
+    trial.is_undecided = verdict == Verdict::open;
     trial.n_broken =
       n_bonds - std::min(n_bonds, measures.n_intact(tried.block));
     const std::vector<double> weakened =

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/law/joint_stiffness.h>
 #include <keyblock/rock/nodal_force.h>
 #include <keyblock/safety/block_stiffness.h>
 #include <keyblock/safety/trial_measures.h>
@@ -269,6 +270,35 @@ namespace Keyblock
                             [](const Material<dim> &material) {
                               return material.p_wave_speed();
                             });
+  }
+
+
+
+  template <int dim>
+  double
+  TrialMeasures<dim>::normal_force(const unsigned int block) const
+  {
+    double sum = 0.;
+    for (const JointSums<dim> &joint :
+         run.contact->report().sum_over_block(block))
+      sum += joint.normal;
+    return sum;
+  }
+
+
+
+  template <int dim>
+  double
+  TrialMeasures<dim>::elastic_slip(const unsigned int block) const
+  {
+    const std::vector<JointSums<dim>> sums =
+      run.contact->report().sum_over_block(block);
+    double slip = 0.;
+    for (const auto &[joint, area] : blocks.blocks[block].joint_area)
+      if (const JointStiffness stiffness(*scene.joints[joint]);
+          stiffness.is_compliant())
+        slip = std::max(slip, sums[joint].shear / (stiffness.shear * area));
+    return slip;
   }
 
 

@@ -101,6 +101,7 @@ namespace Keyblock
                std::min(periods, scene.safety.maximum_periods) /
                  scene.safety.window);
     const Motion at_rest = measures.motion(tried);
+    const double pressed = measures.normal_force(tried.block);
     const double mass    = measures.mass_in_use(tried.block);
     failure.begin();
     Motion before             = at_rest;
@@ -144,7 +145,8 @@ namespace Keyblock
                            velocity[w - 2] > 0.;
         const double own_way =
           norm<dim>(add<dim>(now.displacement, -1., at_rest.displacement));
-        const double squeezed = measures.compression(tried.block, now.load);
+        const double squeezed =
+          measures.compression(tried.block, std::max(now.load, pressed));
         const bool has_moved =
           slip > failure_slip * size &&
           own_way > std::max(failure_slip * size, squeezed);

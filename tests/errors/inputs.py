@@ -777,7 +777,7 @@ def lost_cohesion():
     assert math.isclose(limit["value"], (friction + 10e3) / driving, rel_tol=1e-6)
     assert math.isclose(factor["value"], (friction + 10e3 * (1. - lost)) / driving,
                         rel_tol=2e-3), (factor["value"], lost)
-    assert f"cohesion of base counted on {lost} m that have lost it" in limit["remark"]
+    assert f"cohesion of base counted on {lost} m that have lost it; " in limit["remark"]
     assert f"cohesion lost on {lost} m by the last that held, counted by limit" in text
 
 

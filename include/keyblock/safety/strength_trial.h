@@ -44,6 +44,11 @@ namespace Keyblock
    * The measures contain no damping force, so that damping cannot hold it. A
    * block that does neither after several rounds of both, as one that chatters,
    * is undecided.
+   *
+   * Shear across its way, or forces between its faces that balance each other,
+   * can hold a block, too, as long as it does not move. Where limit equilibrium
+   * knows all that acts, one that rests above its factor is made to slide a
+   * little and asked again.
    */
   template <int dim>
   class StrengthTrials
@@ -81,6 +86,11 @@ namespace Keyblock
      * not told from rest [-]. */
     static constexpr double resolution = 0.02;
 
+    /** Length of the second phase, at most, in periods of the block's lowest
+     * mode, the first time and so much longer each time after it: what is open
+     * then goes back to the first one, which damps [-]. */
+    static constexpr double watch_periods = 20.;
+
     using Motion = typename TrialMeasures<dim>::Motion;
 
     enum class Verdict
@@ -93,16 +103,38 @@ namespace Keyblock
     /** Divide the strength of the joints of the blocks by @p factor. */
     void reduce(const TriedBlocks &tried, const double factor);
 
-    /** Both phases, in turn until one decides. */
+    /** Both phases, in turn until one decides, with strength that changes from
+     * that of the factor @p from to that of the trial. */
     Verdict decide(const TriedBlocks &tried,
                    const unsigned int number,
+                   const double from,
                    const Vector<dim> &first,
                    Trial &trial);
 
     /** Settings of the first phase. */
     Stage quiet_stage(const unsigned int block) const;
 
-    void change_strength(const TriedBlocks &tried, Trial &trial);
+    /** Of the second. */
+    Stage moving_stage() const;
+
+    /** Gradually, in steps of the first phase. */
+    void change_strength(const TriedBlocks &tried,
+                         const double from,
+                         const double to,
+                         Trial &trial);
+
+    /** Of a block at rest above its limit equilibrium: makes it slide a little
+     * and asks again whether it holds. */
+    Verdict decide_as_it_slides(const TriedBlocks &tried,
+                                const unsigned int number,
+                                const Vector<dim> &first,
+                                Trial &trial);
+
+    /** Weaken the joints until the block has slipped as far as its elasticity
+     * lets it, and give them their strength back while it slides on as far
+     * again, or comes to rest: what presses on the joints and shears them then
+     * is that of sliding. False if it does not slide. */
+    bool slide_on(const TriedBlocks &tried, Trial &trial);
 
     /** Phase 1; whether the block has come to rest.
      * @param full_damping of the masses, where no slow mode shows [1/s] */

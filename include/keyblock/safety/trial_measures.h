@@ -86,6 +86,14 @@ namespace Keyblock
      * wave crosses one cell a step, and the block four times. */
     unsigned int period(const unsigned int block) const;
 
+    /** Sum of the normal forces on the block's joints, which in-situ stress may
+     * make many times its load (collective) [N]. */
+    double normal_force(const unsigned int block) const;
+
+    /** Largest slip by which the compliant ones of the block's joints bear
+     * their shear (collective) [m]. */
+    double elastic_slip(const unsigned int block) const;
+
     /** By how much @p load [N] compresses the block [m]. */
     double compression(const unsigned int block, const double load) const;
 

@@ -18,6 +18,18 @@ namespace Keyblock
      * touches: its slip is its displacement. */
     bool is_carried = false;
 
+    /** Factor by limit equilibrium, where that knows all that acts on the
+     * block; 0: where it does not. */
+    double limit = 0.;
+
+    /** Whether the block alone is tried at a @p factor at which it should slide
+     * by limit equilibrium. */
+    bool
+    is_above_limit(const double factor) const
+    {
+      return companions.empty() && limit > 0. && factor > limit;
+    }
+
     std::vector<unsigned int>
     all() const
     {
