@@ -176,15 +176,23 @@ namespace Keyblock
     if (settings.reach == 0. || settings.reduced_joints == ReducedJoints::all ||
         settings.reduces_rock)
       return false;
+    // blocks that lean on them, on these, and so on go along, and push
+    TriedBlocks row = tried;
+    for (std::vector<unsigned int> more = blocks_pressed_on(row); !more.empty();
+         more                           = blocks_pressed_on(row))
+      row = row.with(more);
+    std::vector<bool> is_in_row(blocks.blocks.size(), false);
+    for (const unsigned int b : row.all())
+      is_in_row[b] = true;
     const std::vector<unsigned int> moving = tried.all();
     std::vector<bool> is_frozen(split.mesh.n_cells());
     for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
       is_frozen[c] =
+        !is_in_row[split.block_of_cell[c]] &&
         std::none_of(moving.begin(), moving.end(), [&](const unsigned int m) {
           const Block<dim> &b = blocks.blocks[m];
-          return split.block_of_cell[c] == m ||
-                 split.mesh.cell_center(c).distance(b.centroid) <=
-                   (0.5 + settings.reach) * b.size;
+          return split.mesh.cell_center(c).distance(b.centroid) <=
+                 (0.5 + settings.reach) * b.size;
         });
     run.conditions.freeze(is_frozen);
     return true;
