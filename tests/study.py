@@ -60,6 +60,20 @@ def faults_of_runs(keyblock, scene, folder):
     return faults
 
 
+def faults_of_stages(keyblock, scene, folder):
+    """What is wrong where bolts that are there in stage rest alone hold a block."""
+    results = study(
+        keyblock, str(pathlib.Path(scene).with_name("bolted_incline.prm")),
+        folder / "stages", "Study/Names=friction", "Study/Samples=20",
+        "Study/friction/Entry=Joints/base/Friction angle",
+        "Study/friction/Mean=30", "Study/friction/Deviation=0.001")[1]
+    # of bolts of 0.1 W at 30 degrees from the normal of a plane of 40 degrees
+    exact = 0.830442
+    mean = results["least_factor"]["mean"]
+    return [] if math.isclose(mean, exact, rel_tol=1e-3) else [
+        f"a bolted block has {mean} for {exact}"]
+
+
 def faults_of_groups(keyblock, scene, folder):
     """What is wrong where two blocks fail together, one of them not critical."""
     # statics of both, as tests/scenes/factor_group.ref has it
@@ -239,6 +253,7 @@ def main():
     faults += faults_of_going_on(keyblock, scene, folder)
     faults += faults_of_joints(keyblock, folder)
     faults += faults_of_runs(keyblock, scene, folder)
+    faults += faults_of_stages(keyblock, scene, folder)
     faults += faults_of_groups(keyblock, scene, folder)
     if faults:
         sys.exit("; ".join(faults))

@@ -20,6 +20,10 @@ namespace Keyblock
      * than this, so that chords of a circle count as the circle [-]. */
     constexpr double spacing_tolerance = 1e-3;
 
+    /** Share of the area of an excavation's faces by which fewer have to face
+     * one axis than another for it to be theirs [-]. */
+    constexpr double equal_areas = 0.02;
+
     /** Where the plane of a ring cuts a face: nothing, or a piece. */
     void
     add_cut(const Mesh<3> &mesh,
@@ -170,6 +174,9 @@ namespace Keyblock
       return {index, place.point, place.point + set.length * way};
     }
 
+    /** Direction along which faces lie, as those of a tunnel, cavern or shaft:
+     * the one of the axes that fewest of them face; of several the longest
+     * side, and one that is not upright. */
     template <int dim>
     Tensor<1, dim>
     axis_of(const BoltSet<dim> &set,
@@ -181,24 +188,38 @@ namespace Keyblock
         return set.axis / set.axis.norm();
       Point<dim> low  = mesh.face_center(faces[0].cell, faces[0].face),
                  high = low;
+      Tensor<1, dim> facing; // area by the axis that it faces
+      double area = 0.;
       for (const CellFace &f : faces)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double x = mesh.face_center(f.cell, f.face)[d];
-            low[d]         = std::min(low[d], x);
-            high[d]        = std::max(high[d], x);
-          }
-      unsigned int upright = dim - 1;
+        {
+          const Tensor<1, dim> normal = mesh.face_area_vector(f.cell, f.face);
+          area += normal.norm();
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const double x = mesh.face_center(f.cell, f.face)[d];
+              low[d]         = std::min(low[d], x);
+              high[d]        = std::max(high[d], x);
+              facing[d] += std::abs(normal[d]);
+            }
+        }
+      const double least =
+        *std::min_element(facing.begin_raw(), facing.end_raw());
+      unsigned int axis    = dim;
+      const auto is_better = [&](const unsigned int d) {
+        if (axis == dim)
+          return true;
+        const bool is_upright  = std::abs(up[d]) > 0.5,
+                   was_upright = std::abs(up[axis]) > 0.5;
+        return is_upright == was_upright
+                 ? high[d] - low[d] > high[axis] - low[axis]
+                 : was_upright;
+      };
       for (unsigned int d = 0; d < dim; ++d)
-        if (std::abs(up[d]) > std::abs(up[upright]))
-          upright = d;
-      unsigned int longest = (upright + 1) % dim;
-      for (unsigned int d = 0; d < dim; ++d)
-        if (d != upright && high[d] - low[d] > high[longest] - low[longest])
-          longest = d;
-      Tensor<1, dim> axis;
-      axis[longest] = 1.;
-      return axis;
+        if (facing[d] <= least + equal_areas * area && is_better(d))
+          axis = d;
+      Tensor<1, dim> direction;
+      direction[axis] = 1.;
+      return direction;
     }
 
     template <int dim>

@@ -47,6 +47,8 @@ namespace Keyblock
     action(factor.undecided_upper);
     action(factor.group_lower);
     action(factor.group_upper);
+    action(factor.group_undecided_lower);
+    action(factor.group_undecided_upper);
     action(factor.limit_factor);
     action(factor.limit_once_gone.factor);
     action(factor.stress_ratio);

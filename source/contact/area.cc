@@ -81,7 +81,8 @@ namespace Keyblock
 
   template <int dim>
   void
-  ContactAreas<dim>::note_openings()
+  ContactAreas<dim>::note_openings(
+    const std::function<double(unsigned int)> &dilation_of)
   {
     for (unsigned int p = 0; p < memory.state.size(); ++p)
       {
@@ -108,7 +109,7 @@ namespace Keyblock
         double gap = 0.;
         for (int d = 0; d < dim; ++d)
           gap += memory.normal[p][d] * (at_plus[d] - at_minus[d]);
-        if (gap - memory.dilation_of(p) > least_opening * pair.face_size)
+        if (gap - dilation_of(p) > least_opening * pair.face_size)
           {
             memory.state[p].has_opened = true;
             is_shared                  = false;

@@ -134,7 +134,8 @@ namespace Keyblock
     if (!memory.surface_contact_nodes.empty())
       surfaces.solve(step);
     memory.last_kick = step.kick;
-    areas.note_openings();
+    areas.note_openings(
+      [&](const unsigned int pair) { return history.dilation_of(pair); });
     nodes.scatter(step.kick);
     if (strength.has_memory)
       history.advance(step.step);

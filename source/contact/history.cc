@@ -104,6 +104,23 @@ namespace Keyblock
 
 
   template <int dim>
+  double
+  ContactHistory<dim>::dilation_of(const unsigned int pair) const
+  {
+    double dilation = memory.dilation_of(pair);
+    if (memory.is_surface_contact_group[topology.group_of_pair[pair]])
+      for (const unsigned int vertex :
+           {interface.pairs[pair].minus, interface.pairs[pair].plus})
+        dilation = std::max(dilation,
+                            find(surface.node_of_vertex[vertex],
+                                 interface.pairs[pair].joint)
+                              .dilation);
+    return dilation;
+  }
+
+
+
+  template <int dim>
   void
   ContactHistory<dim>::pass_on(const unsigned int pair)
   {

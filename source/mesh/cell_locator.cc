@@ -41,8 +41,12 @@ namespace Keyblock
       return weight;
     }
 
+    /** Largest change of a Newton step: from beside a cell a whole one may lead
+     * to where its mapping folds over [-]. */
+    constexpr double longest_step = 0.5;
+
     /** Place of @p point in the unit cell by Newton's method; nothing if it is
-     * far outside. */
+     * far outside, where the mapping may have no such place. */
     template <int dim>
     std::optional<Point<dim>>
     unit_point(const Mesh<dim> &mesh,
@@ -53,7 +57,7 @@ namespace Keyblock
       for (unsigned int d = 0; d < dim; ++d)
         unit[d] = 0.5;
       std::array<Tensor<1, dim>, Mesh<dim>::n_cell_vertices> slope;
-      for (unsigned int iteration = 0; iteration < 50; ++iteration)
+      for (unsigned int iteration = 0; iteration < 100; ++iteration)
         {
           const Weights<dim> weight = shape_at<dim>(unit, slope);
           Tensor<1, dim> miss       = point;
@@ -65,13 +69,13 @@ namespace Keyblock
               jacobian += outer_product(x, slope[v]);
             }
           const Tensor<1, dim> change = invert(jacobian) * miss;
-          unit += change;
+          unit += std::min(1., longest_step / change.norm()) * change;
           if (change.norm() < 1e-12)
-            break;
-          if (unit.norm() > 10.)
+            return unit;
+          if (!(unit.norm() < 10.))
             return {};
         }
-      return unit;
+      return {};
     }
 
     template <int dim>
@@ -171,9 +175,17 @@ namespace Keyblock
   {
     if (cell == none)
       return {};
-    const std::optional<Point<dim>> unit = unit_point(mesh, cell, point);
-    AssertThrow(unit, dealii::ExcMessage("The point is far outside the cell."));
-    return {cell, weights_at<dim>(*unit)};
+    if (const std::optional<Point<dim>> unit = unit_point(mesh, cell, point))
+      return {cell, weights_at<dim>(*unit)};
+    // beside a strongly warped face its mapping has no such place
+    CellPoint<dim> nearest{cell, {}};
+    unsigned int vertex = 0;
+    for (unsigned int v = 1; v < nearest.weight.size(); ++v)
+      if (mesh.vertices[mesh.cells[cell][v]].distance(point) <
+          mesh.vertices[mesh.cells[cell][vertex]].distance(point))
+        vertex = v;
+    nearest.weight[vertex] = 1.;
+    return nearest;
   }
 
 

@@ -34,10 +34,16 @@ namespace Keyblock
     Json
     group_as_json(const SafetyFactor &factor)
     {
-      return {{"blocks", factor.group},
-              {"lower", factor.group_lower},
-              {"upper", factor.group_upper},
-              {"value", factor.value_of_group()}};
+      Json json = {{"blocks", factor.group},
+                   {"lower", factor.group_lower},
+                   {"upper", factor.group_upper},
+                   {"value", factor.value_of_group()}};
+      if (factor.group_undecided_upper > 0.)
+        {
+          json["undecided_lower"] = factor.group_undecided_lower;
+          json["undecided_upper"] = factor.group_undecided_upper;
+        }
+      return json;
     }
 
     Json

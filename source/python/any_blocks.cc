@@ -2,11 +2,13 @@
 #include <keyblock/blocks/block_measures.h>
 #include <keyblock/python/any_blocks.h>
 #include <keyblock/safety/block_cascade.h>
+#include <keyblock/scene/entries.h>
 
 #include <algorithm>
 #include <iostream>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace Keyblock::Python
 {
@@ -61,6 +63,35 @@ namespace Keyblock::Python
             return {corners[0], corners[2], corners[3], corners[1]};
           return {corners[0], corners[1], corners[3], corners[2]};
         }
+    }
+
+    /** Whether limit equilibrium does not look at an @p entry. */
+    bool
+    is_idle(const std::string &entry)
+    {
+      static const std::set<std::string> sections = {
+        "Title", "Check", "Monitors", "Output", "Study", "Time stepping"};
+      return sections.count(entry.substr(0, entry.find('/'))) > 0;
+    }
+
+    /** The first entry in which two scenes differ so that blocks of the one
+     * cannot be judged by the other; empty: none. */
+    std::string
+    find_other_geometry(const AnyScene &own, const AnyScene &other)
+    {
+      std::map<std::string, std::string> before, now;
+      for (const auto &[entry, value] : list_entries(own.used_entries()))
+        before[entry] = value;
+      for (const auto &[entry, value] : list_entries(other.used_entries()))
+        now[entry] = value;
+      now.insert(before.begin(), before.end()); // what it does not have
+      for (const auto &[entry, value] : now)
+        if (const auto same = before.find(entry);
+            (same == before.end() || same->second != value) &&
+            !is_idle(entry) &&
+            (!leaves_geometry(entry) || entry == "Stages/Names"))
+          return entry;
+      return "";
     }
 
     template <int dim>
@@ -225,6 +256,17 @@ namespace Keyblock::Python
                            (other ? other->source.file : std::string()) +
                            "' has other joints than the one whose blocks are "
                            "to be judged by it; find its own blocks."));
+    if (same)
+      {
+        const std::string entry = find_other_geometry(*source, *same);
+        AssertThrow(entry.empty(),
+                    InputError("The entry '" + entry + "' of '" +
+                               other->source.file +
+                               "' is not that of the scene whose blocks are to "
+                               "be judged by it, and is none of those that "
+                               "leave mesh, blocks and support as they are; "
+                               "find its own blocks."));
+      }
     std::vector<Judgement> list;
     for_each_changed_ground<dim>(
       same ? same->scene : scene,

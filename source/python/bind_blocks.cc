@@ -319,9 +319,9 @@ namespace Keyblock::Python
         py::arg("time")   = 0.,
         "List of LimitEquilibrium: each block with a free face, at the start "
         "and after each stage that changes anything.\n\n"
-        "scene: strengths, water, loads and stages are those of this scene, "
-        "which has the same joints, excavations and mesh; see "
-        "leaves_geometry().\n"
+        "scene: strengths, water, loads and stages are those of this scene; "
+        "raises Error if it differs otherwise, as in mesh, materials or bolts "
+        "(see leaves_geometry()).\n"
         "wanted: factor to tell the support for.\n"
         "time: of the loads (s).")
       .def("__repr__", [](const BlockList &list) {

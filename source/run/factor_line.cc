@@ -24,6 +24,9 @@ namespace Keyblock
       text << (factor.has_own_group() ? " move together: " : ": ")
            << factor.value_of_group() << " [" << factor.group_lower << ", "
            << factor.group_upper << "]";
+      if (factor.group_undecided_upper > 0.)
+        text << ", undecided from " << factor.group_undecided_lower << " to "
+             << factor.group_undecided_upper;
       return text.str();
     }
 

@@ -41,7 +41,9 @@ namespace Keyblock
     const double lowest = model.scene.safety.lowest;
     recall(record.before, model.parts());
     model.step->excavate(record.present.number());
-    search.tell_ways({block, {}, false});
+    TriedBlocks alone;
+    alone.block = block;
+    search.tell_ways(alone);
     typename StrengthReductionSearch<dim>::Known known;
     known.stable   = lowest;
     known.unstable = 1.;
@@ -55,7 +57,9 @@ namespace Keyblock
         return search.find(block, record.present.number(), known);
       }
     // with those that failed beside it, it may hold: they carry it along
-    const TriedBlocks carried{block, list_failed_beside(block), true};
+    TriedBlocks carried = alone;
+    carried.companions  = list_failed_beside(block);
+    carried.is_carried  = true;
     if (!carried.companions.empty() && hold_when_strong(carried.all()))
       return search.find_with(carried, record.present.number(), known);
     SafetyFactor result;

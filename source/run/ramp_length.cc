@@ -12,6 +12,10 @@ namespace Keyblock
     /** Ramp over the period of the lowest mode [-]. */
     constexpr double n_periods = 4.;
 
+    /** Ramp over that of waves through the model, from which on the lowest mode
+     * is one of bodies that float [-]. */
+    constexpr double longest_ramp = 1e4;
+
 
 
     /** Blocks (by index) that are there and joined, face by face, to none that
@@ -116,7 +120,9 @@ namespace Keyblock
                              model.conditions->elements);
     try
       {
-        return n_periods * solver.lowest_period();
+        // bodies that nothing but contacts found by search holds float, too
+        const double ramp = n_periods * solver.lowest_period();
+        return ramp < longest_ramp * by_waves() ? ramp : by_waves();
       }
     catch (const ComputationError &)
       {

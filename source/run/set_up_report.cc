@@ -215,12 +215,52 @@ namespace Keyblock
 
 
 
+    /** Names of the joints that can move where they meet boundaries that the
+     * @p support has, or empty. */
+    template <int dim>
+    std::string
+    names_of_joints_at_side(const Support<dim> &support,
+                            const Scene<dim> &scene,
+                            const SplitMesh<dim> &split)
+    {
+      const Mesh<dim> &mesh = split.mesh;
+      std::set<unsigned int> at_side, joints;
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+          for (const std::string &boundary : support.boundaries)
+            if (mesh.is_on(c, f, boundary))
+              for (const unsigned int v : mesh.face_vertices(c, f))
+                at_side.insert(v);
+      for (const Pair<dim> &pair : split.interface.pairs)
+        if (at_side.count(pair.minus) > 0)
+          joints.insert(pair.joint);
+      std::string names;
+      for (const unsigned int j : joints)
+        names += (names.empty() ? "'" : ", '") + scene.joints[j]->name + "'";
+      return names;
+    }
+
+
+
     /** What the ground beside free fields leaves out in this scene. */
     template <int dim>
     std::vector<std::string>
-    warnings_of_free_fields(const Scene<dim> &scene, const Mesh<dim> &mesh)
+    warnings_of_free_fields(const Scene<dim> &scene,
+                            const SplitMesh<dim> &split)
     {
+      const Mesh<dim> &mesh = split.mesh;
       std::vector<std::string> warnings;
+      for (const auto &support : scene.supports)
+        if (support->is_free_field())
+          if (const std::string joints =
+                names_of_joints_at_side(*support, scene, split);
+              !joints.empty())
+            warnings.push_back(
+              "The joints " + joints + " reach the free-field sides of '" +
+              support->name +
+              "', whose ground goes on without them and holds what they let "
+              "move; end them before the sides, or give 'Supports/" +
+              support->name + "/Kind' as quiet.");
       for (const auto &support : scene.supports)
         if (support->is_free_field() &&
             is_beside_yielding_rock(*support, scene, mesh))
@@ -253,7 +293,7 @@ namespace Keyblock
          {warnings_of_rollers(
             model.communicator, model.scene, model.split, model.cells),
           warnings_of_short_waves(model.scene, model.split),
-          warnings_of_free_fields(model.scene, model.split.mesh),
+          warnings_of_free_fields(model.scene, model.split),
           warnings_of_coarse_bolts(model.scene, model.split),
           warnings_of_brittle_bolts(model.scene, model.split),
           warnings_of_cut_bolts(model.scene, model.split),

@@ -7,41 +7,78 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <optional>
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Whether factors are wanted in a stage with a number from @p first up to,
+     * and without, @p end; stages have numbers from 2 on. */
+    template <int dim>
+    bool
+    is_wanted(const Scene<dim> &scene,
+              const unsigned int first,
+              const unsigned int end)
+    {
+      for (unsigned int number = std::max(first, 2u); number < end; ++number)
+        if (scene.safety.wants_stage(scene.stages[number - 2]->name))
+          return true;
+      return scene.stages.empty();
+    }
+  } // namespace
+
+
+
   template <int dim>
   typename ProbabilityStudy<dim>::BlockFactors
   ProbabilityStudy<dim>::judge_blocks(const Scene<dim> &sample,
                                       const BlockGeometry<dim> &g) const
   {
     const auto &all = g.blocks.blocks;
-    BlockFactors found{
-      std::vector<double>(all.size(), std::numeric_limits<double>::infinity()),
-      std::vector<unsigned int>(all.size(), 0),
-      std::vector<bool>(all.size(), false)};
+    // by the numbers of the stages from which on they are so
+    std::map<unsigned int, std::vector<std::optional<double>>> factors;
     for_each_changed_ground<dim>(
       sample,
       g.split,
       [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
+        auto &now = factors[ground.stage_number];
+        now.resize(all.size());
         for (unsigned int b = 0; b < all.size(); ++b)
           {
             const auto &classes = all[b].class_of_stage;
             if (classes[std::min<std::size_t>(ground.stage_number,
-                                              classes.size() - 1)] !=
+                                              classes.size() - 1)] ==
                 BlockClass::exposed)
-              continue;
-            found.is_exposed[b] = true;
-            const double factor =
-              judge_block(ground, free, g.blocks, b, 0.).limit.factor;
-            if (factor < found.factor[b])
-              {
-                found.factor[b] = factor;
-                found.stage[b]  = ground.stage_number;
-              }
+              now[b] = judge_block(ground, free, g.blocks, b, 0.).limit.factor;
           }
       });
+    BlockFactors found{
+      std::vector<double>(all.size(), std::numeric_limits<double>::infinity()),
+      std::vector<unsigned int>(all.size(), 0),
+      std::vector<bool>(all.size(), false)};
+    for (auto now = factors.begin(); now != factors.end(); ++now)
+      {
+        const auto next = std::next(now);
+        if (!is_wanted(sample,
+                       now->first,
+                       next == factors.end() ? sample.stages.size() + 2
+                                             : next->first))
+          continue;
+        for (unsigned int b = 0; b < all.size(); ++b)
+          if (const std::optional<double> factor = now->second[b])
+            {
+              found.is_exposed[b] = true;
+              if (*factor < found.factor[b])
+                {
+                  found.factor[b] = *factor;
+                  found.stage[b]  = now->first;
+                }
+            }
+      }
     return found;
   }
 

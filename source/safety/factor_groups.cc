@@ -36,9 +36,11 @@ namespace Keyblock
           (member.outcome == SafetyFactor::Outcome::bracketed &&
            member.upper < finder.group_lower))
         return false;
-      member.group       = finder.group;
-      member.group_lower = finder.group_lower;
-      member.group_upper = finder.group_upper;
+      member.group                 = finder.group;
+      member.group_lower           = finder.group_lower;
+      member.group_upper           = finder.group_upper;
+      member.group_undecided_lower = finder.group_undecided_lower;
+      member.group_undecided_upper = finder.group_undecided_upper;
       return true;
     };
     std::vector<unsigned int> told;

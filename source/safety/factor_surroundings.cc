@@ -169,6 +169,24 @@ namespace Keyblock
 
 
   template <int dim>
+  TriedBlocks
+  StrengthReductionSearch<dim>::with_row(const TriedBlocks &tried) const
+  {
+    TriedBlocks all = tried;
+    all.row.clear();
+    for (std::vector<unsigned int> more = blocks_pressed_on(all); !more.empty();
+         more                           = blocks_pressed_on(all))
+      {
+                                  all = all.with(more);
+                                  all.row.insert(all.row.end(), more.begin(), more.end());
+      }
+    all.companions = tried.companions;
+    return all;
+  }
+
+
+
+  template <int dim>
   bool
   StrengthReductionSearch<dim>::freeze_beyond_reach(const TriedBlocks &tried)
   {
@@ -176,19 +194,15 @@ namespace Keyblock
     if (settings.reach == 0. || settings.reduced_joints == ReducedJoints::all ||
         settings.reduces_rock)
       return false;
-    // blocks that lean on them, on these, and so on go along, and push
-    TriedBlocks row = tried;
-    for (std::vector<unsigned int> more = blocks_pressed_on(row); !more.empty();
-         more                           = blocks_pressed_on(row))
-      row = row.with(more);
-    std::vector<bool> is_in_row(blocks.blocks.size(), false);
-    for (const unsigned int b : row.all())
-      is_in_row[b] = true;
     const std::vector<unsigned int> moving = tried.all();
+    std::vector<bool> is_moving(blocks.blocks.size(), false);
+    for (const std::vector<unsigned int> &list : {moving, tried.row})
+      for (const unsigned int b : list)
+        is_moving[b] = true;
     std::vector<bool> is_frozen(split.mesh.n_cells());
     for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
       is_frozen[c] =
-        !is_in_row[split.block_of_cell[c]] &&
+        !is_moving[split.block_of_cell[c]] &&
         std::none_of(moving.begin(), moving.end(), [&](const unsigned int m) {
           const Block<dim> &b = blocks.blocks[m];
           return split.mesh.cell_center(c).distance(b.centroid) <=
@@ -202,8 +216,12 @@ namespace Keyblock
   StrengthReductionSearch<2>::freeze_beyond_reach(const TriedBlocks &);
   template bool
   StrengthReductionSearch<3>::freeze_beyond_reach(const TriedBlocks &);
+  template TriedBlocks
+  StrengthReductionSearch<2>::with_row(const TriedBlocks &) const;
   template Tensor<1, 2>
   StrengthReductionSearch<2>::tell_ways(const TriedBlocks &);
+  template TriedBlocks
+  StrengthReductionSearch<3>::with_row(const TriedBlocks &) const;
   template Tensor<1, 3>
   StrengthReductionSearch<3>::tell_ways(const TriedBlocks &);
   template std::vector<unsigned int>

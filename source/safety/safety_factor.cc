@@ -161,9 +161,11 @@ namespace Keyblock
         if (outcome != SafetyFactor::Outcome::bracketed ||
             (!move_along && search.stable >= held))
           break;
-        result.group       = ids_of(tried);
-        result.group_lower = search.stable;
-        result.group_upper = search.unstable;
+        result.group                 = ids_of(tried);
+        result.group_lower           = search.stable;
+        result.group_upper           = search.unstable;
+        result.group_undecided_lower = search.undecided_lower;
+        result.group_undecided_upper = search.undecided_upper;
         // those that move with the group only
         others.clear();
         for (const unsigned int b : trials.failure.blocks_along())

@@ -31,7 +31,7 @@ namespace Keyblock
         run.step.advance(false);
       trial.n_steps += n_steps;
     };
-    const unsigned int period = measures.period(tried.block);
+    const unsigned int period = measures.period(tried);
     double weaker             = 1.;
     for (; weaker < most_weakening && slip() < way; step_on(period))
       {
@@ -48,7 +48,7 @@ namespace Keyblock
         step_on(1);
       }
     // by its own momentum
-    const unsigned int window = watched_window(tried.block);
+    const unsigned int window = watched_window(tried);
     const double restored     = slip();
     for (double now = restored, before = 0.;
          now > before && now < restored + way;)
@@ -88,7 +88,7 @@ namespace Keyblock
     // it does not slide, or not without a loss of what it holds by
     recall(at_rest, run);
     reduce(tried, trial.factor);
-    run.step.begin_stage(quiet_stage(tried.block), number);
+    run.step.begin_stage(quiet_stage(tried), number);
     const unsigned int n_steps = trial.n_steps;
     trial                      = trial_until_rest;
     trial.n_steps              = n_steps;

@@ -83,7 +83,7 @@ namespace Keyblock
 
   template <int dim>
   Stage
-  StrengthTrials<dim>::quiet_stage(const unsigned int block) const
+  StrengthTrials<dim>::quiet_stage(const TriedBlocks &tried) const
   {
     Stage quiet;
     quiet.kind          = StageKind::quasi_static;
@@ -92,7 +92,7 @@ namespace Keyblock
     // critical for the block's lowest mode: 2 omega
     run.conditions.scale_density(true);
     quiet.mass_damping = scene.safety.mass_damping * dealii::numbers::PI /
-                         (2. * measures.n_across(block)) *
+                         (2. * measures.n_across(tried)) *
                          run.conditions.stable_step.frequency;
     return quiet;
   }
@@ -116,7 +116,7 @@ namespace Keyblock
   template <int dim>
   void
   StrengthTrials<dim>::step_damped_until(const unsigned int last,
-                                         const unsigned int block,
+                                         const TriedBlocks &tried,
                                          const double drop,
                                          Trial &trial)
   {
@@ -126,7 +126,7 @@ namespace Keyblock
     for (; trial.n_steps < last; ++trial.n_steps)
       {
         run.step.advance(false);
-        const double now = measures.kinetic_energy(block);
+        const double now = measures.kinetic_energy(tried);
         peak             = std::max(peak, now);
         if (now < drop * peak)
           {
@@ -146,7 +146,7 @@ namespace Keyblock
                                        Trial &trial)
   {
     // along half a cosine
-    const unsigned int ramp = ramp_periods * measures.period(tried.block);
+    const unsigned int ramp = ramp_periods * measures.period(tried);
     for (unsigned int step = 1; step <= ramp; ++step)
       {
         const double s =
@@ -167,12 +167,13 @@ namespace Keyblock
                               Trial &trial)
   {
     const double size         = blocks.blocks[tried.block].size;
-    const unsigned int period = measures.period(tried.block);
+    const unsigned int period = measures.period(tried);
     const unsigned int window =
       std::max(1., std::round(scene.safety.window * period));
     const Motion begin        = measures.motion(tried);
     Motion before             = begin;
     double least              = std::numeric_limits<double>::max();
+    double unbalanced         = least;
     unsigned int n_stuck      = 0;
     SupportState<dim> support = measures.support(tried);
     SlowMode<dim> creep(communicator,
@@ -184,7 +185,7 @@ namespace Keyblock
       {
         stop_if_asked(communicator);
         step_damped_until(trial.n_steps + window,
-                          tried.block,
+                          tried,
                           slowest > 0. ? creep_drop : 1.,
                           trial);
         if (scene.safety.adaptive_damping)
@@ -204,8 +205,7 @@ namespace Keyblock
         const SupportState<dim> borne = measures.support(tried);
         const double swing =
           measures.swing_period(tried.block, support, borne, before, now);
-        const double unbalanced =
-          measures.unbalanced_with_tied(tried.block, now.unbalanced);
+        unbalanced = measures.largest_unbalanced(tried, now);
         if (unbalanced < rest_unbalanced &&
             moved * std::max(1., swing / period) < rest_slip * size)
           return true;
@@ -221,16 +221,16 @@ namespace Keyblock
           break;
         before = now;
       }
-    return is_as_good_as_at_rest(trial);
+    return is_as_good_as_at_rest(unbalanced);
   }
 
 
 
   template <int dim>
   bool
-  StrengthTrials<dim>::is_as_good_as_at_rest(const Trial &trial) const
+  StrengthTrials<dim>::is_as_good_as_at_rest(const double unbalanced) const
   {
-    return trial.unbalanced < resolution * scene.safety.bracket;
+    return unbalanced < resolution * scene.safety.bracket;
   }
 
 
@@ -243,7 +243,7 @@ namespace Keyblock
                               const Vector<dim> &first,
                               Trial &trial)
   {
-    const Stage quiet  = quiet_stage(tried.block);
+    const Stage quiet  = quiet_stage(tried);
     const Stage moving = moving_stage();
     run.step.begin_stage(quiet, number);
     change_strength(tried, from, trial.factor, trial);

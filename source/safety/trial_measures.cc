@@ -84,18 +84,24 @@ namespace Keyblock
 
   template <int dim>
   double
-  TrialMeasures<dim>::unbalanced_with_tied(const unsigned int block,
-                                           const double own) const
+  TrialMeasures<dim>::largest_unbalanced(const TriedBlocks &tried,
+                                         const Motion &own) const
   {
-    const std::vector<bool> is_tied = tied.mark_row(block);
-    double largest                  = own;
+    const std::vector<bool> is_tied = tied.mark_row(tried.block);
+    std::vector<bool> leans(is_tied.size(), false);
+    for (const unsigned int b : tried.others())
+      leans[b] = true;
+    double largest = own.unbalanced;
     for (unsigned int b = 0; b < is_tied.size(); ++b)
-      if (is_tied[b] && b != block &&
+      if ((is_tied[b] || leans[b]) && b != tried.block &&
           !run.conditions.active_cells.is_removed_block(b))
-        largest =
-          std::max(largest,
-                   measure_balance(run.fields, nodes_of_block[b], communicator)
-                     .unbalanced_ratio());
+        {
+          const BlockBalance<dim> balance =
+            measure_balance(run.fields, nodes_of_block[b], communicator);
+          const double share =
+            is_tied[b] ? 1. : balance.load / std::max(balance.load, own.load);
+          largest = std::max(largest, share * balance.unbalanced_ratio());
+        }
     return largest;
   }
 
@@ -244,19 +250,30 @@ namespace Keyblock
 
   template <int dim>
   double
-  TrialMeasures<dim>::n_across(const unsigned int block) const
+  TrialMeasures<dim>::n_across(const TriedBlocks &tried) const
   {
-    const Block<dim> &b = blocks.blocks[block];
-    return std::max(4., b.size / std::pow(b.volume / b.n_cells, 1. / dim));
+    const auto along = [&](const unsigned int block) {
+      const Block<dim> &b = blocks.blocks[block];
+      return std::max(4., b.size / std::pow(b.volume / b.n_cells, 1. / dim));
+    };
+    double n = along(tried.block);
+    for (const unsigned int block : tried.others())
+      {
+        const Block<dim> &b = blocks.blocks[block];
+        n                   = std::max(n,
+                     along(block) * std::pow(b.size, dim) /
+                       (b.volume * std::pow(dim, 0.5 * dim)));
+      }
+    return n;
   }
 
 
 
   template <int dim>
   unsigned int
-  TrialMeasures<dim>::period(const unsigned int block) const
+  TrialMeasures<dim>::period(const TriedBlocks &tried) const
   {
-    return std::ceil(4. * n_across(block) / scene.time_stepping.safety);
+    return std::ceil(4. * n_across(tried) / scene.time_stepping.safety);
   }
 
 
@@ -318,13 +335,16 @@ namespace Keyblock
 
   template <int dim>
   double
-  TrialMeasures<dim>::kinetic_energy(const unsigned int block) const
+  TrialMeasures<dim>::kinetic_energy(const TriedBlocks &tried) const
   {
+    std::vector<unsigned int> moving = tried.others();
+    moving.push_back(tried.block);
     double energy = 0.;
-    for (const unsigned int node : nodes_of_block[block])
-      for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
-        energy += 0.5 * run.fields.mass[node] * run.fields.velocity[i] *
-                  run.fields.velocity[i];
+    for (const unsigned int block : moving)
+      for (const unsigned int node : nodes_of_block[block])
+        for (unsigned int i = dim * node; i < dim * (node + 1); ++i)
+          energy += 0.5 * run.fields.mass[node] * run.fields.velocity[i] *
+                    run.fields.velocity[i];
     return communicator.sum(energy);
   }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Keyblock
 {
@@ -75,12 +76,12 @@ namespace Keyblock
 
   template <int dim>
   unsigned int
-  StrengthTrials<dim>::watched_window(const unsigned int block) const
+  StrengthTrials<dim>::watched_window(const TriedBlocks &tried) const
   {
     const double period = scene.safety.true_masses
-                            ? 4. * blocks.blocks[block].size /
-                                (measures.wave_speed(block) * run.step.dt)
-                            : measures.period(block);
+                            ? 4. * blocks.blocks[tried.block].size /
+                                (measures.wave_speed(tried.block) * run.step.dt)
+                            : measures.period(tried);
     return std::max(1., std::ceil(scene.safety.window * period));
   }
 
@@ -94,7 +95,7 @@ namespace Keyblock
                              Trial &trial)
   {
     const double size         = blocks.blocks[tried.block].size;
-    const unsigned int window = watched_window(tried.block);
+    const unsigned int window = watched_window(tried);
     const double seconds      = window * run.step.dt;
     double n_windows =
       std::max(n_steady + 1.,
@@ -108,6 +109,8 @@ namespace Keyblock
     SupportState<dim> support = measures.support(tried);
     std::vector<double> velocity(1, 0.);
     std::vector<Vector<dim>> block_velocity(1);
+    double least          = std::numeric_limits<double>::max();
+    bool is_left_in_peace = false;
     for (unsigned int w = 1; w <= n_windows; ++w)
       {
         stop_if_asked(communicator);
@@ -138,8 +141,12 @@ namespace Keyblock
         n_windows = std::max(n_windows, n_swings_watched * swing / window);
         support   = borne;
         before    = now;
-        if (rests)
+        const double unbalanced = measures.largest_unbalanced(tried, now);
+        least                   = std::min(least, unbalanced);
+        if (rests && is_as_good_as_at_rest(unbalanced))
           return Verdict::holds;
+        // what leans on it neither comes to rest nor gains on that
+        is_left_in_peace = rests && unbalanced <= 2. * least;
         const bool grows = w >= 3 && velocity[w] > velocity[w - 1] &&
                            velocity[w - 1] > velocity[w - 2] &&
                            velocity[w - 2] > 0.;
@@ -169,15 +176,15 @@ namespace Keyblock
               return Verdict::holds;
           }
       }
-    return Verdict::open;
+    return is_left_in_peace ? Verdict::holds : Verdict::open;
   }
 
 
 
   template unsigned int
-  StrengthTrials<2>::watched_window(const unsigned int) const;
+  StrengthTrials<2>::watched_window(const TriedBlocks &) const;
   template unsigned int
-  StrengthTrials<3>::watched_window(const unsigned int) const;
+  StrengthTrials<3>::watched_window(const TriedBlocks &) const;
   template StrengthTrials<2>::Verdict
   StrengthTrials<2>::watch(const TriedBlocks &,
                            const double,

@@ -74,8 +74,9 @@ namespace Keyblock
     prm.add_parameter("Axis",
                       axis,
                       "3D: direction of the excavations' axis, across which "
-                      "the rings of a pattern lie; zero: the longest side of "
-                      "their faces.");
+                      "the rings of a pattern lie; faces across it, as end "
+                      "walls, get no bolts. Zero: the axis of coordinates that "
+                      "the fewest of their faces look along.");
     prm.add_parameter("Area", area, "Area of the bar [m2].", not_negative);
     prm.add_parameter("Young modulus",
                       young_modulus,

@@ -150,6 +150,15 @@ def limit():
     other = keyblock.Scene(PRM / "verification" / "blocks_cube_3.prm")
     check_raises(keyblock.Error, ["blocks_cube_3.prm", "other joints"],
                  lambda: keyblock.find_blocks(incline).limit_equilibrium(other))
+    bolted = keyblock.Scene(PRM / "verification" / "bolted_incline.prm")
+    found = keyblock.find_blocks(bolted)
+    for entry, value in (("Bolts/Names", ""), ("Materials/rock/Density", "1000"),
+                         ("Joints/base/Dip", "35")):
+        check_raises(keyblock.Error, [entry, "find its own blocks"],
+                     lambda: found.limit_equilibrium(bolted.with_overrides({entry: value})))
+    check_that("strengths may differ", found.limit_equilibrium(bolted.with_overrides(
+        {"Joints/base/Friction angle": 20, "Output/Write VTU": "false"}))[0].factor <
+        found.limit_equilibrium()[0].factor)
     with contextlib.redirect_stdout(io.StringIO()) as screen:
         keyblock.validate(incline, verbose=True)
     check_that("what is said goes where Python's output does",

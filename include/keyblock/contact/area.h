@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -49,8 +50,9 @@ namespace Keyblock
      * single point stands for changes as nodes pass faces. */
     double pressure_at(const SurfaceContact<dim> &contact) const;
 
-    /** Mark the pairs of such joints whose sides have come apart. */
-    void note_openings();
+    /** Mark the pairs of such joints whose sides have come apart, by more than
+     * @p dilation_of(pair) has pushed them [m]. */
+    void note_openings(const std::function<double(unsigned int)> &dilation_of);
 
   private:
     /** Node, joint and the other side's block of a surface contact. */

@@ -31,6 +31,10 @@ namespace Keyblock
     /** Of all surface nodes [m]: surfaces so far apart may touch. */
     double largest_dilation() const;
 
+    /** By how much the sides of a @p pair have pushed each other apart, as a
+     * pair and since they are in surface contact [m]. */
+    double dilation_of(const unsigned int pair) const;
+
     /** Leave what a pair's joint remembers to its nodes. */
     void pass_on(const unsigned int pair);
 

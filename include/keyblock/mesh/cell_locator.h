@@ -26,7 +26,7 @@ namespace Keyblock
     std::vector<CellPoint<dim>> find_all(const Point<dim> &point) const;
 
     /** Where @p point is in @p cell, or, by what goes on there, just beside it;
-     * none of no cell. */
+     * none of no cell, the nearest vertex where nothing goes on. */
     CellPoint<dim> find_in(const unsigned int cell,
                            const Point<dim> &point) const;
 

@@ -77,8 +77,9 @@ namespace Keyblock::Python
 
     /**
      * Limit equilibrium of all blocks with a free face, at the start and after
-     * each stage that changes anything, with strengths, loads and support of
-     * @p other, which has the same geometry; null: of their own scene.
+     * each stage that changes anything, with strengths and loads of @p other;
+     * null: of their own scene. Throws InputError if another entry of it is not
+     * that of their own scene, but for leaves_geometry().
      * @param wanted factor to tell the support for; 0: none
      * @param time of the loads [s]
      */

@@ -17,14 +17,14 @@ namespace Keyblock
   {
   public:
     Search(StrengthReductionSearch &owner,
-           const TriedBlocks &tried,
+           const TriedBlocks &to_try,
            const unsigned int number,
            const Known &known,
            std::vector<Trial> &trials)
       : stable(known.stable)
       , unstable(known.unstable)
       , owner(owner)
-      , tried(tried)
+      , tried(owner.with_row(to_try))
       , number(number)
       , start(known.start)
       , first_slip(owner.trials.measures.motion(tried).slip)

@@ -46,6 +46,9 @@ namespace Keyblock
     std::vector<unsigned int> group;
     double group_lower = 0., group_upper = 0.;
 
+    /** As those of the block alone. */
+    double group_undecided_lower = 0., group_undecided_upper = 0.;
+
     std::vector<Trial> trials;
 
     // the two cheap answers
@@ -164,6 +167,9 @@ namespace Keyblock
 
     /** Ids of these blocks, as SafetyFactor::group. */
     std::vector<unsigned int> ids_of(const TriedBlocks &group) const;
+
+    /** The same with the finite blocks that lean on them now (collective). */
+    TriedBlocks with_row(const TriedBlocks &tried) const;
 
     /** Leave all but the surroundings of the blocks that are @p tried as they
      * are; whether there is anything to leave. */

@@ -112,7 +112,7 @@ namespace Keyblock
                    Trial &trial);
 
     /** Settings of the first phase. */
-    Stage quiet_stage(const unsigned int block) const;
+    Stage quiet_stage(const TriedBlocks &tried) const;
 
     /** Of the second. */
     Stage moving_stage() const;
@@ -150,15 +150,16 @@ namespace Keyblock
                   Trial &trial);
 
     /** Steps in a window of the second phase. */
-    unsigned int watched_window(const unsigned int block) const;
+    unsigned int watched_window(const TriedBlocks &tried) const;
 
-    /** Whether the resultant is too small for the bracket to tell. */
-    bool is_as_good_as_at_rest(const Trial &trial) const;
+    /** Whether a resultant over the load is too small for the bracket to tell.
+     */
+    bool is_as_good_as_at_rest(const double unbalanced) const;
 
     /** Steps of phase 1. All motion stops when the kinetic energy of the block
-     * is below @p drop of its peak. */
+     * and of those that lean on it is below @p drop of its peak. */
     void step_damped_until(const unsigned int last,
-                           const unsigned int block,
+                           const TriedBlocks &tried,
                            const double drop,
                            Trial &trial);
 

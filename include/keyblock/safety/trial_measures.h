@@ -42,13 +42,14 @@ namespace Keyblock
      * neighbour that slides past a block at rest slips on it, too [m]. */
     static double way_between(const Motion &from, const Motion &to);
 
-    /** Largest resultant over the load of @p block and of those that hang on
-     * it, or it on them, in whatever row, by what support ties together: a
-     * block that its stiff support balances is not at rest while those move
-     * whose load comes on it later (collective) [-].
-     * @param own that of @p block */
-    double unbalanced_with_tied(const unsigned int block,
-                                const double own) const;
+    /** Largest resultant over the load of the block that is tried, of those
+     * that hang on it, or it on them, in whatever row, by what support ties
+     * together, and, over the load of the tried one if that is larger, of those
+     * that lean on it: a block is not at rest while those move whose load comes
+     * on it later (collective) [-].
+     * @param own of the block that is tried */
+    double largest_unbalanced(const TriedBlocks &tried,
+                              const Motion &own) const;
 
     /** What elements do now to the blocks that are tried and to those tied to
      * them (collective). */
@@ -79,12 +80,15 @@ namespace Keyblock
     std::string list_holders(const unsigned int block,
                              const Tensor<1, dim> &way) const;
 
-    /** Cells along the block's size. */
-    double n_across(const unsigned int block) const;
+    /** Cells that a wave crosses in a fourth of the lowest period of the block
+     * that is tried and of those that lean on it: those along its size, and of
+     * these, which may be slender and rock, as many times more as they are
+     * longer than thick, roughly. */
+    double n_across(const TriedBlocks &tried) const;
 
-    /** Steps in a period of the block's lowest mode, with scaled density: a
-     * wave crosses one cell a step, and the block four times. */
-    unsigned int period(const unsigned int block) const;
+    /** Steps in that period, with scaled density: a wave crosses one cell a
+     * step, and the block four times. */
+    unsigned int period(const TriedBlocks &tried) const;
 
     /** Sum of the normal forces on the block's joints, which in-situ stress may
      * make many times its load (collective) [N]. */
@@ -100,8 +104,9 @@ namespace Keyblock
     /** Largest speed of compression waves in the block [m/s]. */
     double wave_speed(const unsigned int block) const;
 
-    /** [J] (collective). */
-    double kinetic_energy(const unsigned int block) const;
+    /** Of the block that is tried and of those that lean on it [J]
+     * (collective). */
+    double kinetic_energy(const TriedBlocks &tried) const;
 
     /** [kg] (collective). */
     double mass_in_use(const unsigned int block) const;

@@ -22,6 +22,10 @@ namespace Keyblock
      * block; 0: where it does not. */
     double limit = 0.;
 
+    /** Others that lean on these, on those, and so on: they push, and take what
+     * room they get. */
+    std::vector<unsigned int> row;
+
     /** Whether the block alone is tried at a @p factor at which it should slide
      * by limit equilibrium. */
     bool
@@ -35,6 +39,15 @@ namespace Keyblock
     {
       std::vector<unsigned int> indices = companions;
       indices.push_back(block);
+      return indices;
+    }
+
+    /** All that may move with the one that is looked at. */
+    std::vector<unsigned int>
+    others() const
+    {
+      std::vector<unsigned int> indices = companions;
+      indices.insert(indices.end(), row.begin(), row.end());
       return indices;
     }
 
