@@ -42,8 +42,39 @@ class Sweep:
     samples: list
 
 
+# the kinds of errors that one rank tells the others of; of others there is the text
+_KINDS = (_core.Error, _core.ComputationError, RuntimeError)
+
+
 def _names(key):
     return (key,) if isinstance(key, str) else tuple(key)
+
+
+def _raise_on_all(number, error):
+    """Raise on all ranks what the first combination raised that a rank failed at.
+
+    number: this rank's, if it has an error."""
+    rank, size = _core.rank(), _core.size()
+    if size == 1:
+        if error:
+            raise error
+        return
+    text = str(error).encode()
+    failed = numpy.zeros((size, 3))
+    if error:
+        kind = [isinstance(error, one) for one in (*_KINDS[:-1], Exception)].index(True)
+        failed[rank] = number + 1, kind, len(text)
+    failed = _core.sum_over_ranks(failed)
+    ranks = numpy.flatnonzero(failed[:, 0])
+    if not len(ranks):
+        return
+    first = ranks[failed[ranks, 0].argmin()]
+    kind, length = map(int, failed[first, 1:])
+    shared = numpy.zeros(length + 1)  # not empty, whatever the text
+    if rank == first:
+        shared[:length] = list(text)
+    shared = _core.sum_over_ranks(shared)
+    raise _KINDS[kind](bytes(shared[:length].astype(numpy.uint8)).decode()) from error
 
 
 def sweep(scene, entries, *, stage=None, wanted=0.):
@@ -59,7 +90,8 @@ def sweep(scene, entries, *, stage=None, wanted=0.):
     Returns a Sweep. The scene is meshed once where all entries are strengths,
     loads or water (leaves_geometry()), else for each combination. Under mpirun
     the ranks share the combinations, each with scenes of its own.
-    Raises Error, also for a combination that cannot be used.
+    Raises Error, also for a combination that cannot be used; under mpirun on all
+    ranks, that of the first such combination.
     """
     keys = list(entries)
     if not isinstance(scene, _core.Scene):
@@ -74,17 +106,22 @@ def sweep(scene, entries, *, stage=None, wanted=0.):
     stays = all(_core.leaves_geometry(name) for key in keys for name in _names(key))
     blocks = _core.find_blocks(scene) if stays else None
     rank, size, samples = _core.rank(), _core.size(), []
-    for number, index in enumerate(itertools.product(*map(range, factor.shape))):
-        if number % size != rank:
-            continue
-        chosen = {name: values[axis][i] for axis, i in enumerate(index)
-                  for name in _names(keys[axis])}
-        changed = scene.with_overrides(chosen)
-        found = blocks if stays else _core.find_blocks(changed)
-        results = [one for one in found.limit_equilibrium(changed, wanted=wanted)
-                   if stage in (None, one.stage)]
-        samples.append(Sample(index, chosen, results))
-        factor[index] = min((one.factor for one in results), default=numpy.inf)
+    number, error = 0, None
+    try:
+        for number, index in enumerate(itertools.product(*map(range, factor.shape))):
+            if number % size != rank:
+                continue
+            chosen = {name: values[axis][i] for axis, i in enumerate(index)
+                      for name in _names(keys[axis])}
+            changed = scene.with_overrides(chosen)
+            found = blocks if stays else _core.find_blocks(changed)
+            results = [one for one in found.limit_equilibrium(changed, wanted=wanted)
+                       if stage in (None, one.stage)]
+            samples.append(Sample(index, chosen, results))
+            factor[index] = min((one.factor for one in results), default=numpy.inf)
+    except Exception as fault:  # the other ranks would wait for this one for ever
+        error = fault
+    _raise_on_all(number, error)
     if size > 1:
         factor = _core.sum_over_ranks(factor)
     return Sweep(tuple(keys), values, factor, samples)
