@@ -2,6 +2,7 @@
 """Limit equilibrium over values of entries."""
 import dataclasses
 import itertools
+import math
 
 import numpy
 
@@ -50,6 +51,15 @@ def _names(key):
     return (key,) if isinstance(key, str) else tuple(key)
 
 
+def _values_of(entries):
+    """The values of each entry; raises Error unless these are sequences."""
+    for key, list_ in entries.items():
+        if isinstance(list_, (str, bytes)) or not hasattr(list_, "__iter__"):
+            raise _core.Error(f"The sweep is to vary {' and '.join(_names(key))} over "
+                              f"{list_!r}, which is one value; put it into a list.")
+    return tuple(tuple(list_) for list_ in entries.values())
+
+
 def _raise_on_all(number, error):
     """Raise on all ranks what the first combination raised that a rank failed at.
 
@@ -93,7 +103,10 @@ def sweep(scene, entries, *, stage=None, wanted=0.):
     Raises Error, also for a combination that cannot be used; under mpirun on all
     ranks, that of the first such combination.
     """
-    keys = list(entries)
+    keys, values = list(entries), _values_of(entries)
+    if not (wanted >= 0. and math.isfinite(wanted)):
+        raise _core.Error(f"The sweep is to tell the support for a factor of {wanted}; give "
+                          "a number above 0, or 0 for none.")
     if not isinstance(scene, _core.Scene):
         scene = _core.Scene(scene, alone=True)
     if not scene.alone:
@@ -101,7 +114,6 @@ def sweep(scene, entries, *, stage=None, wanted=0.):
     if stage is not None and stage not in (*scene.stages, "start"):
         raise _core.Error(f"The sweep is to look at a stage '{stage}', which the scene "
                           f"does not have; it has start, {', '.join(scene.stages)}.")
-    values = tuple(tuple(entries[key]) for key in keys)
     factor = numpy.zeros([len(list_) for list_ in values])
     stays = all(_core.leaves_geometry(name) for key in keys for name in _names(key))
     blocks = _core.find_blocks(scene) if stays else None
