@@ -156,6 +156,15 @@ def principal_of(grid, names):
     return -numpy.linalg.eigvalsh(stress)
 
 
+def fields_of(grid):
+    """What --field takes, besides components of vectors."""
+    data = grid.GetPointData()
+    names = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
+    if principal_of(grid, names) is not None:
+        names += PRINCIPAL
+    return [*names, "joint_state"]
+
+
 def values_of(grid, field):
     """Values of a field or of one component of it at the points."""
     data = grid.GetPointData()
@@ -169,7 +178,7 @@ def values_of(grid, field):
     name, _, component = field.rpartition("_")
     if (name not in names or component not in ("x", "y", "z") or
             data.GetArray(name).GetNumberOfComponents() != 3):
-        fail(f"there is no field '{field}'; the file has {', '.join(names)}.")
+        fail(f"there is no field '{field}'; there are {', '.join(fields_of(grid))}.")
     return vtk_to_numpy(data.GetArray(name))[:, "xyz".index(component)]
 
 

@@ -8,7 +8,8 @@ network: maps of a plane scene with hundreds of joints have a legend by set and
 numbers of exposed blocks only; SVG and PDF are what they say.
 solid: in 3D there is a picture of each part, cut, inside, and of joint states.
 curves: blocks of monitors, lines of many blocks, states by the names of stages,
-fields without values, exaggeration by what is shown.
+fields without values, all fields named where one is not there, exaggeration by what
+is shown.
 stl: surfaces of blocks are closed, outward, and hold the volume of summary.json.
 missing: without a display, VTK, Matplotlib or numpy there is one sentence and exit
 code 1.
@@ -290,6 +291,11 @@ def check_curves():
         assert all(0. < float(x) < wide and 0. < float(y) < high
                    for x, y in places), path
     path = folder / "solution.pvd"
+    done = subprocess.run([CONTRIB / "render.py", path, FOLDER / "none.png", "--field",
+                           "nosuch"], capture_output=True, text=True)
+    assert done.returncode == 1 and done.stderr.count("\n") == 1, done.stderr
+    for field in ("velocity", "stress_xx", "stress_major", "stress_minor", "joint_state"):
+        assert f" {field}" in done.stderr, (field, done.stderr)
     path.write_text(re.sub(r'timestep="[^"]*"', 'timestep="0"',
                            path.read_text()))
     call(PYTHON, "-c", STATES, CONTRIB, folder)

@@ -63,8 +63,11 @@ namespace Keyblock
         const bool is_far = farthest > 1000. * block.size;
         out << std::setprecision(
           is_far ? 2 + int(std::ceil(std::log10(farthest / block.size))) : 4);
+        const double round_off = 1e-12 * std::max(farthest, block.size);
         for (unsigned int d = 0; d < dim; ++d)
-          out << (d ? ", " : "") << block.centroid[d];
+          out << (d ? ", " : "")
+              << (std::abs(block.centroid[d]) < round_off ? 0.
+                                                          : block.centroid[d]);
         out << ")  ";
         unsigned int n_named = 0;
         for (const auto &[joint, area] : block.joint_area)

@@ -98,7 +98,7 @@ namespace Keyblock
       return {describe_outcome(factor),
               is_closed ? exact_text(factor.value()) : "",
               positive(factor.lower),
-              is_closed ? positive(factor.upper) : "",
+              positive(factor.upper),
               factor.undecided_upper > 0. ? positive(factor.undecided_lower)
                                           : "",
               positive(factor.undecided_upper),

@@ -46,6 +46,14 @@ namespace Keyblock
 
   namespace
   {
+    /** Whether the values differ by no more than round-off. */
+    bool
+    are_equal(const double a, const double b)
+    {
+      constexpr double round_off = 1e-12;
+      return std::abs(a - b) <= round_off * std::max(std::abs(a), std::abs(b));
+    }
+
     /** Rank of each value in its list, equal ones sharing the mean of theirs.
      */
     std::vector<double>
@@ -62,7 +70,7 @@ namespace Keyblock
       for (std::size_t i = 0; i < order.size();)
         {
           std::size_t end = i + 1;
-          while (end < order.size() && x[order[end]] == x[order[i]])
+          while (end < order.size() && are_equal(x[order[end]], x[order[i]]))
             ++end;
           for (std::size_t k = i; k < end; ++k)
             rank[order[k]] = 0.5 * (i + end - 1.);

@@ -77,16 +77,24 @@ namespace Keyblock
       {
         return has_flag(1);
       }
+
+      bool
+      is_on_paper() const
+      {
+        return number(67, 0.) == 1.;
+      }
     };
 
-    /** What stands in the section ENTITIES. */
+    /** What stands in the section ENTITIES, but for what is drawn on the paper
+     * of a layout. */
     std::vector<Entity>
     read_entities(const std::string &text)
     {
       if (boost::starts_with(text, "AutoCAD Binary DXF"))
         throw std::runtime_error("it is a binary drawing where ASCII is read");
       std::vector<Entity> entities;
-      std::istringstream lines(text);
+      std::istringstream lines(
+        text.substr(boost::starts_with(text, "\xEF\xBB\xBF") ? 3 : 0));
       std::string code, value, section;
       while (std::getline(lines, code) && std::getline(lines, value))
         {
@@ -111,7 +119,7 @@ namespace Keyblock
             section = entity.values[0].second;
           else if (entity.type == "ENDSEC")
             section.clear();
-          else if (section == "ENTITIES")
+          else if (section == "ENTITIES" && !entity.is_on_paper())
             drawn.push_back(entity);
         }
       return drawn;
@@ -221,17 +229,22 @@ namespace Keyblock
     {
       const Point<2> center(entity.required(10), entity.required(20));
       const double radius = entity.required(40);
-      double from = 0., angle = 2. * dealii::numbers::PI;
+      double from = 0., turn = 360.; // degrees
       if (entity.type == "ARC")
         {
-          from = entity.required(50) * dealii::numbers::PI / 180.;
-          angle =
-            std::fmod(entity.required(51) - entity.required(50) + 720., 360.) *
-            dealii::numbers::PI / 180.;
+          from = entity.required(50);
+          turn = std::fmod(entity.required(51) - from, 360.);
+          if (turn < 0.)
+            turn += 360.;
+          // one that ends where it begins is a circle
+          if (turn < closeness)
+            turn = 360.;
         }
-      Path path = {center + radius * Point<2>(std::cos(from), std::sin(from))};
-      add_arc(path, path[0], center, angle, n_chords);
-      if (entity.type == "CIRCLE")
+      constexpr double degree = dealii::numbers::PI / 180.;
+      Path path = {center + radius * Point<2>(std::cos(degree * from),
+                                              std::sin(degree * from))};
+      add_arc(path, path[0], center, degree * turn, n_chords);
+      if (turn == 360.)
         path.back() = path.front();
       return path;
     }
@@ -319,7 +332,8 @@ namespace Keyblock
   {
     std::vector<Path> paths = list_paths(read_entities(text), n_chords);
     if (paths.empty())
-      throw std::runtime_error("it has no polyline, line, arc or circle");
+      throw std::runtime_error(
+        "it has no polyline, line, arc or circle in model space");
     const double tolerance = closeness * extent_of(paths);
     const Path outline     = close_path(paths, tolerance);
     if (!paths.empty())
@@ -344,7 +358,8 @@ namespace Keyblock
   {
     std::vector<Path> paths = list_paths(read_entities(text), n_chords);
     if (paths.empty())
-      throw std::runtime_error("it has no polyline, line, arc or circle");
+      throw std::runtime_error(
+        "it has no polyline, line, arc or circle in model space");
     return paths;
   }
 

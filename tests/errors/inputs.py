@@ -731,6 +731,17 @@ def blocks_that_lean():
     assert "once block 1 has gone" in rows[20]["2"]
 
 
+def places_without_round_off():
+    """Blocks in the middle of a scene have 0 there, not the round-off of a sum."""
+    for scene, place in (("roof_block_falls", "(0, 4.333)"), ("bolted_roof_3d", "(0, 0, 1)")):
+        done = validate(PRM / "verification" / f"{scene}.prm")
+        assert done.returncode == 0, done.stderr
+        text = done.stdout.decode("utf-8")
+        table = text[text.index("Blocks\n"):].splitlines()
+        print(table[2])
+        assert f"  {place}  " in table[2], table[2]
+
+
 def attached_block():
     """A block that is one with rock which is dug later has no factor until then; after
     that it has that of what is left."""

@@ -147,6 +147,13 @@ def limit():
           math.tan(math.radians(30)) / math.tan(math.radians(20)), 1e-9)
     check_raises(keyblock.Error, ["stage 'toss'", "start, rest"], lambda: keyblock.sweep(
         incline, {"Joints/base/Friction angle": [20]}, stage="toss"))
+    for value in ("30", 30):
+        check_raises(keyblock.Error, ["Joints/*/Friction angle", repr(value), "a list"],
+                     lambda value=value: keyblock.sweep(
+                         incline, {"Joints/*/Friction angle": value}))
+    for factor in (-1, math.nan, math.inf):
+        check_raises(keyblock.Error, ["a factor of", str(factor)], lambda factor=factor: (
+            keyblock.sweep(incline, {"Joints/base/Friction angle": [20]}, wanted=factor)))
     other = keyblock.Scene(PRM / "verification" / "blocks_cube_3.prm")
     check_raises(keyblock.Error, ["blocks_cube_3.prm", "other joints"],
                  lambda: keyblock.find_blocks(incline).limit_equilibrium(other))

@@ -322,6 +322,10 @@ def ranks():
     check("shared sweep", abs(sweep.factor - exact).max(), 0., absolute=1e-9)
     check("shares", keyblock.sum_over_ranks([len(sweep.samples)])[0], 11)
     check_that("each has some", 0 < len(sweep.samples) <= 11 // keyblock.size() + 1)
+    # what only some ranks meet is raised by all, that of the first combination
+    check_raises(keyblock.Error, ["Friction angle=95"], lambda: keyblock.sweep(
+        INCLINE, {"Joints/base/Friction angle": [20, 25, 30, 95, 35, 96]}))
+    check("and no rank waits", keyblock.sum_over_ranks([1.])[0], keyblock.size())
     found = keyblock.find_blocks(keyblock.Scene(INCLINE))
     check("blocks on all ranks", found[0].volume, 0.05, 1e-10)
     check_raises(keyblock.Error, ["no_such.prm"], lambda: keyblock.Scene("no_such.prm"))

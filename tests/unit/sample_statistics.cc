@@ -95,6 +95,12 @@ BOOST_AUTO_TEST_CASE(ranks_are_correlated)
   BOOST_TEST(is_near(rank_correlation({1., 2., 3.}, {1., 8., 27.}), 1., 1e-12));
   BOOST_TEST(is_near(rank_correlation({1., 2., 3.}, {9., 4., 1.}), -1., 1e-12));
   BOOST_TEST(rank_correlation({1., 1., 1.}, {1., 2., 3.}) == 0.);
+  // round-off has no rank
+  BOOST_TEST(
+    rank_correlation({1., 2., 3.}, {1. + 2e-16, 1. - 1e-16, 1. - 2e-16}) == 0.);
+  BOOST_TEST(is_near(rank_correlation({1., 2., 3.}, {1., 1. + 1e-9, 1. + 2e-9}),
+                     1.,
+                     1e-12));
   // ties share their rank
   BOOST_TEST(is_near(rank_correlation({1., 2., 2., 3.}, {1., 2., 3., 4.}),
                      0.94868,

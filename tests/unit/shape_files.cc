@@ -239,6 +239,23 @@ BOOST_AUTO_TEST_CASE(outlines_of_drawings)
     }
   const auto circle = read_dxf_outline(drawing("0 CIRCLE 10 5 20 6 40 2"), n);
   BOOST_TEST(circle.size() == 2 * n);
+  // arcs that end where they begin
+  for (const std::string angles :
+       {"50 0 51 360", "50 90 51 450", "50 360 51 0"})
+    {
+      const auto whole =
+        read_dxf_outline(drawing("0 ARC 10 5 20 6 40 2 " + angles), n);
+      BOOST_TEST(whole.size() == 2 * n);
+      BOOST_TEST(std::abs(area_of(whole) - area_of(circle)) < 1e-9);
+    }
+  // behind a byte order mark, beside a frame and a spline on paper
+  const std::string paper =
+    "0 LINE 67 1 10 0 20 0 11 9 21 0 0 SPLINE 67 1 70 11 0 POLYLINE 67 1 66 1 "
+    "70 1 0 VERTEX 67 1 10 0 20 0 0 VERTEX 67 1 10 4 20 0 0 SEQEND 67 1 ";
+  const auto marked = read_dxf_outline(
+    "\xEF\xBB\xBF" + drawing(paper + "0 CIRCLE 67 0 10 5 20 6 40 2"), n);
+  BOOST_TEST(marked.size() == 2 * n);
+  BOOST_TEST(area_of(marked) == area_of(circle));
   // drawn on the back of the plane
   const auto mirrored = read_dxf_outline(
     drawing("0 LWPOLYLINE 70 1 230 -1 10 1 20 0 10 2 20 0 10 1 20 1"), n);
@@ -284,6 +301,7 @@ BOOST_AUTO_TEST_CASE(bad_drawings)
   check(drawing("0 LINE 10 0 20 zero 11 4 21 0"), "'zero'");
   check(drawing("0 LINE 10 0 20 0 11 4"), "no value of code 21");
   check(drawing("0 POINT 10 0 20 0"), "no polyline");
+  check(drawing("0 CIRCLE 67 1 10 5 20 6 40 2"), "circle in model space");
   check("AutoCAD Binary DXF\r\n", "binary");
   check("zero\nSECTION\n", "where the code of a value is expected");
 }

@@ -32,7 +32,8 @@ namespace Keyblock
   };
 
   /** Coefficient of correlation of the ranks of two lists of the same length
-   * (Spearman); 0 if one of them is constant. */
+   * (Spearman); 0 if one of them is constant. Values that differ by a part in
+   * 1e12 are equal. */
   double rank_correlation(const std::vector<double> &x,
                           const std::vector<double> &y);
 } // namespace Keyblock

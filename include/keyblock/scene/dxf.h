@@ -15,8 +15,8 @@ namespace Keyblock
    * Corners of the closed outline in the text of a drawing, ASCII DXF, in its
    * unit: one closed polyline or circle, or lines, arcs and polylines whose
    * ends meet. Arcs become chords, as many in half a circle as @p n_chords.
-   * Texts, dimensions and points do not count. Throws std::runtime_error with
-   * what is wrong.
+   * Texts, dimensions, points and what is on the paper of a layout do not
+   * count. Throws std::runtime_error with what is wrong.
    */
   std::vector<dealii::Point<2>> read_dxf_outline(const std::string &text,
                                                  const unsigned int n_chords);
