@@ -159,8 +159,9 @@ namespace Keyblock
       "Reach",
       reach,
       "Distance from the block up to which rock moves in trials, in sizes of "
-      "the block; rock farther away is held [-]. 0: all rock moves. Without "
-      "effect where all joints or the rock are reduced.",
+      "the block; rock farther away is held [-], but for finite blocks that "
+      "lean on it, on those, and so on. 0: all rock moves. Without effect where "
+      "all joints or the rock are reduced.",
       not_negative);
     prm.add_parameter("True masses",
                       true_masses,
