@@ -202,7 +202,8 @@ namespace Keyblock
     std::vector<bool> is_frozen(split.mesh.n_cells());
     for (unsigned int c = 0; c < split.mesh.n_cells(); ++c)
       is_frozen[c] =
-        !is_moving[split.block_of_cell[c]] &&
+        (split.block_of_cell[c] == none ||
+         !is_moving[split.block_of_cell[c]]) &&
         std::none_of(moving.begin(), moving.end(), [&](const unsigned int m) {
           const Block<dim> &b = blocks.blocks[m];
           return split.mesh.cell_center(c).distance(b.centroid) <=
