@@ -54,6 +54,25 @@ BOOST_AUTO_TEST_CASE(durations_for_people)
   BOOST_TEST(duration_text(7560.) == "2.1 h");
 }
 
+// what matters most stays whole where a line is short
+BOOST_AUTO_TEST_CASE(fields_that_do_not_fit)
+{
+  const std::vector<ProgressField> fields = {
+    {"Stage 1 of 3", 0},
+    {" (excavation)", 4},
+    {"  step 12000", 3},
+    {"  unbalanced 0.00453 of 1e-05", 1},
+    {"  open/sliding/sticking 1/2/3", 5},
+    {"  left 7 min", 2},
+    {"  12.3 M element-steps/s", 6}};
+  const std::string left = "unbalanced 0.00453 of 1e-05  left 7 min";
+  BOOST_TEST(fit_fields(fields, 79) ==
+             "Stage 1 of 3 (excavation)  step 12000  " + left);
+  BOOST_TEST(fit_fields(fields, 60) == "Stage 1 of 3  " + left);
+  BOOST_TEST(fit_fields(fields, 10) == "Stage 1 of");
+  BOOST_TEST(fit_fields(fields, 0).size() > 120u);
+}
+
 BOOST_AUTO_TEST_CASE(terminals_without_a_size_are_none)
 {
   const int main_end = posix_openpt(O_RDWR | O_NOCTTY);
