@@ -110,7 +110,7 @@ namespace Keyblock
     std::vector<Vector<dim>> block_velocity(1);
     for (unsigned int w = 1; w <= n_windows; ++w)
       {
-        stop_if_asked(communicator);
+        pause();
         for (unsigned int step = 0; step < window; ++step)
           run.step.advance(false);
         trial.n_steps += window;
