@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/bounding_box.h>
+
 #include <keyblock/base/number_text.h>
 #include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/law/joint_stiffness.h>
@@ -215,6 +217,29 @@ namespace Keyblock
 
 
 
+    /** A warning if a mesh file looks as if its unit were not the metre, or
+     * empty. */
+    template <int dim>
+    std::string
+    warning_of_large_mesh(const Scene<dim> &scene, const Mesh<dim> &mesh)
+    {
+      constexpr double largest = 20e3; // [m]
+      if (scene.domain.shape != DomainShape::file)
+        return "";
+      const dealii::BoundingBox<dim> box(mesh.vertices);
+      double length = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        length = std::max(length, box.side_length(d));
+      if (length <= largest)
+        return "";
+      return "The mesh '" + scene.domain.file +
+             "' of the entry 'Domain/File' is " + text_of(length) +
+             " m long: is it in mm or cm? Coordinates are in metres; scale "
+             "them where the mesh is made.";
+    }
+
+
+
     /** What the ground beside free fields leaves out in this scene. */
     template <int dim>
     std::vector<std::string>
@@ -245,6 +270,7 @@ namespace Keyblock
             model.communicator, model.scene, model.split, model.cells),
           warning_of_welded_joints(model.scene, model.split, model.mesh_report),
           warning_of_compliant_joints(model.scene),
+          warning_of_large_mesh(model.scene, model.split.mesh),
           warning_of_dilation(model.scene),
           warning_of_steep_dilation(model.scene)})
       if (!warning.empty())

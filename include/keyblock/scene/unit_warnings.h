@@ -10,7 +10,8 @@
 namespace Keyblock
 {
   /** Values that look as if they were in another unit, one sentence each:
-   * angles in radians, stresses in MPa or GPa, densities in t/m3. */
+   * angles in radians, stresses in MPa or GPa, densities in t/m3, forces in kN,
+   * lengths and areas in millimetres. */
   template <int dim>
   std::vector<std::string> warnings_of_units(const Scene<dim> &scene);
 
