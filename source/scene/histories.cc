@@ -144,13 +144,14 @@ namespace Keyblock
             level = stage->water_level;
         }
     if (!own.water_pressure.empty())
-      return "max(0, (" + own.water_pressure + "))"; // joints bear no suction
+      // joints bear no suction; what has no value keeps none
+      return "max((" + own.water_pressure + "), 0)";
     if (!own.water_level.empty())
       level = own.water_level;
     if (level.empty() || level == no_water)
       return "";
-    return exact_text(water.unit_weight) + " * max(0, (" + level + ") - " +
-           (dim == 2 ? "y" : "z") + ")";
+    return exact_text(water.unit_weight) + " * max((" + level + ") - " +
+           (dim == 2 ? "y" : "z") + ", 0)";
   }
 
 
