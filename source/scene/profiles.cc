@@ -122,6 +122,10 @@ namespace Keyblock
                 " numbers and 'Bench stages' " +
                 std::to_string(e.bench_stages.size()) +
                 " names; give a stage for what is below each level.");
+      require(dim == 2 || e.to > e.from,
+              "The entry '" + section + "/From' (" + text_of(e.from) +
+                ") is not below '" + section + "/To' (" + text_of(e.to) +
+                "); give the ends of the excavation along y [m].");
       double above = e.center[1] + e.height;
       for (const double level : e.bench_levels)
         {
