@@ -201,7 +201,8 @@ namespace Keyblock
                                  warnings_of_units(*this),
                                  warnings_of_base_lines(*this),
                                  warnings_of_late_histories(*this),
-                                 warnings_of_water(*this)})
+                                 warnings_of_water(*this),
+                                 warnings_of_ground(*this)})
       found.insert(found.end(), warnings.begin(), warnings.end());
     for (const auto &material : materials)
       if (material->is_plastic() &&

@@ -172,6 +172,23 @@ namespace Keyblock
           domain.size.push_back(high[d] - low[d] + 2. * margin);
         }
     }
+
+    /** Let a box end at the surface above excavations that do not reach it.
+     * @p surface: elevation [m]; 0: not known */
+    template <int dim>
+    void
+    stop_at_surface(Domain<dim> &domain,
+                    const std::vector<const Excavation<dim> *> &profiles,
+                    const double surface)
+    {
+      if (surface <= 0. ||
+          std::any_of(profiles.begin(), profiles.end(), [&](const auto *e) {
+            return e->center[1] + e->height >= surface;
+          }))
+        return;
+      domain.size[dim - 1] =
+        std::min(domain.size[dim - 1], surface - domain.corner[dim - 1]);
+    }
   } // namespace
 
 
@@ -199,6 +216,7 @@ namespace Keyblock
     if (domain.shape == DomainShape::box && domain.size.empty())
       {
         surround(domain, profiles);
+        stop_at_surface(domain, profiles, ground.depth);
         set_entries(*prm,
                     "Domain",
                     {{"Corner", exact_list(domain.corner, dim)},

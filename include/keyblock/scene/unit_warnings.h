@@ -15,6 +15,11 @@ namespace Keyblock
   template <int dim>
   std::vector<std::string> warnings_of_units(const Scene<dim> &scene);
 
+  /** A sentence if the initial stress that follows from Ground/Depth is not
+   * that of the weight of all the rock. */
+  template <int dim>
+  std::vector<std::string> warnings_of_ground(const Scene<dim> &scene);
+
   /** Drawings (ASCII DXF) of excavations and joints whose header names another
    * unit ($INSUNITS) than the scene's Scale, one sentence each; before the
    * joints are parted into facets, which do not name their file. */
