@@ -219,15 +219,23 @@ namespace Keyblock
         AssertThrow(row.fields.size() == n_columns,
                     InputError("Line " + std::to_string(row.line) +
                                " of the table '" + file_name + "' has " +
-                               std::to_string(row.fields.size()) +
-                               " values where the header names " +
-                               std::to_string(n_columns) +
-                               " columns; give one value for each, or leave "
+                               count_text(row.fields.size(), "value") +
+                               " where the header names " +
+                               count_text(n_columns, "column") +
+                               "; give one value for each, or leave "
                                "it empty between two separators."));
         table.rows.push_back(std::move(row));
       }
     table.separator = splitter.separator;
     return table;
+  }
+
+
+
+  std::string
+  count_text(const std::size_t n, const std::string &noun)
+  {
+    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
   }
 
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/delimited_text.h>
 #include <keyblock/base/errors.h>
+#include <keyblock/base/history_columns.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/base/time_series.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdlib>
 
 namespace Keyblock
 {
@@ -14,6 +16,9 @@ namespace Keyblock
   {
     /** Times may differ from even ones by this share of the interval. */
     constexpr double largest_unevenness = 1e-3;
+
+    /** The same of times that are rounded. */
+    constexpr double largest_rounding = 0.2;
 
     /** Fourier transform of 2^n values, in place. */
     void
@@ -55,6 +60,27 @@ namespace Keyblock
                    "point."));
       return value;
     }
+
+    /** Worth of the last digit of the time that has most digits behind the
+     * point. */
+    double
+    last_digit_of_times(const DelimitedText &table)
+    {
+      double least = 1.;
+      for (const DelimitedText::Row &row : table.rows)
+        {
+          const std::string &text = row.fields[0];
+          const auto exponent     = text.find_first_of("eE");
+          const auto point        = text.find_first_of(".,");
+          double digit            = 1.;
+          if (point != std::string::npos)
+            digit = std::pow(10., 1. + point - std::min(exponent, text.size()));
+          if (exponent != std::string::npos)
+            digit *= std::pow(10., std::atof(text.c_str() + exponent + 1));
+          least = std::min(least, digit);
+        }
+      return least;
+    }
   } // namespace
 
 
@@ -74,13 +100,24 @@ namespace Keyblock
                    const std::string &entry,
                    const unsigned int n_components)
   {
+    return read_history(file_name, entry, n_components, "m/s");
+  }
+
+
+
+  TimeSeries
+  read_history(const std::string &file_name,
+               const std::string &entry,
+               const unsigned int n_components,
+               const std::string &si_unit)
+  {
     const DelimitedText table = read_delimited_text(file_name, entry);
     AssertThrow(table.header.fields.size() == n_components + 1,
-                InputError(
-                  "The history '" + file_name + "' of the entry '" + entry +
-                  "' has " + std::to_string(table.header.fields.size()) +
-                  " columns; it needs " + std::to_string(n_components + 1) +
-                  ": the time and one for each axis."));
+                InputError("The history '" + file_name + "' of the entry '" +
+                           entry + "' has " +
+                           count_text(table.header.fields.size(), "column") +
+                           "; it needs " + std::to_string(n_components + 1) +
+                           ": the time and one for each axis."));
     const auto is_number = [&](const std::string &field) {
       double value = 0.;
       return read_number(field, table.has_decimal_comma(), value);
@@ -95,15 +132,20 @@ namespace Keyblock
     AssertThrow(table.rows.size() >= 2,
                 InputError("The history '" + file_name + "' of the entry '" +
                            entry + "' has " +
-                           std::to_string(table.rows.size()) +
-                           " rows; give at least two."));
+                           count_text(table.rows.size(), "row") +
+                           "; give at least two."));
+    const HistoryColumns header(table, si_unit, entry);
     std::vector<double> time;
     std::vector<std::vector<double>> values(n_components);
     for (const DelimitedText::Row &row : table.rows)
       {
-        time.push_back(number_at(table, row, 0));
+        time.push_back(header.factors[0] * number_at(table, row, 0));
         for (unsigned int c = 0; c < n_components; ++c)
-          values[c].push_back(number_at(table, row, c + 1));
+          {
+            const unsigned int column = header.columns[c];
+            values[c].push_back(header.factors[column] *
+                                number_at(table, row, column));
+          }
       }
     const auto place = [&](const unsigned int i) {
       return "Line " + std::to_string(table.rows[i].line) +
@@ -115,9 +157,13 @@ namespace Keyblock
                   InputError(place(i) + " after " + text_of(time[i - 1]) +
                              " s; give times that grow evenly."));
     const double interval = (time.back() - time.front()) / (time.size() - 1);
+    // both the row and the ends may be rounded
+    const double rounding =
+      std::min(header.factors[0] * last_digit_of_times(table),
+               largest_rounding * interval);
     for (unsigned int i = 1; i < time.size(); ++i)
       AssertThrow(std::abs(time[i] - time[0] - i * interval) <=
-                    largest_unevenness * interval,
+                    largest_unevenness * interval + rounding,
                   InputError(place(i) + ", where rows are " +
                              text_of(interval) +
                              " s apart in the mean; give even times."));

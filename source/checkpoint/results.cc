@@ -66,7 +66,10 @@ namespace Keyblock
     action(report.unbalanced_ratio);
     action(report.max_displacement);
     action(report.largest_nodal_ratio);
-    action(report.is_converged);
+    unsigned int end = report.is_converged + report.is_timed;
+    action(end);
+    report.is_converged = end > 0;
+    report.is_timed     = end > 1;
     action(report.cells);
     action(report.plastic_cells);
     action(report.yielding_points);

@@ -192,6 +192,8 @@ namespace Keyblock
                    {"unbalanced_ratio", stage.unbalanced_ratio},
                    {"largest_nodal_ratio", stage.largest_nodal_ratio},
                    {"converged", stage.is_converged}};
+      if (stage.is_timed)
+        json["converged"] = nullptr;
       if (!stage.remark.empty())
         json["remark"] = stage.remark;
       if (!stage.warning.empty())

@@ -148,9 +148,16 @@ namespace Keyblock::Python
         .def_property_readonly("unbalanced_ratio",
                                of(&StageReport::unbalanced_ratio),
                                "Unbalanced over driving force at its end.")
-        .def_property_readonly("converged",
-                               of(&StageReport::is_converged),
-                               "Whether forces balance as the scene asks for.")
+        .def_property_readonly(
+          "converged",
+          [](const StageResult &stage) {
+            return stage.report.is_timed
+                     ? std::nullopt
+                     : std::make_optional(stage.report.is_converged);
+          },
+          "Whether forces balance as the scene asks for; "
+          "None: it ended after its duration, not in "
+          "balance.")
         .def_property_readonly("max_displacement",
                                of(&StageReport::max_displacement),
                                "Largest displacement since the start (m).")

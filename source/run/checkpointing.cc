@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/run/checkpointing.h>
+#include <keyblock/run/progress_line.h>
 
 #include <cstring>
 #include <iomanip>
@@ -56,6 +57,8 @@ namespace Keyblock
     const std::string name    = folder + "checkpoint.h5";
     const std::string failure = write(name);
     last_saved                = MPI_Wtime();
+    if (model.out.is_active())
+      clear_progress(model.out.get_stream());
     if (failure.empty())
       note_checkpoint(name);
     if (failure.empty())

@@ -4,6 +4,7 @@
 #include <keyblock/base/stop_request.h>
 #include <keyblock/run/probability_study.h>
 #include <keyblock/run/program.h>
+#include <keyblock/run/progress_line.h>
 #include <keyblock/run/simulation.h>
 #include <keyblock/scene/command_line.h>
 
@@ -79,7 +80,10 @@ namespace Keyblock
     catch (const ComputationError &error)
       {
         if (world.is_root())
-          std::cerr << "Failed: " << in_one_line(error.message) << std::endl;
+          {
+            clear_progress(std::cout);
+            std::cerr << "Failed: " << in_one_line(error.message) << std::endl;
+          }
         return 2;
       }
     catch (const StopRequest &request)

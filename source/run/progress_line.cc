@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 namespace Keyblock
 {
@@ -48,5 +49,61 @@ namespace Keyblock
   {
     winsize size{};
     return ioctl(file_descriptor, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+  }
+
+
+
+  double
+  progress_interval(const unsigned int width)
+  {
+    return width > 0 ? 0.5 : 30.;
+  }
+
+
+
+  std::string
+  fit_fields(std::vector<ProgressField> fields, const unsigned int width)
+  {
+    const auto join = [&]() {
+      std::string line;
+      for (const ProgressField &field : fields)
+        line += field.text;
+      return line;
+    };
+    while (width > 0 && fields.size() > 1 && join().size() > width)
+      fields.erase(
+        std::max_element(fields.begin(),
+                         fields.end(),
+                         [](const ProgressField &a, const ProgressField &b) {
+                           return a.rank < b.rank;
+                         }));
+    return width > 0 ? join().substr(0, width) : join();
+  }
+
+
+
+  void
+  print_fields(std::ostream &out,
+               const std::vector<ProgressField> &fields,
+               const unsigned int width)
+  {
+    if (width == 0)
+      {
+        out << fit_fields(fields, 0) << '\n' << std::flush;
+        return;
+      }
+    // text in the last column would begin a new line
+    std::string text = fit_fields(fields, width - 1);
+    text.resize(width - 1, ' ');
+    out << '\r' << text << std::flush;
+  }
+
+
+
+  void
+  clear_progress(std::ostream &out)
+  {
+    if (const unsigned int width = terminal_width(); width > 0)
+      out << '\r' << std::string(width - 1, ' ') << '\r' << std::flush;
   }
 } // namespace Keyblock

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/factor_progress.h>
 #include <keyblock/run/safety_study.h>
 #include <keyblock/run/wanted_blocks.h>
 
@@ -262,11 +263,17 @@ namespace Keyblock
       model.scene, model.split, model.blocks, *model.numbering, model.parts());
     try
       {
-        for (const unsigned int b : list_blocks_of_rank_group(groups))
+        const std::vector<unsigned int> mine =
+          list_blocks_of_rank_group(groups);
+        FactorProgress progress(model.out, mine.size());
+        search.watcher = [&](const SearchAdvance &now) { progress.show(now); };
+        for (const unsigned int b : mine)
           {
+            progress.begin_block(model.blocks.blocks[b].id);
             const SafetyFactor result = find_factor(search, b);
             recall(after, model.parts());
             finite_check.check_factor(result);
+            progress.clear();
             record_factor(result, false);
             model.count_cells();
             checkpointing.save_if_due();

@@ -4,6 +4,7 @@
 #include <keyblock/run/simulation.h>
 #include <keyblock/run/stage_reporter.h>
 #include <keyblock/run/static_stage.h>
+#include <keyblock/run/water_check.h>
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/scene/network_output.h>
 
@@ -57,6 +58,7 @@ namespace Keyblock
   void
   Simulation<dim>::set_up()
   {
+    check_water(model.scene, model.split);
     model.set_up();
     parts    = std::make_unique<Run<dim>>(model, folder, command, wall_start);
     recorder = std::make_unique<StageRecorder<dim>>(model,

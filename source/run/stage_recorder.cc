@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/number_text.h>
 #include <keyblock/run/stage_recorder.h>
 #include <keyblock/run/stage_reporter.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace Keyblock
 {
@@ -87,8 +86,8 @@ namespace Keyblock
   StageRecorder<dim>::ended(StageProgress<dim> &progress, const Stage &stage)
   {
     // what follows does not stand behind the line of progress
-    if (const unsigned int width = terminal_width(); width > 0)
-      model.out << '\r' << std::string(width - 1, ' ') << '\r' << std::flush;
+    if (model.out.is_active())
+      clear_progress(model.out.get_stream());
     if (stage.is_static())
       {
         sampled(progress);
@@ -193,11 +192,59 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<ProgressField>
+  StageRecorder<dim>::fields_of(const StageProgress<dim> &progress,
+                                const StageAdvance &now,
+                                const JointSums<dim> &points) const
+  {
+    const std::string n_done          = std::to_string(progress.n_done);
+    std::vector<ProgressField> fields = {
+      {"Stage " + std::to_string(progress.index + 1) + " of " +
+         std::to_string(model.scene.stages.size()),
+       0},
+      {" (" + model.scene.stages[progress.index]->name + ")", 4}};
+    if (now.planned > 0.)
+      fields.push_back(
+        {"  step " + n_done + " of " + std::to_string(progress.n_planned), 1});
+    else
+      fields.push_back({"  step " + n_done, 3});
+    if (now.planned == 0. && now.ramp_left > 0.)
+      fields.push_back(
+        {"  ramp " + std::to_string(std::lround(100. * (1. - now.ramp_left))) +
+           " %",
+         1});
+    if (now.target > 0.)
+      fields.push_back({"  unbalanced " + text_of(now.ratio, 3) + " of " +
+                          text_of(now.target, 3),
+                        1});
+    fields.push_back(
+      {"  open/sliding/sticking " + std::to_string(points.n_open) + "/" +
+         std::to_string(points.n_sliding) + "/" +
+         std::to_string(points.n_sticking) +
+         (points.n_intact > 0 ? ", bonded " + std::to_string(points.n_intact)
+                              : ""),
+       5});
+    const double left = time_left(last_printed, now);
+    if (left >= 0.)
+      fields.push_back({"  left " + duration_text(left), 2});
+    fields.push_back({"  " +
+                        text_of(1e-6 * model.n_cells_global *
+                                  (now.steps - last_printed.steps) /
+                                  (now.time - last_printed.time),
+                                3) +
+                        " M element-steps/s",
+                      6});
+    return fields;
+  }
+
+
+
+  template <int dim>
   void
   StageRecorder<dim>::print_progress(const StageProgress<dim> &progress)
   {
     const unsigned int width = terminal_width();
-    const double interval    = width > 0 ? 0.5 : 30.;
+    const double interval    = progress_interval(width);
     if (stage_printed != progress.index)
       {
         last_printed  = advance_of(progress);
@@ -211,33 +258,10 @@ namespace Keyblock
     JointSums<dim> points;
     if (model.contact)
       points = model.contact->report().count_points();
-    std::ostringstream line;
-    line << std::setprecision(3) << "Stage " << progress.index + 1 << " of "
-         << model.scene.stages.size() << " ("
-         << model.scene.stages[progress.index]->name << ")  step "
-         << progress.n_done;
-    if (now.planned > 0.)
-      line << " of " << progress.n_planned;
-    else if (now.ramp_left > 0.)
-      line << "  ramp " << std::lround(100. * (1. - now.ramp_left)) << " %";
-    if (now.target > 0.)
-      line << "  unbalanced " << now.ratio << " of " << now.target;
-    line << "  open/sliding/sticking " << points.n_open << "/"
-         << points.n_sliding << "/" << points.n_sticking;
-    if (points.n_intact > 0)
-      line << ", bonded " << points.n_intact;
-    const double left = time_left(last_printed, now);
-    if (left >= 0.)
-      line << "  left " << duration_text(left);
-    line << "  "
-         << 1e-6 * model.n_cells_global * (now.steps - last_printed.steps) /
-              (now.time - last_printed.time)
-         << " M element-steps/s";
-    std::string text = line.str();
-    if (width > 0)
-      text.resize(width - 1, ' ');
-    model.out << (width > 0 ? "\r" : "") << text << (width > 0 ? "" : "\n")
-              << std::flush;
+    if (model.out.is_active())
+      print_fields(model.out.get_stream(),
+                   fields_of(progress, now, points),
+                   width);
     last_printed = now;
   }
 

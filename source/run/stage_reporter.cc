@@ -207,8 +207,10 @@ namespace Keyblock
     result.largest_nodal_ratio = model.step->largest_nodal_ratio;
     result.energies            = model.step->energies;
     result.is_converged        = progress.is_converged;
-    result.cells               = model.n_cells_global;
-    result.plastic_cells       = model.communicator.sum(
+    result.is_timed            = progress.is_converged && !stage.is_static() &&
+                      !(result.unbalanced_ratio < stage.unbalanced_ratio);
+    result.cells         = model.n_cells_global;
+    result.plastic_cells = model.communicator.sum(
       static_cast<unsigned int>(model.cells.strength.size()));
     result.yielding_points = model.communicator.sum(model.cells.n_yielding);
     if (model.contact)

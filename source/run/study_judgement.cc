@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a study says of a sample: limit equilibrium, and strength reduction.
+#include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/run/probability_study.h>
 #include <keyblock/run/simulation.h>
@@ -53,7 +54,18 @@ namespace Keyblock
             if (classes[std::min<std::size_t>(ground.stage_number,
                                               classes.size() - 1)] ==
                 BlockClass::exposed)
-              now[b] = judge_block(ground, free, g.blocks, b, 0.).limit.factor;
+              {
+                const double factor =
+                  judge_block(ground, free, g.blocks, b, 0.).limit.factor;
+                AssertThrow(!std::isnan(factor),
+                            InputError("Block " + std::to_string(all[b].id) +
+                                       " of a sample of 'Study' has no factor, "
+                                       "as a formula for its water or loads "
+                                       "has no value there; correct the "
+                                       "formula, or the range of what it "
+                                       "depends on."));
+                now[b] = factor;
+              }
           }
       });
     BlockFactors found{

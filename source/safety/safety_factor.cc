@@ -46,7 +46,9 @@ namespace Keyblock
     , blocks(blocks)
     , run(run)
     , trials(scene, split, blocks, numbering, run)
-  {}
+  {
+    trials.pulse = [this]() { tell_advance(); };
+  }
 
 
 
@@ -58,6 +60,7 @@ namespace Keyblock
   {
     SafetyFactor result;
     result.block = block;
+    advance      = SearchAdvance();
     add_cheap_answers(block, result);
     trials.failure.forget();
     TriedBlocks tried;
@@ -109,6 +112,7 @@ namespace Keyblock
       return find(carried.block, number, known);
     SafetyFactor result;
     result.block = carried.block;
+    advance      = SearchAdvance();
     add_cheap_answers(carried.block, result);
     trials.failure.forget();
     find_group(carried, number, known, result);

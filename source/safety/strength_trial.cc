@@ -66,6 +66,17 @@ namespace Keyblock
 
   template <int dim>
   void
+  StrengthTrials<dim>::pause() const
+  {
+    stop_if_asked(communicator);
+    if (pulse)
+      pulse();
+  }
+
+
+
+  template <int dim>
+  void
   StrengthTrials<dim>::reduce(const TriedBlocks &tried, const double factor)
   {
     StrengthReduction reduction;
@@ -183,7 +194,7 @@ namespace Keyblock
     double last    = scene.safety.maximum_periods * period;
     for (double step = 0.; step < last; step += window)
       {
-        stop_if_asked(communicator);
+        pause();
         step_damped_until(trial.n_steps + window,
                           tried,
                           slowest > 0. ? creep_drop : 1.,

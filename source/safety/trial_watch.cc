@@ -113,7 +113,7 @@ namespace Keyblock
     bool is_left_in_peace = false;
     for (unsigned int w = 1; w <= n_windows; ++w)
       {
-        stop_if_asked(communicator);
+        pause();
         for (unsigned int step = 0; step < window; ++step)
           run.step.advance(false);
         trial.n_steps += window;

@@ -12,9 +12,11 @@
 #include <keyblock/scene/gravity.h>
 #include <keyblock/scene/scene.h>
 #include <keyblock/scene/text.h>
+#include <keyblock/scene/unit_warnings.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace Keyblock
 {
@@ -136,20 +138,105 @@ namespace Keyblock
       return false;
     }
 
-    /** Put in the entries of the initial stress that @p text does not give. */
+    /** The rock in a box at the start. */
+    struct RockInBox
+    {
+      double density  = 0.;   ///< of most of it [kg/m3]
+      bool is_uniform = true; ///< whether all of it has that
+    };
+
+    /** Places in a box, none of them on its sides. */
+    template <int dim>
+    std::vector<Point<dim>>
+    places_in(const Domain<dim> &box)
+    {
+      constexpr unsigned int n_along = dim == 2 ? 64 : 24;
+      std::vector<Point<dim>> places(1);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          std::vector<Point<dim>> next;
+          for (Point<dim> place : places)
+            for (unsigned int i = 0; i < n_along; ++i)
+              {
+                place[d] = box.corner[d] + (i + 0.5) / n_along * box.size[d];
+                next.push_back(place);
+              }
+          places = next;
+        }
+      return places;
+    }
+
+    /** What fills the box by the regions of materials, of which the last one
+     * that has a place counts there; bands between joints are taken for thin.
+     */
+    template <int dim>
+    RockInBox
+    find_rock(const Scene<dim> &scene)
+    {
+      const std::vector<Point<dim>> places = places_in(scene.domain);
+      std::vector<const Material<dim> *> material_at(places.size(), nullptr);
+      std::map<double, unsigned int> n_places;
+      for (const auto &material : scene.materials)
+        {
+          const std::string &region = material->region;
+          if (!material->stage.empty())
+            continue;
+          if (region.rfind("band ", 0) == 0 || region.rfind("id ", 0) == 0)
+            {
+              if (!material->is_rigid())
+                n_places[material->density] += 0;
+              continue;
+            }
+          const Expression<dim> inside(region == "all" ? "1" : region,
+                                       1,
+                                       "Materials/" + material->name +
+                                         "/Region");
+          for (unsigned int i = 0; i < places.size(); ++i)
+            if (inside.value(places[i], 0., 0) > 0.)
+              material_at[i] = material.get();
+        }
+      for (const Material<dim> *material : material_at)
+        if (material && !material->is_rigid())
+          ++n_places[material->density];
+      RockInBox rock;
+      rock.is_uniform   = n_places.size() < 2;
+      unsigned int most = 0;
+      for (const auto &[density, n] : n_places)
+        if (n > most)
+          {
+            most         = n;
+            rock.density = density;
+          }
+      return rock;
+    }
+
+    /** Put in the entries of the initial stress that @p text does not give.
+     * Above the box the ground weighs @p unit_weight, in it the rock
+     * @p of_rock [N/m3]. */
     template <int dim>
     void
     complete_stress(ParameterHandler &prm,
                     const SceneText &text,
                     const DepthGround<dim> &ground,
-                    const double unit_weight)
+                    const double top,
+                    const double unit_weight,
+                    const double of_rock)
     {
       const std::string section = "Initial state";
-      const Entries derived     = {
-            {"Surface elevation", exact_text(ground.depth)},
-            {"Vertical stress gradient", exact_text(unit_weight)},
-            {"Lateral ratios", exact_list(ground.k0, ground.k0.size())},
-            {"Lateral azimuth", exact_text(ground.azimuth)}};
+      Entries derived = {{"Surface elevation", exact_text(ground.depth)},
+                         {"Vertical stress gradient", exact_text(unit_weight)},
+                         {"Lateral ratios",
+                          exact_list(ground.k0, ground.k0.size())},
+                         {"Lateral azimuth", exact_text(ground.azimuth)}};
+      if (unit_weight != of_rock && !text.gives(section, "Surface elevation") &&
+          !text.gives(section, "Vertical stress gradient") &&
+          !text.gives(section, "Surface stress"))
+        {
+          derived[0].second = exact_text(top);
+          derived[1].second = exact_text(of_rock);
+          derived.emplace_back("Surface stress",
+                               exact_text(unit_weight * (ground.depth - top)));
+        }
       for (const auto &entry : derived)
         if (!text.gives(section, entry.first))
           set_entries(prm, section, {entry});
@@ -213,10 +300,6 @@ namespace Keyblock
   {
     if (ground.depth <= 0.)
       return;
-    double density = ground.density;
-    for (const auto &material : materials)
-      if (density == 0. && !material->is_rigid())
-        density = material->density;
     require(domain.shape != DomainShape::box || !domain.size.empty(),
             "The entry 'Domain/Size' is missing: 'Ground/Depth' puts rollers "
             "and overburden on the sides of the box; give its lengths along "
@@ -238,11 +321,15 @@ namespace Keyblock
                   "Initial state",
                   {{"Gravity",
                     none_across + "-" + exact_text(standard_gravity)}});
-    const double unit_weight = density * downward_gravity(*this);
+    const RockInBox rock = find_rock(*this);
+    const double density = ground.density > 0. ? ground.density : rock.density;
+    const double gravity = downward_gravity(*this);
+    const double unit_weight = density * gravity;
     double pressure          = unit_weight * (ground.depth - top);
     if (initial_state.stress.empty() && initial_state.measured_points.empty())
       {
-        complete_stress(*prm, text, ground, unit_weight);
+        complete_stress(
+          *prm, text, ground, top, unit_weight, rock.density * gravity);
         pressure = initial_state.surface_stress +
                    initial_state.vertical_stress_gradient *
                      (initial_state.surface_elevation - top);
@@ -263,6 +350,28 @@ namespace Keyblock
       }
   }
 
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_ground(const Scene<dim> &scene)
+  {
+    const InitialState<dim> &state = scene.initial_state;
+    if (scene.ground.depth <= 0. || state.vertical_stress_gradient <= 0. ||
+        !state.stress.empty() || !state.measured_points.empty() ||
+        state.equilibrium != InitialEquilibrium::none ||
+        find_rock(scene).is_uniform)
+      return {};
+    const double gravity = downward_gravity(scene);
+    return {
+      "The initial stress of 'Ground/Depth' grows with depth as of rock "
+      "of " +
+      text_of(state.vertical_stress_gradient / gravity) +
+      " kg/m3, and 'Materials' has rock of another density, which moves "
+      "before anything is dug; set 'Initial state/Equilibrium' to static, "
+      "which brings stress and weight into balance."};
+  }
+
+  template std::vector<std::string> warnings_of_ground(const Scene<2> &);
+  template std::vector<std::string> warnings_of_ground(const Scene<3> &);
   template void Scene<2>::complete_ground(const SceneText &);
   template void Scene<3>::complete_ground(const SceneText &);
 } // namespace Keyblock

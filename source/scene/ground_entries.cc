@@ -44,8 +44,9 @@ namespace Keyblock
     prm.add_parameter(
       "Density",
       density,
-      "Density of the ground up to the surface [kg/m3]; 0: that "
-      "of the first material that deforms.",
+      "Density of the ground between the domain and the surface [kg/m3]; in "
+      "the "
+      "domain that of the rock counts; 0: the same as most of that.",
       not_negative);
     prm.add_parameter("K0",
                       k0,

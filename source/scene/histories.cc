@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a scene says of water, shaking and histories, and what it is warned of.
+#include <keyblock/base/history_columns.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/gravity.h>
 #include <keyblock/scene/joint_facets.h>
@@ -21,6 +22,53 @@ namespace Keyblock
     /** Sine between gravity and the last axis, from which on elevations are
      * doubted [-]. */
     constexpr double tilt = 1e-6;
+
+    /** That of a history without one in its header. */
+    std::string
+    unit_of(const HistoryQuantity quantity)
+    {
+      return quantity == HistoryQuantity::stress         ? "Pa"
+             : quantity == HistoryQuantity::acceleration ? "m/s2"
+                                                         : "m/s";
+    }
+
+
+
+    /** Sentences on histories that begin when all is over. */
+    template <int dim>
+    std::vector<std::string>
+    warnings_of_late_histories(const Scene<dim> &scene)
+    {
+      std::vector<std::string> found;
+      for (const auto &support : scene.supports)
+        {
+          if (!support->history)
+            continue;
+          double duration = 0.;
+          bool is_known   = true;
+          for (const auto &stage : scene.stages)
+            if (scene.stage_number(stage->name) >=
+                scene.history_stage(*support))
+              {
+                duration += stage->duration;
+                is_known =
+                  is_known && stage->is_dynamic() && stage->duration > 0.;
+              }
+          const double start = support->history->start_time();
+          if (is_known && duration > 0. && start >= duration)
+            found.push_back(
+              "The history '" + support->history_file +
+              "' of the entry "
+              "'Supports/" +
+              support->name + "/History file' begins at " + text_of(start) +
+              " s, and the run ends " + text_of(duration) +
+              " s after the beginning of its stage: nothing shakes; let its "
+              "times begin at 0, or lengthen 'Duration'.");
+        }
+      return found;
+    }
+
+
 
     /** Sentences on histories after which the ground stays displaced. */
     template <int dim>
@@ -96,13 +144,14 @@ namespace Keyblock
             level = stage->water_level;
         }
     if (!own.water_pressure.empty())
-      return "max(0, (" + own.water_pressure + "))"; // joints bear no suction
+      // joints bear no suction; what has no value keeps none
+      return "max((" + own.water_pressure + "), 0)";
     if (!own.water_level.empty())
       level = own.water_level;
     if (level.empty() || level == no_water)
       return "";
-    return exact_text(water.unit_weight) + " * max(0, (" + level + ") - " +
-           (dim == 2 ? "y" : "z") + ")";
+    return exact_text(water.unit_weight) + " * max((" + level + ") - " +
+           (dim == 2 ? "y" : "z") + ", 0)";
   }
 
 
@@ -129,11 +178,12 @@ namespace Keyblock
       if (!support->history_file.empty())
         {
           TimeSeries history =
-            TimeSeries::read((std::filesystem::path(file).parent_path() /
-                              support->history_file)
-                               .string(),
-                             "Supports/" + support->name + "/History file",
-                             dim);
+            read_history((std::filesystem::path(file).parent_path() /
+                          support->history_file)
+                           .string(),
+                         "Supports/" + support->name + "/History file",
+                         dim,
+                         unit_of(support->history_quantity));
           if (support->history_quantity == HistoryQuantity::acceleration)
             history = history.integral();
           support->history = std::make_shared<TimeSeries>(std::move(history));
@@ -150,7 +200,9 @@ namespace Keyblock
     for (const auto &warnings : {warnings_of_facets(*this),
                                  warnings_of_units(*this),
                                  warnings_of_base_lines(*this),
-                                 warnings_of_water(*this)})
+                                 warnings_of_late_histories(*this),
+                                 warnings_of_water(*this),
+                                 warnings_of_ground(*this)})
       found.insert(found.end(), warnings.begin(), warnings.end());
     for (const auto &material : materials)
       if (material->is_plastic() &&

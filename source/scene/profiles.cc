@@ -122,6 +122,10 @@ namespace Keyblock
                 " numbers and 'Bench stages' " +
                 std::to_string(e.bench_stages.size()) +
                 " names; give a stage for what is below each level.");
+      require(dim == 2 || e.to > e.from,
+              "The entry '" + section + "/From' (" + text_of(e.from) +
+                ") is not below '" + section + "/To' (" + text_of(e.to) +
+                "); give the ends of the excavation along y [m].");
       double above = e.center[1] + e.height;
       for (const double level : e.bench_levels)
         {
@@ -168,6 +172,23 @@ namespace Keyblock
           domain.size.push_back(high[d] - low[d] + 2. * margin);
         }
     }
+
+    /** Let a box end at the surface above excavations that do not reach it.
+     * @p surface: elevation [m]; 0: not known */
+    template <int dim>
+    void
+    stop_at_surface(Domain<dim> &domain,
+                    const std::vector<const Excavation<dim> *> &profiles,
+                    const double surface)
+    {
+      if (surface <= 0. ||
+          std::any_of(profiles.begin(), profiles.end(), [&](const auto *e) {
+            return e->center[1] + e->height >= surface;
+          }))
+        return;
+      domain.size[dim - 1] =
+        std::min(domain.size[dim - 1], surface - domain.corner[dim - 1]);
+    }
   } // namespace
 
 
@@ -195,6 +216,7 @@ namespace Keyblock
     if (domain.shape == DomainShape::box && domain.size.empty())
       {
         surround(domain, profiles);
+        stop_at_surface(domain, profiles, ground.depth);
         set_entries(*prm,
                     "Domain",
                     {{"Corner", exact_list(domain.corner, dim)},

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Values that look as if they were in another unit.
 #include <keyblock/base/number_text.h>
+#include <keyblock/law/joint_stiffness.h>
 #include <keyblock/scene/unit_warnings.h>
 
 #include <boost/algorithm/string.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 
 namespace Keyblock
@@ -103,6 +106,106 @@ namespace Keyblock
                        "? Stresses are in pascals, 1 MPa is 1e6.");
     }
 
+    constexpr double endless = std::numeric_limits<double>::infinity();
+
+    constexpr double least_modulus     = 1e5;  // [Pa]
+    constexpr double least_stiffness   = 1e5;  // [Pa/m]
+    constexpr double largest_depth     = 20e3; // [m]
+    constexpr double least_unit_weight = 1e3;  // [N/m3]
+
+    void
+    doubt_density(Doubts &doubts,
+                  const double value,
+                  const std::string &owner,
+                  const std::string &what,
+                  const unsigned int usual)
+    {
+      constexpr double least = 50.; // [kg/m3]
+      doubts.look_at(value,
+                     owner,
+                     "Density",
+                     0.,
+                     least,
+                     "kg/m3",
+                     "is it in t/m3 or kN/m3? " + what + " has about " +
+                       std::to_string(usual) + " kg/m3.");
+    }
+
+    void
+    doubt_stiffness(Doubts &doubts,
+                    const JointStiffness &stiffness,
+                    const std::string &owner)
+    {
+      const std::string question =
+        "is it in GPa/m or MPa/m? Stiffnesses are in Pa/m, 1 GPa/m is 1e9.";
+      doubts.look_at(stiffness.normal,
+                     owner,
+                     "Normal stiffness",
+                     0.,
+                     least_stiffness,
+                     "Pa/m",
+                     question);
+      doubts.look_at(stiffness.shear,
+                     owner,
+                     "Shear stiffness",
+                     0.,
+                     least_stiffness,
+                     "Pa/m",
+                     question);
+    }
+
+    template <int dim>
+    void
+    doubt_bolts(Doubts &doubts, const BoltSet<dim> &bolts)
+    {
+      constexpr double largest_area   = 0.05; // [m2]
+      constexpr double least_strength = 10e6; // of their section [Pa]
+      constexpr double least_bond     = 1e3;  // [N/m]
+      const std::string owner         = "Bolts/" + bolts.name;
+      const auto doubt_force          = [&](const double value,
+                                   const std::string &name,
+                                   const double least,
+                                   const std::string &unit) {
+        doubts.look_at(value,
+                       owner,
+                       name,
+                       0.,
+                       least,
+                       unit,
+                       "is it in k" + unit + "? 1 k" + unit + " is 1000.");
+      };
+      doubts.look_at(bolts.area,
+                     owner,
+                     "Area",
+                     largest_area,
+                     endless,
+                     "m2",
+                     "is it in mm2? That would be " +
+                       text_of(1e-6 * bolts.area) + " m2.");
+      doubt_force(bolts.yield_force,
+                  "Yield force",
+                  least_strength * std::min(bolts.area, 1e-4),
+                  "N");
+      doubt_force(bolts.bond_strength, "Bond strength", least_bond, "N/m");
+    }
+
+    void
+    doubt_liner(Doubts &doubts, const Liner &liner)
+    {
+      constexpr double largest_thickness = 3.; // [m]
+      const std::string owner            = "Shotcrete/" + liner.name;
+      doubt_stress(
+        doubts, liner.young_modulus, owner, "Young modulus", least_modulus);
+      doubts.look_at(liner.thickness,
+                     owner,
+                     "Thickness",
+                     largest_thickness,
+                     endless,
+                     "m",
+                     "is it in mm or cm?");
+      doubt_density(doubts, liner.density, owner, "Shotcrete", 2400);
+    }
+
     /** What drawings call their unit, by the code of $INSUNITS. */
     struct DrawingUnit
     {
@@ -183,8 +286,7 @@ namespace Keyblock
   std::vector<std::string>
   warnings_of_units(const Scene<dim> &scene)
   {
-    constexpr double least_cohesion = 1., least_modulus = 1e5; // [Pa]
-    constexpr double least_density = 50.;                      // [kg/m3]
+    constexpr double least_cohesion = 1.; // [Pa]
     Doubts doubts;
     for (const auto &joint : scene.joints)
       {
@@ -192,6 +294,7 @@ namespace Keyblock
         doubt_angle(doubts, joint->friction_angle, owner, "Friction angle");
         doubt_stress(
           doubts, joint->cohesion, owner, "Cohesion", least_cohesion);
+        doubt_stiffness(doubts, JointStiffness(*joint), owner);
       }
     doubt_angle(doubts,
                 scene.contact.default_friction_angle,
@@ -215,14 +318,27 @@ namespace Keyblock
                        owner,
                        "Young modulus",
                        least_modulus);
-          doubts.look_at(material->density,
-                         owner,
-                         "Density",
-                         0.,
-                         least_density,
-                         "kg/m3",
-                         "is it in t/m3 or kN/m3? Rock has about 2700 kg/m3.");
+          doubt_density(doubts, material->density, owner, "Rock", 2700);
         }
+    for (const auto &bolts : scene.bolts)
+      doubt_bolts(doubts, *bolts);
+    for (const auto &liner : scene.liners)
+      doubt_liner(doubts, *liner);
+    doubt_density(doubts, scene.ground.density, "Ground", "Rock", 2700);
+    doubts.look_at(scene.ground.depth,
+                   "Ground",
+                   "Depth",
+                   largest_depth,
+                   endless,
+                   "m",
+                   "is it in mm or cm?");
+    doubts.look_at(scene.water.unit_weight,
+                   "Water",
+                   "Unit weight",
+                   0.,
+                   least_unit_weight,
+                   "N/m3",
+                   "is it in kN/m3? Water weighs about 9810 N/m3.");
     return doubts.sentences();
   }
 

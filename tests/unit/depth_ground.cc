@@ -95,6 +95,39 @@ BOOST_AUTO_TEST_CASE(ground_gives_all_that_is_open)
              "left, right, front, back");
 }
 
+// ground above the box weighs what it weighs, in it stress grows with the rock
+BOOST_AUTO_TEST_CASE(ground_of_another_density_than_the_rock)
+{
+  const auto scene             = read<2>("", {"Ground/Density=2000"});
+  const InitialState<2> &state = scene->initial_state;
+  BOOST_TEST(state.surface_elevation == 30.);
+  BOOST_TEST(state.surface_stress == 9.81 * 2000. * 170.);
+  BOOST_TEST(state.vertical_stress_gradient == 9.81 * 2500.);
+  BOOST_TEST(scene->tractions.at(0)->expression ==
+             "0; " + exact_text(-9.81 * 2000. * 170.));
+  BOOST_TEST(scene->warnings().empty());
+}
+
+// a material that has no place left does not count
+BOOST_AUTO_TEST_CASE(ground_of_several_materials)
+{
+  const std::string soft = "subsection Materials\n set Names = rock, soft\n "
+                           "subsection soft\n  set Density = 2100\n  set "
+                           "Region = ";
+  const auto all         = read<2>(soft + "all\n end\nend\n");
+  BOOST_TEST(all->initial_state.vertical_stress_gradient == 9.81 * 2100.);
+  BOOST_TEST(all->warnings().empty());
+  const auto above = read<2>(soft + "y - 10\n end\nend\n");
+  BOOST_TEST(above->initial_state.vertical_stress_gradient == 9.81 * 2500.);
+  BOOST_REQUIRE(above->warnings().size() == 1u);
+  BOOST_TEST(above->warnings()[0].find(
+               "'Initial state/Equilibrium' to static") != std::string::npos);
+  BOOST_TEST(
+    read<2>(soft + "y - 10\n end\nend\n", {"Initial state/Equilibrium=static"})
+      ->warnings()
+      .empty());
+}
+
 BOOST_AUTO_TEST_CASE(ground_keeps_entries_of_the_initial_stress)
 {
   const std::string k0 = "Ground/K0=0.8";

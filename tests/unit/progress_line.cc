@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Times left are those of what ends the stage, or none.
+#include <keyblock/run/factor_progress.h>
 #include <keyblock/run/progress_line.h>
 
 #include <boost/test/unit_test.hpp>
@@ -52,6 +53,40 @@ BOOST_AUTO_TEST_CASE(durations_for_people)
   BOOST_TEST(duration_text(99.) == "99 s");
   BOOST_TEST(duration_text(210.) == "3.5 min");
   BOOST_TEST(duration_text(7560.) == "2.1 h");
+}
+
+// what matters most stays whole where a line is short
+BOOST_AUTO_TEST_CASE(fields_that_do_not_fit)
+{
+  const std::vector<ProgressField> fields = {
+    {"Stage 1 of 3", 0},
+    {" (excavation)", 4},
+    {"  step 12000", 3},
+    {"  unbalanced 0.00453 of 1e-05", 1},
+    {"  open/sliding/sticking 1/2/3", 5},
+    {"  left 7 min", 2},
+    {"  12.3 M element-steps/s", 6}};
+  const std::string left = "unbalanced 0.00453 of 1e-05  left 7 min";
+  BOOST_TEST(fit_fields(fields, 79) ==
+             "Stage 1 of 3 (excavation)  step 12000  " + left);
+  BOOST_TEST(fit_fields(fields, 60) == "Stage 1 of 3  " + left);
+  BOOST_TEST(fit_fields(fields, 10) == "Stage 1 of");
+  BOOST_TEST(fit_fields(fields, 0).size() > 120u);
+}
+
+BOOST_AUTO_TEST_CASE(fields_of_a_search)
+{
+  const auto line = [](const SearchAdvance &now, const double left) {
+    return fit_fields(fields_of_search(now, 7, 14, 23, left), 0);
+  };
+  BOOST_TEST(line({5, 1.2, 1.5}, 210.) ==
+             "Factor  block 7 of 14 (id 23), trial 5, bracket so far [1.2, "
+             "1.5]  left 3.5 min");
+  BOOST_TEST(line({2, 1.2, 0.}, -1.) ==
+             "Factor  block 7 of 14 (id 23), trial 2, holds at 1.2");
+  BOOST_TEST(line({2, 0., 3.}, -1.) ==
+             "Factor  block 7 of 14 (id 23), trial 2, fails at 3");
+  BOOST_TEST(line({}, -1.) == "Factor  block 7 of 14 (id 23)");
 }
 
 BOOST_AUTO_TEST_CASE(terminals_without_a_size_are_none)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/errors.h>
-#include <keyblock/base/time_series.h>
+#include <keyblock/base/history_columns.h>
 
 #include "world.h"
 
@@ -83,9 +83,54 @@ BOOST_AUTO_TEST_CASE(time_series_refusals)
              std::string::npos);
   BOOST_TEST(refusal("t, v\n0, 1\n1, fast\n").find("'fast' in column 2") !=
              std::string::npos);
-  BOOST_TEST(refusal("t, v\n0, 1\n").find("1 rows") != std::string::npos);
+  BOOST_TEST(refusal("t, v\n0, 1\n").find("has 1 row;") != std::string::npos);
   BOOST_TEST(refusal("t, v\n0, 1\n1, 2\n", 2).find("it needs 3") !=
              std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(time_series_units)
+{
+  const std::string entry = "Supports/base/History file";
+  const TimeSeries velocity =
+    TimeSeries::read(write("time (ms),vx (cm/s),vy [mm/s]\n0,1,2\n10,3,4\n"),
+                     entry,
+                     2);
+  BOOST_TEST(std::abs(velocity.end_time() - 0.01) < 1e-15);
+  BOOST_TEST(std::abs(velocity.value(0., 0) - 0.01) < 1e-15);
+  BOOST_TEST(std::abs(velocity.value(0.01, 1) - 4e-3) < 1e-15);
+  const TimeSeries acceleration = read_history(
+    write("t (s),ax (g),ay (m/s^2)\n0,1,2\n1,3,4\n"), entry, 2, "m/s2");
+  BOOST_TEST(acceleration.value(0., 0) == 9.80665);
+  BOOST_TEST(acceleration.value(1., 1) == 4.);
+  BOOST_TEST(
+    refusal("t (h), v\n0, 1\n1, 2\n").find("times may be in s or ms") !=
+    std::string::npos);
+  BOOST_TEST(refusal("t, v (g)\n0, 1\n1, 2\n").find("'v (g)' a unit") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(time_series_order_of_axes)
+{
+  const std::string entry = "Supports/base/History file";
+  BOOST_TEST(
+    TimeSeries::read(write("t,vy,vx\n0,1,2\n1,3,4\n"), entry, 2).value(0., 0) ==
+    2.);
+  // other names stand in the order of the axes
+  BOOST_TEST(TimeSeries::read(write("t,east,y\n0,1,2\n1,3,4\n"), entry, 2)
+               .value(0., 0) == 1.);
+  BOOST_TEST(refusal("t,vx,vx\n0,1,2\n1,3,4\n", 2).find("axis y") !=
+             std::string::npos);
+  BOOST_TEST(refusal("vx,t\n0,1\n1,3\n").find("the time in column 2") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(time_series_of_rounded_times)
+{
+  const std::string rounded = "t,v\n0,1\n0.0033,2\n0.0067,3\n0.0100,4\n";
+  BOOST_TEST(refusal(rounded).empty());
+  BOOST_TEST(
+    refusal("t,v\n0,1\n0.0033,2\n0.0070,3\n0.0100,4\n").find("even times") !=
+    std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

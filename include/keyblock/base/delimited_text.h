@@ -41,6 +41,9 @@ namespace Keyblock
   DelimitedText read_delimited_text(const std::string &file_name,
                                     const std::string &entry);
 
+  /** How many there are of something, for people: 1 row, 2 rows. */
+  std::string count_text(const std::size_t n, const std::string &noun);
+
   /** A line of a table as RFC 4180 has it: commas between @p fields, quotes
    * where they are needed, CR LF at the end. */
   std::string csv_line(const std::vector<std::string> &fields);

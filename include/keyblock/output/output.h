@@ -27,8 +27,9 @@ namespace Keyblock
     double time_step           = 0.;
     double unbalanced_ratio    = 0.;
     double max_displacement    = 0.;
-    double largest_nodal_ratio = 0.; ///< largest force over the mean one [-]
-    bool is_converged          = true;
+    double largest_nodal_ratio = 0.;    ///< largest force over the mean one [-]
+    bool is_converged          = true;  ///< it ended as it was asked to
+    bool is_timed              = false; ///< after its time, not in balance
     std::string remark;  ///< for people: what moves if it did not converge
     std::string warning; ///< sentences, or empty
     unsigned int cells           = 0; ///< deformable ones

@@ -2,7 +2,9 @@
 #ifndef keyblock_run_progress_line_h
 #define keyblock_run_progress_line_h
 
+#include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace Keyblock
 {
@@ -36,6 +38,33 @@ namespace Keyblock
    * pipe.
    */
   unsigned int terminal_width(const int file_descriptor = 1);
+
+  /** Wall time from one line of progress to the next [s], on a terminal of that
+   * width, where it is drawn over the last one, and elsewhere, where it is a
+   * line of its own. */
+  double progress_interval(const unsigned int width);
+
+  /** A part of a line of progress. */
+  struct ProgressField
+  {
+    std::string text;  ///< with what separates it from those before it
+    unsigned int rank; ///< those of the highest are left out first
+  };
+
+  /** The fields one after the other, without those that do not fit into
+   * @p width columns; 0: all of them. */
+  std::string fit_fields(std::vector<ProgressField> fields,
+                         const unsigned int width);
+
+  /** Draw a line of progress over the last one, on a terminal, or write it as a
+   * line of its own. */
+  void print_fields(std::ostream &out,
+                    const std::vector<ProgressField> &fields,
+                    const unsigned int width);
+
+  /** Let what follows begin where the line of progress did, if standard output
+   * is a terminal. */
+  void clear_progress(std::ostream &out);
 } // namespace Keyblock
 
 #endif

@@ -48,6 +48,11 @@ namespace Keyblock
 
     StageAdvance advance_of(const StageProgress<dim> &progress) const;
 
+    /** What the line of progress says, @p points of contact among it. */
+    std::vector<ProgressField> fields_of(const StageProgress<dim> &progress,
+                                         const StageAdvance &now,
+                                         const JointSums<dim> &points) const;
+
     const Model<dim> &model;
     Monitors<dim> &monitors;
     Output<dim> &output;

@@ -42,6 +42,8 @@ namespace Keyblock
     {
       Assert(factor > 0., dealii::ExcInternalError());
       const bool is_above = warm && warm_start <= factor;
+      owner.advance       = {owner.advance.n_trials + 1, stable, unstable};
+      owner.tell_advance();
       recall(is_above ? *warm : state, owner.run);
       const Trial trial =
         owner.trials.try_factor(tried,

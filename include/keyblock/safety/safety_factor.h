@@ -94,6 +94,14 @@ namespace Keyblock
   share_last_group(const Blocks<dim> &blocks,
                    std::vector<SafetyFactor> &factors);
 
+  /** How far the search for the factor of a block is. */
+  struct SearchAdvance
+  {
+    unsigned int n_trials = 0;  ///< begun, those of groups among them
+    double lower          = 0.; ///< greatest factor at which it holds; 0: none
+    double upper          = 0.; ///< least one at which it fails; 0: none
+  };
+
   /**
    * Looks for the factor between holding and failing of one block by trials:
    * bisection, or a sweep. All start from the end of a stage; with warm starts
@@ -108,6 +116,7 @@ namespace Keyblock
                             const Blocks<dim> &blocks,
                             const Numbering<dim> &numbering,
                             const RunParts<dim> &run);
+    StrengthReductionSearch(const StrengthReductionSearch &) = delete;
 
     /** What is known before the first trial. Zero: nothing. */
     struct Known
@@ -142,8 +151,20 @@ namespace Keyblock
      * it, for reduced strengths; returns that of the one that is looked at. */
     Tensor<1, dim> tell_ways(const TriedBlocks &tried);
 
+    /** Called when a trial begins, and now and then during it, if it is set.
+     * It must not change the run. */
+    std::function<void(const SearchAdvance &)> watcher;
+
   private:
     class Search;
+
+    /** Tell the watcher. */
+    void
+    tell_advance() const
+    {
+      if (watcher)
+        watcher(advance);
+    }
 
     /** Factor of the block of @p result together with those that are @p tried
      * with it at first, and all that then move along. */
@@ -195,6 +216,7 @@ namespace Keyblock
     const Blocks<dim> &blocks;
     RunParts<dim> run;
     StrengthTrials<dim> trials;
+    SearchAdvance advance; ///< of the block that is looked at
   };
 } // namespace Keyblock
 

@@ -5,6 +5,8 @@
 #include <keyblock/safety/trial_failure.h>
 #include <keyblock/safety/trial_measures.h>
 
+#include <functional>
+
 namespace Keyblock
 {
   /** One run with reduced strength, and what it showed. */
@@ -74,6 +76,9 @@ namespace Keyblock
 
     const TrialMeasures<dim> measures;
 
+    /** Called now and then during a trial, if it is set. */
+    std::function<void()> pulse;
+
     /** Of the last trial that failed. */
     TrialFailure<dim> failure;
 
@@ -99,6 +104,9 @@ namespace Keyblock
       holds,
       fails
     };
+
+    /** Looks for signals, and tells that the trial goes on. */
+    void pause() const;
 
     /** Divide the strength of the joints of the blocks by @p factor. */
     void reduce(const TriedBlocks &tried, const double factor);

@@ -63,7 +63,7 @@ namespace Keyblock
   struct DepthGround
   {
     double depth   = 0.; ///< of elevation 0 below the surface [m]; 0: none
-    double density = 0.; ///< 0: of the first material that deforms
+    double density = 0.; ///< 0: of most of the rock
     std::vector<double> k0 = {1.};
     double azimuth         = 90.;
 

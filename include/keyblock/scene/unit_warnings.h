@@ -10,9 +10,15 @@
 namespace Keyblock
 {
   /** Values that look as if they were in another unit, one sentence each:
-   * angles in radians, stresses in MPa or GPa, densities in t/m3. */
+   * angles in radians, stresses in MPa or GPa, densities in t/m3, forces in kN,
+   * lengths and areas in millimetres. */
   template <int dim>
   std::vector<std::string> warnings_of_units(const Scene<dim> &scene);
+
+  /** A sentence if the initial stress that follows from Ground/Depth is not
+   * that of the weight of all the rock. */
+  template <int dim>
+  std::vector<std::string> warnings_of_ground(const Scene<dim> &scene);
 
   /** Drawings (ASCII DXF) of excavations and joints whose header names another
    * unit ($INSUNITS) than the scene's Scale, one sentence each; before the

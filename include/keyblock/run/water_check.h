@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_run_water_check_h
+#define keyblock_run_water_check_h
+
+#include <keyblock/blocks/interface.h>
+#include <keyblock/scene/scene.h>
+
+namespace Keyblock
+{
+  /** Throw InputError if a formula of water has no finite value somewhere on
+   * its joint, in any stage. */
+  template <int dim>
+  void check_water(const Scene<dim> &scene, const SplitMesh<dim> &split);
+} // namespace Keyblock
+
+#endif

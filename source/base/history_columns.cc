@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the header of a history says: units, and the order of the axes.
+#include <keyblock/base/errors.h>
+#include <keyblock/base/history_columns.h>
+
+#include <boost/algorithm/string.hpp>
+
+#include <algorithm>
+#include <map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    struct Unit
+    {
+      std::string quantity; ///< by its unit in SI
+      double factor;
+    };
+
+    const std::map<std::string, Unit> &
+    known_units()
+    {
+      static const std::map<std::string, Unit> known = {
+        {"s", {"s", 1.}},
+        {"sec", {"s", 1.}},
+        {"seconds", {"s", 1.}},
+        {"ms", {"s", 1e-3}},
+        {"m/s", {"m/s", 1.}},
+        {"cm/s", {"m/s", 1e-2}},
+        {"mm/s", {"m/s", 1e-3}},
+        {"m/s2", {"m/s2", 1.}},
+        {"cm/s2", {"m/s2", 1e-2}},
+        {"mm/s2", {"m/s2", 1e-3}},
+        {"gal", {"m/s2", 1e-2}},
+        {"g", {"m/s2", 9.80665}},
+        {"pa", {"Pa", 1.}},
+        {"kpa", {"Pa", 1e3}},
+        {"mpa", {"Pa", 1e6}}};
+      return known;
+    }
+
+    /** A title of the header: its name and its unit, both in small letters. */
+    struct Title
+    {
+      explicit Title(const std::string &text)
+      {
+        const auto open = text.find_first_of("([");
+        name            = boost::to_lower_copy(text.substr(0, open));
+        boost::erase_all(name, " ");
+        boost::erase_all(name, "_");
+        if (open == std::string::npos)
+          return;
+        unit = boost::to_lower_copy(
+          text.substr(open + 1, text.find_first_of(")]", open) - open - 1));
+        for (const char *sign : {"^2", "**2", "\xC2\xB2", "\xB2", "/s/s"})
+          boost::replace_all(unit,
+                             sign,
+                             sign == std::string("/s/s") ? "/s2" : "2");
+        boost::erase_all(unit, " ");
+      }
+
+      std::string name, unit;
+    };
+  } // namespace
+
+
+
+  HistoryColumns::HistoryColumns(const DelimitedText &table,
+                                 const std::string &si_unit,
+                                 const std::string &entry)
+  {
+    const std::string where = "Line " + std::to_string(table.header.line) +
+                              " of the history '" + table.file_name +
+                              "' of the entry '" + entry + "', its header, ";
+    const std::vector<std::string> &titles = table.header.fields;
+    const unsigned int n_axes              = titles.size() - 1;
+    std::vector<unsigned int> axes;
+    for (unsigned int i = 0; i < titles.size(); ++i)
+      {
+        const Title title(titles[i]);
+        const std::string expected = i == 0 ? "s" : si_unit;
+        const auto unit            = known_units().find(title.unit);
+        AssertThrow(title.unit.empty() || (unit != known_units().end() &&
+                                           unit->second.quantity == expected),
+                    InputError(
+                      where + "gives the column '" + titles[i] +
+                      "' a unit that is not known or does not fit; " +
+                      (i == 0            ? "times may be in s or ms."
+                       : si_unit == "Pa" ? "stresses may be in Pa, kPa or MPa."
+                       : si_unit == "m/s"
+                         ? "velocities may be in m/s, cm/s or mm/s, and "
+                           "'History quantity' says what it is."
+                         : "accelerations may be in m/s2, cm/s2, mm/s2, "
+                           "gal or g.")));
+        factors.push_back(title.unit.empty() ? 1. : unit->second.factor);
+        AssertThrow(i == 0 || (title.name != "t" && title.name != "time"),
+                    InputError(where + "has the time in column " +
+                               std::to_string(i + 1) +
+                               "; put it into the first one."));
+        const auto axis = title.name.empty()
+                            ? std::string::npos
+                            : std::string("xyz").find(title.name.back());
+        if (i > 0 && axis < n_axes)
+          axes.push_back(axis);
+      }
+    for (unsigned int axis = 0; axis < n_axes; ++axis)
+      columns.push_back(axis + 1);
+    // names that do not tell the axes are in their order
+    if (axes.size() != n_axes)
+      return;
+    for (unsigned int axis = 0; axis < n_axes; ++axis)
+      {
+        const auto place = std::find(axes.begin(), axes.end(), axis);
+        AssertThrow(place != axes.end(),
+                    InputError(where + "names no column of the axis " +
+                               std::string(1, "xyz"[axis]) +
+                               ", and another axis twice; give one column for "
+                               "each axis."));
+        columns[axis] = place - axes.begin() + 1;
+      }
+  }
+} // namespace Keyblock

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/errors.h>
+#include <keyblock/base/expression.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/run/water_check.h>
+
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** The entry that says how much water a joint has in a stage. */
+    template <int dim>
+    std::string
+    entry_of_water(const Scene<dim> &scene,
+                   const unsigned int joint,
+                   const unsigned int number)
+    {
+      const Joint<dim> &own = *scene.joints[joint];
+      if (!own.water_pressure.empty())
+        return "Joints/" + own.name + "/Water pressure";
+      if (!own.water_level.empty())
+        return "Joints/" + own.name + "/Water level";
+      std::string entry = "Water/Level";
+      for (const auto &stage : scene.stages)
+        if (scene.stage_number(stage->name) <= number &&
+            !stage->water_level.empty())
+          entry = "Stages/" + stage->name + "/Water level";
+      return entry;
+    }
+
+    /** Its centre, and places between that and its corners. */
+    template <int dim>
+    std::vector<Point<dim>>
+    places_on_face(const Mesh<dim> &mesh,
+                   const unsigned int cell,
+                   const unsigned int face)
+    {
+      const auto corners = mesh.face_vertices(cell, face);
+      Point<dim> center;
+      for (const unsigned int v : corners)
+        center += (1. / corners.size()) * mesh.vertices[v];
+      std::vector<Point<dim>> places = {center};
+      for (const unsigned int v : corners)
+        places.push_back(center + 0.5 * (mesh.vertices[v] - center));
+      return places;
+    }
+
+    /** Times at which formulas are looked at: of the start and in stages whose
+     * time is known [s]. */
+    template <int dim>
+    std::vector<double>
+    times_of(const Scene<dim> &scene, const std::string &formula)
+    {
+      constexpr unsigned int n_in_stage = 16;
+      std::vector<double> times         = {0.};
+      if (depends_on_time(formula))
+        for (const auto &stage : scene.stages)
+          {
+            if (!stage->is_dynamic())
+              break;
+            const double begin = times.back();
+            for (unsigned int i = 1; i <= n_in_stage; ++i)
+              times.push_back(begin + i * stage->duration / n_in_stage);
+          }
+      return times;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  check_water(const Scene<dim> &scene, const SplitMesh<dim> &split)
+  {
+    const Mesh<dim> &mesh = split.mesh;
+    std::vector<std::vector<Point<dim>>> places(scene.joints.size());
+    for (const JointFace &face : split.interface.joint_faces)
+      for (const Point<dim> &place :
+           places_on_face(mesh, face.minus_cell, face.minus_face))
+        places[face.joint].push_back(place);
+    for (unsigned int j = 0; j < scene.joints.size(); ++j)
+      {
+        std::string last;
+        for (unsigned int number = 1; number <= scene.stages.size() + 1;
+             ++number)
+          {
+            const std::string formula = scene.water_pressure(j, number);
+            if (formula.empty() || formula == last || places[j].empty())
+              continue;
+            last                    = formula;
+            const std::string entry = entry_of_water(scene, j, number);
+            const Expression<dim> pressure(formula, 1, entry);
+            for (const double time : times_of(scene, formula))
+              for (const Point<dim> &place : places[j])
+                {
+                  if (std::isfinite(pressure.value(place, time, 0)))
+                    continue;
+                  std::string at;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    at += (d > 0 ? ", " : "") + text_of(place[d]);
+                  AssertThrow(false,
+                              InputError(
+                                "The water of the entry '" + entry +
+                                "' has no finite pressure at (" + at +
+                                "), on the joint '" + scene.joints[j]->name +
+                                "', at the time " + text_of(time) +
+                                " s; give a formula that has a value on the "
+                                "whole joint, as by if(x > 0, ..., 0)."));
+                }
+          }
+      }
+  }
+
+  template void check_water(const Scene<2> &, const SplitMesh<2> &);
+  template void check_water(const Scene<3> &, const SplitMesh<3> &);
+} // namespace Keyblock
