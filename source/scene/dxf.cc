@@ -236,8 +236,7 @@ namespace Keyblock
           turn = std::fmod(entity.required(51) - from, 360.);
           if (turn < 0.)
             turn += 360.;
-          // one that ends where it begins is a circle
-          if (turn < closeness)
+          if (turn < closeness) // it ends where it begins
             turn = 360.;
         }
       constexpr double degree = dealii::numbers::PI / 180.;

@@ -160,7 +160,8 @@ namespace Keyblock
       reach,
       "Distance from the block up to which rock moves in trials, in sizes of "
       "the block; rock farther away is held [-], but for finite blocks that "
-      "lean on it, on those, and so on. 0: all rock moves. Without effect where "
+      "lean on it, on those, and so on. 0: all rock moves. Without effect "
+      "where "
       "all joints or the rock are reduced.",
       not_negative);
     prm.add_parameter("True masses",
