@@ -48,8 +48,6 @@ def look_up(summary, folder, name):
     place = summary
     for key in name.split("/"):
         place = place[int(key)] if isinstance(place, list) else place[key]
-    if place is None:
-        return "null"
     if isinstance(place, str):
         return place.replace(" ", "_")
     return float(len(place) if isinstance(place, list) else place)

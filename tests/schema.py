@@ -147,8 +147,7 @@ def damages_of_one(key, value):
     """Values that a key must not have, as it has another one."""
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return str(value), None, 1e100, -1e100
-    # null: a stage that ended after its duration
-    bad = [17] if key == "converged" else [17, None]
+    bad = [17, None]
     if key in POINTS:
         bad += [value[:-1], [*value, 0.]]
     if key in WORDS:

@@ -7,9 +7,9 @@ from .words import number
 def stage_facts(stage):
     """How a stage went, as names and values."""
     energy = stage.get("energy", {})
-    ended = {True: "converged", False: "did not converge",
-             None: "after its duration", "unknown": ""}[
-        stage.get("converged", "unknown")]
+    ended = stage.get("ended", "")
+    if "converged" in stage:
+        ended = "converged" if stage["converged"] else "did not converge"
     return facts([
         ("ended", ended), ("steps", stage.get("steps")),
         ("unbalanced ratio", number(stage["unbalanced_ratio"], 3)

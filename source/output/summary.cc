@@ -190,10 +190,11 @@ namespace Keyblock
                    {"steps", stage.steps},
                    {"time_step", stage.time_step},
                    {"unbalanced_ratio", stage.unbalanced_ratio},
-                   {"largest_nodal_ratio", stage.largest_nodal_ratio},
-                   {"converged", stage.is_converged}};
+                   {"largest_nodal_ratio", stage.largest_nodal_ratio}};
       if (stage.is_timed)
-        json["converged"] = nullptr;
+        json["ended"] = "after its duration";
+      else
+        json["converged"] = stage.is_converged;
       if (!stage.remark.empty())
         json["remark"] = stage.remark;
       if (!stage.warning.empty())

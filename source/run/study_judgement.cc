@@ -17,16 +17,19 @@ namespace Keyblock
 {
   namespace
   {
-    /** Whether factors are wanted in a stage with a number from @p first up to,
-     * and without, @p end; stages have numbers from 2 on. */
+    /** Whether 'Safety factor/Stages' has a stage with a number from @p first
+     * up to, and without, @p end, or none; stages have numbers from 2 on. */
     template <int dim>
     bool
     is_wanted(const Scene<dim> &scene,
               const unsigned int first,
               const unsigned int end)
     {
+      const std::vector<std::string> &wanted = scene.safety.stages;
       for (unsigned int number = std::max(first, 2u); number < end; ++number)
-        if (scene.safety.wants_stage(scene.stages[number - 2]->name))
+        if (wanted.empty() || std::count(wanted.begin(),
+                                         wanted.end(),
+                                         scene.stages[number - 2]->name) > 0)
           return true;
       return scene.stages.empty();
     }

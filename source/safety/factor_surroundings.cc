@@ -172,14 +172,22 @@ namespace Keyblock
   TriedBlocks
   StrengthReductionSearch<dim>::with_row(const TriedBlocks &tried) const
   {
-    TriedBlocks all = tried;
+    const std::vector<bool> is_guided = trials.measures.guided_blocks();
+    TriedBlocks all                   = tried;
     all.row.clear();
-    for (std::vector<unsigned int> more = blocks_pressed_on(all); !more.empty();
-         more                           = blocks_pressed_on(all))
+    std::vector<unsigned int> more;
+    do
       {
-                                  all = all.with(more);
-                                  all.row.insert(all.row.end(), more.begin(), more.end());
-      }
+        more = blocks_pressed_on(all);
+        more.erase(std::remove_if(more.begin(),
+                                  more.end(),
+                                  [&](const unsigned int b) {
+                                    return is_guided[b];
+                                  }),
+                   more.end());
+        all = all.with(more);
+        all.row.insert(all.row.end(), more.begin(), more.end());
+    } while (!more.empty());
     all.companions = tried.companions;
     return all;
   }

@@ -4,6 +4,7 @@
 #include <keyblock/safety/block_stiffness.h>
 #include <keyblock/safety/trial_measures.h>
 #include <keyblock/step/block_balance.h>
+#include <keyblock/step/guided_blocks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -249,6 +250,15 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<bool>
+  TrialMeasures<dim>::guided_blocks() const
+  {
+    return mark_guided_blocks(run.fields, nodes_of_block, communicator);
+  }
+
+
+
+  template <int dim>
   double
   TrialMeasures<dim>::n_across(const TriedBlocks &tried) const
   {
@@ -293,13 +303,13 @@ namespace Keyblock
 
   template <int dim>
   double
-  TrialMeasures<dim>::normal_force(const unsigned int block) const
+  TrialMeasures<dim>::force_through(const unsigned int block) const
   {
     double sum = 0.;
     for (const JointSums<dim> &joint :
          run.contact->report().sum_over_block(block))
       sum += joint.normal;
-    return sum;
+    return 0.5 * sum;
   }
 
 

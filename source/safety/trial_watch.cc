@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The second phase of a trial of strength reduction: does the block speed up?
 #include <keyblock/base/stop_request.h>
+#include <keyblock/safety/block_statics.h>
 #include <keyblock/safety/strength_trial.h>
 
 #include <algorithm>
@@ -102,8 +103,9 @@ namespace Keyblock
                std::min(periods, scene.safety.maximum_periods) /
                  scene.safety.window);
     const Motion at_rest = measures.motion(tried);
-    const double pressed = measures.normal_force(tried.block);
-    const double mass    = measures.mass_in_use(tried.block);
+    const double passing =
+      has_initial_stress(scene) ? measures.force_through(tried.block) : 0.;
+    const double mass = measures.mass_in_use(tried.block);
     failure.begin();
     Motion before             = at_rest;
     SupportState<dim> support = measures.support(tried);
@@ -153,7 +155,7 @@ namespace Keyblock
         const double own_way =
           norm<dim>(add<dim>(now.displacement, -1., at_rest.displacement));
         const double squeezed =
-          measures.compression(tried.block, std::max(now.load, pressed));
+          measures.compression(tried.block, std::max(now.load, passing));
         const bool has_moved =
           slip > failure_slip * size &&
           own_way > std::max(failure_slip * size, squeezed);

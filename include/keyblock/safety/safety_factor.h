@@ -189,7 +189,8 @@ namespace Keyblock
     /** Ids of these blocks, as SafetyFactor::group. */
     std::vector<unsigned int> ids_of(const TriedBlocks &group) const;
 
-    /** The same with the finite blocks that lean on them now (collective). */
+    /** The same with the finite blocks that lean on them now, but for those
+     * that supports hold in their places (collective). */
     TriedBlocks with_row(const TriedBlocks &tried) const;
 
     /** Leave all but the surroundings of the blocks that are @p tried as they

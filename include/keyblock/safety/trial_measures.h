@@ -80,6 +80,10 @@ namespace Keyblock
     std::string list_holders(const unsigned int block,
                              const Tensor<1, dim> &way) const;
 
+    /** Blocks (by index) that supports hold in their places, see
+     * mark_guided_blocks() (collective). */
+    std::vector<bool> guided_blocks() const;
+
     /** Cells that a wave crosses in a fourth of the lowest period of the block
      * that is tried and of those that lean on it: those along its size, and of
      * these, which may be slender and rock, as many times more as they are
@@ -90,9 +94,10 @@ namespace Keyblock
      * step, and the block four times. */
     unsigned int period(const TriedBlocks &tried) const;
 
-    /** Sum of the normal forces on the block's joints, which in-situ stress may
-     * make many times its load (collective) [N]. */
-    double normal_force(const unsigned int block) const;
+    /** What passes through the block from joint to joint, half the sum of the
+     * normal forces on these: in-situ stress may make it many times its load
+     * (collective) [N]. */
+    double force_through(const unsigned int block) const;
 
     /** Largest slip by which the compliant ones of the block's joints bear
      * their shear (collective) [m]. */
