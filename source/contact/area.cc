@@ -109,7 +109,8 @@ namespace Keyblock
         double gap = 0.;
         for (int d = 0; d < dim; ++d)
           gap += memory.normal[p][d] * (at_plus[d] - at_minus[d]);
-        if (gap - dilation_of(p) > least_opening * pair.face_size)
+        const double opened = least_opening * pair.face_size;
+        if (gap > opened && gap - dilation_of(p) > opened)
           {
             memory.state[p].has_opened = true;
             is_shared                  = false;

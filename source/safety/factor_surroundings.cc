@@ -173,23 +173,20 @@ namespace Keyblock
   StrengthReductionSearch<dim>::with_row(const TriedBlocks &tried) const
   {
     const std::vector<bool> is_guided = trials.measures.guided_blocks();
-    TriedBlocks all                   = tried;
-    all.row.clear();
-    std::vector<unsigned int> more;
-    do
-      {
-        more = blocks_pressed_on(all);
-        more.erase(std::remove_if(more.begin(),
-                                  more.end(),
-                                  [&](const unsigned int b) {
-                                    return is_guided[b];
-                                  }),
-                   more.end());
-        all = all.with(more);
-        all.row.insert(all.row.end(), more.begin(), more.end());
-    } while (!more.empty());
-    all.companions = tried.companions;
-    return all;
+    TriedBlocks found                 = tried;
+    found.row.clear();
+    std::vector<unsigned int> reached = tried.all();
+    std::set<unsigned int> known(reached.begin(), reached.end());
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      for (const unsigned int other :
+           run.contact->report().list_blocks_pressed_on(reached[i]))
+        if (!blocks.blocks[other].is_infinite && !is_guided[other] &&
+            known.insert(other).second)
+          {
+            reached.push_back(other);
+            found.row.push_back(other);
+          }
+    return found;
   }
 
 

@@ -12,7 +12,8 @@ namespace Keyblock
     // factor by which joints are weakened to make a block that holds slide on
     constexpr double weakening      = 1.02; ///< a period of the block [-]
     constexpr double most_weakening = 1.5;  ///< in all [-]
-  }                                         // namespace
+
+  } // namespace
 
 
 
@@ -35,6 +36,7 @@ namespace Keyblock
     double weaker             = 1.;
     for (; weaker < most_weakening && slip() < way; step_on(period))
       {
+        pause();
         weaker *= weakening;
         reduce(tried, weaker * trial.factor);
       }
@@ -50,9 +52,12 @@ namespace Keyblock
     // by its own momentum
     const unsigned int window = watched_window(tried);
     const double restored     = slip();
-    for (double now = restored, before = 0.;
-         now > before && now < restored + way;)
+    double before = 0., now = restored;
+    for (double waited = 0.; now > before && now < restored + way &&
+                             waited < scene.safety.maximum_periods;
+         waited += scene.safety.window)
       {
+        pause();
         before = now;
         step_on(window);
         now = slip();

@@ -243,6 +243,7 @@ keyblock_scene(verification/two_wedges REFERENCES two_wedges_wanted ALIKE RANKS 
 keyblock_scene(verification/toe_block RANKS 1 SET "Safety factor/Blocks=2")
 keyblock_scene(verification/column_on_block RANKS 1 SET "Safety factor/Blocks=2")
 keyblock_scene(verification/dilating_cohesion RANKS 1)
+keyblock_scene(verification/bolted_shaft RANKS 1)
 # a block at rest under one that slides off
 keyblock_scene(verification/passed_block RANKS 1 2)
 keyblock_scene(verification/passed_block REFERENCES passed_block_soft RANKS 1
