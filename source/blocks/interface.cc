@@ -93,6 +93,37 @@ namespace Keyblock
 
 
 
+    /** Pairs without an area of clusters that meet across no joint, with the
+     * joint and the size of a pair beside them. */
+    template <int dim>
+    void
+    add_ties(const ClusterNumbering<dim> &clusters,
+             const SplitMesh<dim> &split,
+             PairMap<dim> &pairs)
+    {
+      for (const auto &tie : clusters.ties)
+        {
+          const unsigned int minus  = clusters.new_vertex_of(tie[0]),
+                             plus   = clusters.new_vertex_of(tie[1]),
+                             vertex = clusters.before[minus];
+          const auto beside         = pairs.lower_bound({{vertex, 0, 0, 0}});
+          // what holds hanging vertices holds their masters
+          if (beside == pairs.end() || beside->first[0] != vertex ||
+              split.is_hanging(minus) || split.is_hanging(plus))
+            continue;
+          Pair<dim> pair;
+          pair.minus           = minus;
+          pair.plus            = plus;
+          pair.joint           = beside->second.joint;
+          pair.normal          = beside->second.normal;
+          pair.face_size       = beside->second.face_size;
+          pair.unwelding_stage = clusters.unwelding_stage.at({{minus, plus}});
+          pairs[{{vertex, pair.joint, minus, plus}}] = pair;
+        }
+    }
+
+
+
     /** What part of a face's area its shadow on the plane with @p normal has;
      * exactly 1 for a face that lies on it up to rounding [-]. */
     template <int dim>
@@ -150,6 +181,7 @@ namespace Keyblock
                 }
         }
       give_hanging_area_to_masters(before, result, pairs);
+      add_ties(clusters, result, pairs);
       unsigned int last = none;
       for (const auto &[key, pair] : pairs)
         {

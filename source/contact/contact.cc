@@ -159,6 +159,56 @@ namespace Keyblock
 
   template <int dim>
   void
+  Contact<dim>::remove_pair(const unsigned int p)
+  {
+    const double kick = memory.present_kick();
+    const unsigned int minus =
+      topology.numbering.local_node(topology.interface.pairs[p].minus);
+    const unsigned int plus =
+      topology.numbering.local_node(topology.interface.pairs[p].plus);
+    for (int d = 0; d < dim && !memory.state[p].is_converted; ++d)
+      {
+        if (plus != none)
+          fields.contact_force[dim * plus + d] -=
+            memory.state[p].impulse[d] / kick;
+        if (minus != none)
+          fields.contact_force[dim * minus + d] +=
+            memory.state[p].impulse[d] / kick;
+      }
+    for (const unsigned int node : {minus, plus})
+      if (node != none)
+        fields.is_in_cluster[node] = false;
+    memory.state[p].is_removed = true;
+    memory.state[p].impulse    = Vector<dim>{};
+    memory.state[p].status     = ContactStatus::open;
+  }
+
+
+
+  template <int dim>
+  void
+  Contact<dim>::remove_ties(const unsigned int number)
+  {
+    bool is_any = false;
+    for (unsigned int p = 0; p < memory.state.size(); ++p)
+      if (const Pair<dim> &pair = topology.interface.pairs[p];
+          pair.is_tie() && pair.unwelding_stage <= number &&
+          !memory.state[p].is_removed)
+        {
+          remove_pair(p);
+          memory.state[p].is_welded = false;
+          is_any                    = true;
+        }
+    if (!is_any)
+      return;
+    multi_pairs.list_nodes();
+    memory.is_search_due = true;
+  }
+
+
+
+  template <int dim>
+  void
   Contact<dim>::remove_block(const unsigned int block)
   {
     memory.is_removed_block[block] = true;
@@ -166,28 +216,9 @@ namespace Keyblock
     for (unsigned int p = 0; p < memory.state.size(); ++p)
       {
         const auto sides = topology.blocks_of_pair(p);
-        if (memory.state[p].is_removed ||
-            (sides[0] != block && sides[1] != block))
-          continue;
-        const unsigned int minus =
-          topology.numbering.local_node(topology.interface.pairs[p].minus);
-        const unsigned int plus =
-          topology.numbering.local_node(topology.interface.pairs[p].plus);
-        for (int d = 0; d < dim && !memory.state[p].is_converted; ++d)
-          {
-            if (plus != none)
-              fields.contact_force[dim * plus + d] -=
-                memory.state[p].impulse[d] / kick;
-            if (minus != none)
-              fields.contact_force[dim * minus + d] +=
-                memory.state[p].impulse[d] / kick;
-          }
-        for (const unsigned int node : {minus, plus})
-          if (node != none)
-            fields.is_in_cluster[node] = false;
-        memory.state[p].is_removed = true;
-        memory.state[p].impulse    = Vector<dim>{};
-        memory.state[p].status     = ContactStatus::open;
+        if (!memory.state[p].is_removed &&
+            (sides[0] == block || sides[1] == block))
+          remove_pair(p);
       }
     const auto is_of_block = [&](const SurfaceContact<dim> &contact) {
       return contact.master_block == block ||

@@ -43,6 +43,25 @@ namespace Keyblock
           if (!is_swept[i] || !is_swept[j])
             a[n * i + j] = 0.;
     }
+
+
+
+    /** Area by which @p pair takes its share of the forces in its group; a tie
+     * has as much as the largest of the others [m^(dim-1)]. */
+    template <int dim>
+    double
+    share_of(const PairTopology<dim> &topology, const unsigned int pair)
+    {
+      const std::vector<Pair<dim>> &pairs = topology.interface.pairs;
+      if (!pairs[pair].is_tie())
+        return pairs[pair].area;
+      const auto [begin, end] =
+        topology.pairs_of_group(topology.group_of_pair[pair]);
+      double largest = 0.;
+      for (unsigned int p = begin; p < end; ++p)
+        largest = std::max(largest, pairs[p].area);
+      return largest;
+    }
   } // namespace
 
 
@@ -112,7 +131,7 @@ namespace Keyblock
           {
             if (state[p].is_removed)
               continue;
-            const double area = topology.interface.pairs[p].area;
+            const double area = share_of(topology, p);
             const int plus =
               free_index[d][index_of(topology.interface.pairs[p].plus)];
             const int minus =
@@ -216,9 +235,9 @@ namespace Keyblock
               free_index[d][index(topology.interface.pairs[p].plus)];
             const int minus =
               free_index[d][index(topology.interface.pairs[p].minus)];
-            state[p].impulse[d] += topology.interface.pairs[p].area *
-                                   ((plus >= 0 ? lambda[plus] : 0.) -
-                                    (minus >= 0 ? lambda[minus] : 0.));
+            state[p].impulse[d] +=
+              share_of(topology, p) * ((plus >= 0 ? lambda[plus] : 0.) -
+                                       (minus >= 0 ? lambda[minus] : 0.));
           }
       }
   }

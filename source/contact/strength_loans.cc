@@ -76,6 +76,8 @@ namespace Keyblock
     for (unsigned int p = begin; p < end; ++p)
       {
         const Pair<dim> &pair = interface.pairs[p];
+        if (pair.is_tie())
+          continue;
         const Tensor<1, dim> direction =
           pair.area_vector / pair.area_vector.norm();
         bend    = std::max(bend, (direction - pair.normal).norm());

@@ -70,8 +70,9 @@ namespace Keyblock
     model.step->excavate(record.present.number());
     search.add_cheap_answers(block, result);
     // it moved too far for trials to tell
-    result.failure_mode =
-      result.limit_factor < lowest ? result.limit_mode : "falling";
+    result.failure_mode = result.limit_factor < lowest
+                            ? result.limit_mode
+                            : search.mode_if_not_held(block);
     return result;
   }
 
@@ -120,6 +121,8 @@ namespace Keyblock
     strong.share  = 1. / model.scene.safety.lowest;
     model.contact->reduce_strength(strong);
     model.conditions->reduce_strength(strong);
+    if (model.scene.safety.reduces_rock)
+      model.conditions->active_cells.reduce_strength(strong.share);
     SignalWatch<dim> observer(model.communicator);
     StageRunner<dim> runner(model, finite_check, observer);
     StageProgress<dim> trial;

@@ -79,7 +79,8 @@ namespace Keyblock
             carried.push_back(blocks.blocks[b].id);
         if (!carried.empty())
           {
-            add() << "its bolts also go through block";
+            add() << (carried.size() == 1 ? "its bolts also go through block"
+                                          : "its bolts also go through blocks");
             for (const unsigned int id : carried)
               last << (id == carried.front() ? " " : ", ") << id;
             last << ", whose load on them is left out";
@@ -206,6 +207,19 @@ namespace Keyblock
               add() << "peak cohesion of " << name << ", residual "
                     << joint->cohesion_of_sliding() << " Pa";
           }
+        names.clear();
+        for (unsigned int i = 0; i < around.faces.size(); ++i)
+          if (const BlockFace<dim> &face = around.faces[i];
+              face.cohesion > 0. && face.inward * limit.direction > 1e-6 &&
+              std::count(limit.faces.begin(), limit.faces.end(), i) == 0)
+            names.insert(face.name);
+        const char *between = "cohesion of ";
+        for (const std::string &name : names)
+          (between[0] == 'c' ? add() : last)
+            << std::exchange(between, "/") << name;
+        if (!names.empty())
+          last << (names.size() == 1 ? ", which opens, left out"
+                                     : ", which open, left out");
         for (const auto &[name, pieces] : n_facets)
           for (const auto &[piece, n] : pieces)
             if (n > dim)
@@ -231,7 +245,8 @@ namespace Keyblock
             }
         if (!moving.empty())
           {
-            add() << "rests on block";
+            add() << (moving.size() == 1 ? "rests on block"
+                                         : "rests on blocks");
             for (const unsigned int id : moving)
               last << (id == *moving.begin() ? " " : ", ") << id;
             last << ", taken as fixed";

@@ -3,6 +3,7 @@
 // rock that its trials need not move.
 #include <keyblock/safety/block_cascade.h>
 #include <keyblock/safety/safety_factor.h>
+#include <keyblock/safety/standing_block.h>
 #include <keyblock/safety/stress_ratio.h>
 
 #include <algorithm>
@@ -151,6 +152,35 @@ namespace Keyblock
 
 
   template <int dim>
+  std::string
+  StrengthReductionSearch<dim>::mode_if_not_held(const unsigned int block) const
+  {
+    const Ground<dim> ground = run.conditions.active_cells.ground();
+    const BlockStatics<dim> statics =
+      judge_block<dim>(ground,
+                       FreeFaces<dim>(ground),
+                       blocks,
+                       block,
+                       run.step.time,
+                       run.conditions.broken_segments());
+    const std::vector<BlockFace<dim>> &faces = statics.around.faces;
+    const std::set<unsigned int> pressed =
+      statics.limit.pressed_faces(faces, statics.around.loads.without_water());
+    if (pressed.empty() ||
+        is_seated(faces, pressed, statics.around.loads.all()))
+      return "falling";
+    std::set<std::string> names;
+    for (const unsigned int i : pressed)
+      names.insert(faces[i].name);
+    std::string text = "rotating on ";
+    for (const std::string &name : names)
+      text += (name == *names.begin() ? "" : "/") + name;
+    return text;
+  }
+
+
+
+  template <int dim>
   Tensor<1, dim>
   StrengthReductionSearch<dim>::tell_ways(const TriedBlocks &tried)
   {
@@ -172,20 +202,34 @@ namespace Keyblock
   TriedBlocks
   StrengthReductionSearch<dim>::with_row(const TriedBlocks &tried) const
   {
-    const std::vector<bool> is_guided = trials.measures.guided_blocks();
     TriedBlocks found                 = tried;
+    const std::vector<bool> is_guided = trials.measures.guided_blocks();
+    const Ground<dim> ground          = run.conditions.active_cells.ground();
+    std::vector<bool> is_gone(blocks.blocks.size(), false);
+    if (ground.is_removed && !ground.is_removed->empty())
+      is_gone = *ground.is_removed;
+    const Ground<dim> later{ground.scene,
+                            ground.split,
+                            ground.stage_number,
+                            &is_gone};
+    const BrokenSegments broken = run.conditions.broken_segments();
     found.row.clear();
-    std::vector<unsigned int> reached = tried.all();
-    std::set<unsigned int> known(reached.begin(), reached.end());
-    for (std::size_t i = 0; i < reached.size(); ++i)
-      for (const unsigned int other :
-           run.contact->report().list_blocks_pressed_on(reached[i]))
-        if (!blocks.blocks[other].is_infinite && !is_guided[other] &&
-            known.insert(other).second)
-          {
-            reached.push_back(other);
-            found.row.push_back(other);
-          }
+    TriedBlocks reached = tried;
+    for (std::vector<unsigned int> going = tried.all(); !going.empty();)
+      {
+        for (const unsigned int b : going)
+          is_gone[b] = true;
+        const FreeFaces<dim> free(later);
+        going.clear();
+        for (const unsigned int other : blocks_pressed_on(reached))
+          if (!is_guided[other] &&
+              (trials.measures.way_from_place(other) > 0. ||
+               !stands_alone<dim>(
+                 later, free, blocks, other, run.step.time, broken)))
+            going.push_back(other);
+        found.row.insert(found.row.end(), going.begin(), going.end());
+        reached = reached.with(going);
+      }
     return found;
   }
 
@@ -224,6 +268,10 @@ namespace Keyblock
   StrengthReductionSearch<3>::freeze_beyond_reach(const TriedBlocks &);
   template TriedBlocks
   StrengthReductionSearch<2>::with_row(const TriedBlocks &) const;
+  template std::string
+  StrengthReductionSearch<2>::mode_if_not_held(const unsigned int) const;
+  template std::string
+  StrengthReductionSearch<3>::mode_if_not_held(const unsigned int) const;
   template Tensor<1, 2>
   StrengthReductionSearch<2>::tell_ways(const TriedBlocks &);
   template TriedBlocks

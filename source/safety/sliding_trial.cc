@@ -32,7 +32,7 @@ namespace Keyblock
         run.step.advance(false);
       trial.n_steps += n_steps;
     };
-    const unsigned int period = measures.period(tried);
+    const unsigned int period = measures.period(tried.block);
     double weaker             = 1.;
     for (; weaker < most_weakening && slip() < way; step_on(period))
       {

@@ -100,11 +100,12 @@ namespace Keyblock
     quiet.kind          = StageKind::quasi_static;
     quiet.local_damping = scene.safety.local_damping;
     quiet.damping_ratio = scene.safety.damping_ratio;
-    // critical for the block's lowest mode: 2 omega
+    // critical for the lowest mode of the slowest block: 2 omega
     run.conditions.scale_density(true);
-    quiet.mass_damping = scene.safety.mass_damping * dealii::numbers::PI /
-                         (2. * measures.n_across(tried)) *
-                         run.conditions.stable_step.frequency;
+    quiet.mass_damping =
+      scene.safety.mass_damping * dealii::numbers::PI /
+      (2. * measures.n_across(tried.block) * measures.slowness(tried)) *
+      run.conditions.stable_step.frequency;
     return quiet;
   }
 
@@ -157,7 +158,7 @@ namespace Keyblock
                                        Trial &trial)
   {
     // along half a cosine
-    const unsigned int ramp = ramp_periods * measures.period(tried);
+    const unsigned int ramp = ramp_periods * measures.period(tried.block);
     for (unsigned int step = 1; step <= ramp; ++step)
       {
         const double s =
@@ -178,7 +179,8 @@ namespace Keyblock
                               Trial &trial)
   {
     const double size         = blocks.blocks[tried.block].size;
-    const unsigned int period = measures.period(tried);
+    const unsigned int period = measures.period(tried.block);
+    const double slowness     = measures.slowness(tried);
     const unsigned int window =
       std::max(1., std::round(scene.safety.window * period));
     const Motion begin        = measures.motion(tried);
@@ -191,7 +193,7 @@ namespace Keyblock
                         run.fields,
                         measures.nodes_of_block[tried.block]);
     double slowest = 0.; // angular frequency of the creep [rad/s]
-    double last    = scene.safety.maximum_periods * period;
+    double last    = scene.safety.maximum_periods * slowness * period;
     for (double step = 0.; step < last; step += window)
       {
         pause();
@@ -226,7 +228,7 @@ namespace Keyblock
         support             = borne;
         if (n_stuck == 0)
           least = unbalanced;
-        if (n_stuck >= patience ||
+        if (n_stuck >= slowness * patience ||
             measures.has_passed(tried.block,
                                 norm<dim>(add<dim>(now.slip, -1., begin.slip))))
           break;
@@ -315,7 +317,7 @@ namespace Keyblock
     for (; trial.n_steps < scene.safety.trial_steps; ++trial.n_steps)
       run.step.advance(false);
     if (verdict == Verdict::fails)
-      failure.note(tried.block);
+      failure.note(tried.block, run.contact->report().mean_slip(tried.block));
     // of the true masses
     const double ratio = measures.mass_in_use(tried.block) / true_mass;
     trial.velocity *= std::sqrt(ratio);

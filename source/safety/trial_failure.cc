@@ -3,6 +3,7 @@
 #include <keyblock/safety/trial_failure.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace Keyblock
@@ -15,6 +16,10 @@ namespace Keyblock
 
     /** The same, in any direction, from which on it moves at all [-]. */
     constexpr double moving_share = 0.1;
+
+    /** Slip of a block over its way, root of the mean square, below which it is
+     * its rock that fails [-]. */
+    constexpr double yielding_share = 0.5;
   } // namespace
 
 
@@ -48,8 +53,9 @@ namespace Keyblock
 
   template <int dim>
   void
-  TrialFailure<dim>::begin()
+  TrialFailure<dim>::begin(const Vector<dim> &slip)
   {
+    slip_before         = slip;
     displacement_before = fields.displacement;
     joint_force.assign(scene.joints.size() + 1, 0.);
   }
@@ -68,9 +74,9 @@ namespace Keyblock
 
   template <int dim>
   void
-  TrialFailure<dim>::note(const unsigned int block)
+  TrialFailure<dim>::note(const unsigned int block, const Vector<dim> &slip)
   {
-    last_mode = name_mode(block);
+    last_mode = name_mode(block, slip);
     list_blocks_that_moved(block);
   }
 
@@ -117,7 +123,8 @@ namespace Keyblock
 
   template <int dim>
   std::string
-  TrialFailure<dim>::name_mode(const unsigned int block) const
+  TrialFailure<dim>::name_mode(const unsigned int block,
+                               const Vector<dim> &slip) const
   {
     // a motion that varies over the block more than its mean is a rotation
     std::vector<double> sums(dim + 2, 0.);
@@ -139,6 +146,11 @@ namespace Keyblock
       mean += sums[2 + d] * sums[2 + d];
     mean /= sums[0];
     const bool rotates = mean < 0.75 * sums[1];
+    // rock that yields moves without slipping
+    if (scene.safety.reduces_rock &&
+        norm<dim>(Keyblock::add<dim>(slip, -1., slip_before)) <
+          yielding_share * std::sqrt(sums[1] / sums[0]))
+      return "yielding";
 
     const double total =
       std::accumulate(joint_force.begin(), joint_force.end(), 0.);

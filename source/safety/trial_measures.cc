@@ -15,6 +15,10 @@ namespace Keyblock
   {
     /** Share of its load that what holds a block bears at least [-]. */
     constexpr double holding_share = 0.1;
+
+    /** Force through a block from joint to joint over its load, from which on
+     * it is clamped [-]. */
+    constexpr double clamping_loads = 3.;
   } // namespace
 
 
@@ -62,11 +66,13 @@ namespace Keyblock
         motion.velocity[d]     = sums[1 + d] / sums[0];
         motion.displacement[d] = sums[1 + dim + d] / sums[0];
       }
-    // where all joints are reduced, what it touches may go along
-    motion.slip =
-      tried.is_carried || scene.safety.reduced_joints == ReducedJoints::all
-        ? motion.displacement
-        : run.contact->report().mean_slip(tried.block);
+    // where all joints are reduced, what it touches may go along; where rock
+    // is, the block itself may yield
+    motion.slip = tried.is_carried ||
+                      scene.safety.reduced_joints == ReducedJoints::all ||
+                      scene.safety.reduces_rock
+                    ? motion.displacement
+                    : run.contact->report().mean_slip(tried.block);
     return motion;
   }
 
@@ -260,30 +266,42 @@ namespace Keyblock
 
   template <int dim>
   double
-  TrialMeasures<dim>::n_across(const TriedBlocks &tried) const
+  TrialMeasures<dim>::n_across(const unsigned int block) const
   {
-    const auto along = [&](const unsigned int block) {
-      const Block<dim> &b = blocks.blocks[block];
-      return std::max(4., b.size / std::pow(b.volume / b.n_cells, 1. / dim));
-    };
-    double n = along(tried.block);
-    for (const unsigned int block : tried.others())
-      {
-        const Block<dim> &b = blocks.blocks[block];
-        n                   = std::max(n,
-                     along(block) * std::pow(b.size, dim) /
-                       (b.volume * std::pow(dim, 0.5 * dim)));
-      }
-    return n;
+    const Block<dim> &b = blocks.blocks[block];
+    return std::max(4., b.size / std::pow(b.volume / b.n_cells, 1. / dim));
   }
 
 
 
   template <int dim>
   unsigned int
-  TrialMeasures<dim>::period(const TriedBlocks &tried) const
+  TrialMeasures<dim>::period(const unsigned int block) const
   {
-    return std::ceil(4. * n_across(tried) / scene.time_stepping.safety);
+    return std::ceil(4. * n_across(block) / scene.time_stepping.safety);
+  }
+
+
+
+  template <int dim>
+  double
+  TrialMeasures<dim>::slowness(const TriedBlocks &tried) const
+  {
+    const double own = n_across(tried.block);
+    double slowest   = own;
+    for (const unsigned int other : tried.others())
+      {
+        const Block<dim> &b = blocks.blocks[other];
+        const double load =
+          measure_balance(run.fields, nodes_of_block[other], communicator).load;
+        // what stress clamps does not rock
+        const double slender =
+          force_through(other) > clamping_loads * load
+            ? 1.
+            : std::pow(b.size, dim) / (b.volume * std::pow(dim, 0.5 * dim));
+        slowest = std::max(slowest, n_across(other) * slender);
+      }
+    return slowest / own;
   }
 
 

@@ -31,8 +31,9 @@ namespace Keyblock
     /** Swings on such support that are watched at least. */
     constexpr double n_swings_watched = 2.;
 
-    /** Windows over which such an acceleration must stay. */
-    constexpr unsigned int n_steady = 6;
+    /** Half the windows over which such an acceleration must stay: longer where
+     * slower blocks may move. */
+    constexpr double half_steady = 3.;
 
     /** What a block and its slip have gained in speed over the last windows. */
     struct SpeedGain
@@ -42,12 +43,13 @@ namespace Keyblock
       bool is_steady;  ///< it speeds up as a free body would
     };
 
-    /** Of the last n_steady windows, from the speed of slip [m/s] and the
+    /** Of the last @p n_steady windows, from the speed of slip [m/s] and the
      * velocity of the block [m/s] at the ends of all of them. */
     template <int dim>
     SpeedGain
     last_gain(const std::vector<double> &slip,
-              const std::vector<Vector<dim>> &block)
+              const std::vector<Vector<dim>> &block,
+              const unsigned int n_steady)
     {
       const unsigned int end    = slip.size() - 1;
       const unsigned int middle = end - n_steady / 2;
@@ -71,6 +73,17 @@ namespace Keyblock
                        gained_between(middle, end) > (1. - loss) * early;
       return gain;
     }
+
+    /** Speed over that of the middle of the phase, of a flow that goes on [-].
+     */
+    constexpr double steady_flow = 0.95;
+
+    bool
+    keeps_its_speed(const std::vector<double> &velocity)
+    {
+      const double middle = velocity[velocity.size() / 2];
+      return middle > 0. && velocity.back() > steady_flow * middle;
+    }
   } // namespace
 
 
@@ -82,7 +95,7 @@ namespace Keyblock
     const double period = scene.safety.true_masses
                             ? 4. * blocks.blocks[tried.block].size /
                                 (measures.wave_speed(tried.block) * run.step.dt)
-                            : measures.period(tried);
+                            : measures.period(tried.block);
     return std::max(1., std::ceil(scene.safety.window * period));
   }
 
@@ -95,18 +108,20 @@ namespace Keyblock
                              const Vector<dim> &first,
                              Trial &trial)
   {
-    const double size         = blocks.blocks[tried.block].size;
-    const unsigned int window = watched_window(tried);
-    const double seconds      = window * run.step.dt;
+    const double size           = blocks.blocks[tried.block].size;
+    const unsigned int window   = watched_window(tried);
+    const double seconds        = window * run.step.dt;
+    const double slowness       = measures.slowness(tried);
+    const unsigned int n_steady = 2 * std::ceil(half_steady * slowness);
     double n_windows =
       std::max(n_steady + 1.,
-               std::min(periods, scene.safety.maximum_periods) /
+               slowness * std::min(periods, scene.safety.maximum_periods) /
                  scene.safety.window);
     const Motion at_rest = measures.motion(tried);
     const double passing =
       has_initial_stress(scene) ? measures.force_through(tried.block) : 0.;
     const double mass = measures.mass_in_use(tried.block);
-    failure.begin();
+    failure.begin(run.contact->report().mean_slip(tried.block));
     Motion before             = at_rest;
     SupportState<dim> support = measures.support(tried);
     std::vector<double> velocity(1, 0.);
@@ -166,7 +181,8 @@ namespace Keyblock
             // forces that stay and move the block as they would a free body;
             // one whose neighbours go along may be held by their stiffness
             // later
-            const SpeedGain gain = last_gain<dim>(velocity, block_velocity);
+            const SpeedGain gain =
+              last_gain<dim>(velocity, block_velocity, n_steady);
             const bool is_driven = mass * gain.of_block / (n_steady * seconds) >
                                    resolution * scene.safety.bracket * now.load;
             if (!is_taken_up && slip > mobilising_slip * squeezed &&
@@ -178,6 +194,13 @@ namespace Keyblock
               return Verdict::holds;
           }
       }
+    // rock that yields flows at the speed that damping lets it have
+    if (scene.safety.reduces_rock &&
+        norm<dim>(add<dim>(before.slip, -1., at_rest.slip)) >
+          mobilising_slip *
+            measures.compression(tried.block, std::max(before.load, passing)) &&
+        keeps_its_speed(velocity))
+      return Verdict::fails;
     return is_left_in_peace ? Verdict::holds : Verdict::open;
   }
 

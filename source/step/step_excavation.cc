@@ -36,6 +36,8 @@ namespace Keyblock
     const std::vector<double> before_change = list_out_of_balance();
     const double before = ledger.energy_of_cells(positions());
     conditions.excavate(number);
+    if (contact)
+      contact->remove_ties(number);
     conditions.set_damping(stage);
     work.excavated_energy = before - ledger.energy_of_cells(positions());
     update_forces();

@@ -242,6 +242,12 @@ keyblock_scene(verification/two_wedges REFERENCES two_wedges_wanted ALIKE RANKS 
 # blocks that others push, which reach farther or move more slowly
 keyblock_scene(verification/toe_block RANKS 1 SET "Safety factor/Blocks=2")
 keyblock_scene(verification/column_on_block RANKS 1 SET "Safety factor/Blocks=2")
+# nothing ties what only met through rock that is dug
+keyblock_scene(verification/wedges_at_point RANKS 1 2)
+# rock that yields where its strength is reduced, too
+keyblock_scene(verification/yielding_column RANKS 1)
+keyblock_scene(verification/yielding_column REFERENCES yielding_column_friction
+  RANKS 1 SET "Materials/rock/Friction angle=20" "Materials/rock/Cohesion=20e3")
 keyblock_scene(verification/dilating_cohesion RANKS 1)
 keyblock_scene(verification/bolted_shaft RANKS 1)
 # a block at rest under one that slides off

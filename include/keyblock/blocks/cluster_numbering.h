@@ -61,7 +61,9 @@ namespace Keyblock
    * Clusters are those of the rock that is left at the end. Cells that are
    * excavated later go with one of the clusters that they join, and the pairs
    * between these clusters are welded until no unexcavated cell joins them
-   * any more.
+   * any more. Clusters of different blocks that such cells join without facing
+   * each other across a joint, as two wedges that meet at a point of the
+   * outline, are tied by a pair without an area until then.
    */
   template <int dim>
   class ClusterNumbering
@@ -85,6 +87,18 @@ namespace Keyblock
       for (unsigned int s = 2; s <= blocks.n_stages; ++s)
         alive.push_back(join_alive(s));
       list_joint_faces();
+      for (const auto &tie : ties)
+        note_unwelding(tie);
+    }
+
+    /** Corners of clusters that are tied by a pair without an area. */
+    std::vector<std::array<unsigned int, 2>> ties;
+
+    /** New vertex of a corner. */
+    unsigned int
+    new_vertex_of(const unsigned int corner) const
+    {
+      return result.mesh.cells[kept[corner / n]][corner % n];
     }
 
     /** Vertex before the split of each new vertex. */
@@ -169,8 +183,54 @@ namespace Keyblock
               clusters.push_back(b);
             }
         });
+      tie_clusters(facing, clusters);
       for (const unsigned int cluster : clusters)
         is_apart[cluster] = facing.root(cluster) != cluster;
+    }
+
+    /** Join clusters of different blocks around a vertex that are one cluster
+     * early, too, where they face none of each other, and a joint ends there.
+     */
+    void
+    tie_clusters(DisjointSets &facing, std::vector<unsigned int> &clusters)
+    {
+      std::vector<bool> has_joint(mesh.vertices.size(), false);
+      for_each_split_face(
+        [&](const unsigned int c, const unsigned int f, const unsigned int) {
+          for (const unsigned int vertex : mesh.face_vertices(c, f))
+            has_joint[vertex] = true;
+        });
+      // by vertex and early cluster, a corner of each cluster of rock
+      std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> meeting;
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        if (mesh.excavation_stage[c] == 0)
+          for (unsigned int v = 0; v < n; ++v)
+            if (has_joint[mesh.cells[c][v]] &&
+                rock.root(c * n + v) == c * n + v)
+              meeting[{{mesh.cells[c][v], early.root(c * n + v)}}].push_back(
+                c * n + v);
+      for (const auto &[place, roots] : meeting)
+        for (unsigned int i = 1; i < roots.size(); ++i)
+          for (unsigned int j = 0; j < i; ++j)
+            if (facing.root(roots[i]) != facing.root(roots[j]) &&
+                are_split(roots[i] / n, roots[j] / n))
+              {
+                facing.join(roots[i], roots[j]);
+                ties.push_back({{roots[i], roots[j]}});
+                clusters.push_back(roots[i]);
+                clusters.push_back(roots[j]);
+              }
+    }
+
+    /** Whether two cells are of blocks that are split where they meet. */
+    bool
+    are_split(const unsigned int c, const unsigned int d) const
+    {
+      const unsigned int a = blocks.block_of_cell[c],
+                         b = blocks.block_of_cell[d];
+      return a != none && b != none && a != b &&
+             !(weld && blocks.blocks[a].is_infinite &&
+               blocks.blocks[b].is_infinite);
     }
 
     void
@@ -227,10 +287,8 @@ namespace Keyblock
       while (stage <= blocks.n_stages && alive[stage - 2].root(corners[0]) ==
                                            alive[stage - 2].root(corners[1]))
         ++stage;
-      const auto vertex = [&](const unsigned int corner) {
-        return result.mesh.cells[kept[corner / n]][corner % n];
-      };
-      unwelding_stage[{{vertex(corners[0]), vertex(corners[1])}}] = stage;
+      unwelding_stage[{
+        {new_vertex_of(corners[0]), new_vertex_of(corners[1])}}] = stage;
     }
 
     const Mesh<dim> &mesh;

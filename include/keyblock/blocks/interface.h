@@ -8,7 +8,9 @@
 
 namespace Keyblock
 {
-  /** Two nodes at one place on the two sides of a joint. */
+  /** Two nodes at one place on the two sides of a joint, or, without an area,
+   * of two blocks that meet there on no joint and are held together by rock
+   * that is excavated later. */
   template <int dim>
   struct Pair
   {
@@ -25,6 +27,13 @@ namespace Keyblock
     /** Excavation stage until which unexcavated rock welds it; 0: not welded.
      */
     unsigned int unwelding_stage = 0;
+
+    /** Whether it is no more than welded: there is nothing in it after that. */
+    bool
+    is_tie() const
+    {
+      return area == 0.;
+    }
   };
 
   /** A face of a joint with the cells on its two sides. */

@@ -49,6 +49,10 @@ namespace Keyblock
      */
     void begin_stage(const unsigned int number);
 
+    /** Let go of what only rock held together that is excavated in stage
+     * @p number, with the forces in it. */
+    void remove_ties(const unsigned int number);
+
     /** Let go of a block that is taken away, with the forces on it. */
     void remove_block(const unsigned int block);
 
@@ -147,6 +151,8 @@ namespace Keyblock
     ContactTally tally;
 
   private:
+    void remove_pair(const unsigned int p);
+
     /** One for each pair, if a law remembers them. */
     void keep_histories();
 

@@ -147,6 +147,10 @@ namespace Keyblock
     void add_cheap_answers(const unsigned int block,
                            SafetyFactor &result) const;
 
+    /** How @p block moves, if not even strong joints hold it: it rotates on
+     * what it is not seated on, see is_seated(), else it falls. */
+    std::string mode_if_not_held(const unsigned int block) const;
+
     /** Tell support which ways the blocks that are @p tried would take without
      * it, for reduced strengths; returns that of the one that is looked at. */
     Tensor<1, dim> tell_ways(const TriedBlocks &tried);

@@ -26,17 +26,20 @@ namespace Keyblock
     /** Nothing has failed yet. */
     void forget();
 
-    /** The second phase of a trial begins. */
-    void begin();
+    /** The second phase of a trial begins, with a mean slip of @p slip [m] on
+     * the contacts of the block that is tried. */
+    void begin(const Vector<dim> &slip);
 
     /** Add forces on the joints of the block that is tried, at the end of a
      * window of that phase. */
     void add(const std::vector<JointSums<dim>> &joints);
 
-    /** The phase showed that @p block fails (collective). */
-    void note(const unsigned int block);
+    /** The phase showed that @p block fails, with such a slip by its end
+     * (collective). */
+    void note(const unsigned int block, const Vector<dim> &slip);
 
-    /** Falling, sliding or rotating, and on what; empty: nothing has failed. */
+    /** Falling, sliding or rotating, and on what, or yielding where the
+     * strength of rock is reduced, too; empty: nothing has failed. */
     const std::string &
     mode() const
     {
@@ -59,7 +62,8 @@ namespace Keyblock
     }
 
   private:
-    std::string name_mode(const unsigned int block) const;
+    std::string name_mode(const unsigned int block,
+                          const Vector<dim> &slip) const;
     void list_blocks_that_moved(const unsigned int block);
 
     const Scene<dim> &scene;
@@ -68,6 +72,7 @@ namespace Keyblock
     const Fields<dim> &fields;
     const Communicator communicator;
     std::vector<double> displacement_before; ///< of the second phase [m]
+    Vector<dim> slip_before{};       ///< mean, on contacts, of that phase [m]
     std::vector<double> joint_force; ///< at its windows' ends, added up [N]
     std::string last_mode;
     std::vector<unsigned int> along, moving;

@@ -24,8 +24,8 @@ namespace Keyblock
 
     struct Motion
     {
-      /** Mean slip on its contacts, or, where the strength of all joints is
-       * reduced or it is carried, its displacement [m]. */
+      /** Mean slip on its contacts, or, where the strength of all joints or of
+       * rock is reduced or it is carried, its displacement [m]. */
       Vector<dim> slip{};
 
       Vector<dim> displacement{}; ///< of its masses, mean [m]
@@ -84,15 +84,19 @@ namespace Keyblock
      * mark_guided_blocks() (collective). */
     std::vector<bool> guided_blocks() const;
 
-    /** Cells that a wave crosses in a fourth of the lowest period of the block
-     * that is tried and of those that lean on it: those along its size, and of
-     * these, which may be slender and rock, as many times more as they are
-     * longer than thick, roughly. */
-    double n_across(const TriedBlocks &tried) const;
+    /** Cells that a wave crosses in a fourth of the block's lowest period,
+     * those along its size. */
+    double n_across(const unsigned int block) const;
 
     /** Steps in that period, with scaled density: a wave crosses one cell a
      * step, and the block four times. */
-    unsigned int period(const TriedBlocks &tried) const;
+    unsigned int period(const unsigned int block) const;
+
+    /** Period of the slowest of the blocks that may move over that of the one
+     * that is tried [-]. Those that lean on it may be slender and rock, as many
+     * times more slowly than they are longer than thick, roughly, unless
+     * in-situ stress clamps them (collective). */
+    double slowness(const TriedBlocks &tried) const;
 
     /** What passes through the block from joint to joint, half the sum of the
      * normal forces on these: in-situ stress may make it many times its load
