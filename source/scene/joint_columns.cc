@@ -293,7 +293,11 @@ namespace Keyblock
       const KnownColumn *known = space == std::string::npos
                                    ? nullptr
                                    : column_called(words.substr(0, space));
-      if (!known)
+      const auto unit          = known_units().find(words.substr(space + 1));
+      // (what stands in brackets is meant as a unit)
+      const bool has_unit = unit != known_units().end() ||
+                            title.find_first_of("([") != std::string::npos;
+      if (!known || !has_unit)
         {
           const std::string like = telling_word(words);
           AssertThrow(like.empty() && !is_number(words),
@@ -306,7 +310,6 @@ namespace Keyblock
                                  "; known are " + list_known() + "."));
           return {nullptr, 1.};
         }
-      const auto unit = known_units().find(words.substr(space + 1));
       AssertThrow(
         unit != known_units().end() && unit->second.quantity == known->quantity,
         InputError(where + " gives the column '" + title +
