@@ -24,7 +24,7 @@ namespace Keyblock
      * then those behind them, then what reaches the end of the model. */
     template <int dim>
     std::vector<const Block<dim> *>
-    in_order(const Blocks<dim> &blocks)
+    exposed_first(const Blocks<dim> &blocks)
     {
       std::vector<const Block<dim> *> list;
       for (const auto &block : blocks.blocks)
@@ -76,7 +76,7 @@ namespace Keyblock
                      : "volume [m3]   weight [kN]")
         << "  centroid [m]                 joints\n";
     const double weight = weight_per_mass(scene);
-    const auto list     = in_order(blocks);
+    const auto list     = exposed_first(blocks);
     unsigned int n_rows = 0;
     for (const Block<dim> *pointer : list)
       {

@@ -30,7 +30,7 @@ namespace Keyblock
 
     /** The sections and the entry that an override names. */
     std::vector<std::string>
-    path_of(const std::string &assignment)
+    override_path(const std::string &assignment)
     {
       std::vector<std::string> path;
       const std::string left = assignment.substr(0, assignment.find('='));
@@ -48,7 +48,7 @@ namespace Keyblock
       for (const std::string &assignment : assignments)
         {
           const auto equal                    = assignment.find('=');
-          const std::vector<std::string> path = path_of(assignment);
+          const std::vector<std::string> path = override_path(assignment);
           if (equal != std::string::npos && path.size() == 2 &&
               path[1] == "Names")
             names[path[0]] = names_in(assignment.substr(equal + 1));
@@ -125,7 +125,7 @@ namespace Keyblock
     std::vector<std::string> all;
     for (const std::string &assignment : assignments)
       {
-        const std::vector<std::string> path = path_of(assignment);
+        const std::vector<std::string> path = override_path(assignment);
         const auto equal                    = assignment.find('=');
         if (path.size() != 3 || path[0] == "Joints" ||
             path[1].find_first_of("*?[") == std::string::npos ||
