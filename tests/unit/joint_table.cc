@@ -202,6 +202,10 @@ BOOST_AUTO_TEST_CASE(table_of_a_field_book)
 // what nobody computes with is left out; traces have a length
 BOOST_AUTO_TEST_CASE(table_with_other_columns)
 {
+  // (an entry of a law, not a size)
+  BOOST_TEST((read<3>("dip,dip direction,x,y,z,joint length\n45,90,0,0,0,2\n")
+                .at(0)
+                ->extent == JointShape::infinite));
   const std::string content =
     "ID;Station;Dip;Dip direction;x;y;z;Trace length (m);Roughness;"
     "Infill;Aperture (mm);Date;Observer;Station No.;Water condition\n"
