@@ -229,6 +229,14 @@ def displacements(grid):
                              axis=2).mean(axis=1)
 
 
+def scale_of(grids):
+    """Unit of displacements, its size, and the largest of each grid in it."""
+    most = [numpy.linalg.norm(values_of(grid, "displacement"), axis=1).max()
+            for grid in grids]
+    unit, size = fitting_unit("m", [most])
+    return unit, size, [value / size for value in most]
+
+
 def choose_factor(runs, stages, box):
     """Exaggeration that shows the largest displacement as 3 % of the box."""
     largest = 0.
@@ -267,22 +275,21 @@ def draw_deformed(runs, name=None, exaggeration=0., box=()):
     if is_free:
         for run, grid in zip(runs, grids):
             box = widen(box, run, grid, factor)
-    unit, size = fitting_unit("m", [displacements(grid) for grid in grids])
-    largest = max(displacements(grid).max() for grid in grids) / size
-    if largest * size < NOTHING:
+    unit, size, most = scale_of(grids)
+    if max(most) * size < NOTHING:
         return "nothing moves"
     figure, axes = new_figure(1, len(runs), sheet_size(box, len(runs), 1.4),
                               sharey=True)
     shades = LinearSegmentedColormap.from_list("displacement", COLOURS)
-    norm = pyplot.Normalize(0., largest or 1.)
-    for one, run, grid, stage in zip(axes.flat, runs, grids, stages):
+    norm = pyplot.Normalize(0., max(most))
+    for one, run, grid, stage, value in zip(axes.flat, runs, grids, stages,
+                                            most):
         set_up(one, box)
         plot_rock(one, run, grid, factor, (shades, norm, size))
         plot_first_places(one, run, stage)
-        most = numpy.linalg.norm(values_of(grid, "displacement"), axis=1).max()
         one.set_title((f"{run.label}\n" if len(runs) > 1 else "")
                       + f"after {run.stages[stage]}, at most "
-                      f"{most / size:.3g} {unit}", loc="left")
+                      f"{value:.3g} {unit}", loc="left")
     bar = figure.colorbar(pyplot.cm.ScalarMappable(norm, shades), ax=axes,
                           shrink=0.8, pad=0.02)
     bar.set_label(f"displacement [{unit}], drawn times {factor:g}")

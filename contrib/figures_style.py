@@ -95,7 +95,7 @@ def fitting_unit(kind, values):
     values = values[numpy.isfinite(values)]
     largest = values.max() if values.size else 0.
     for name, size in UNITS[kind]:
-        if largest >= size:
+        if float(f"{largest / size:.3g}") >= 1.:  # 1 mm, not 1e+03 um
             return name, size
     return UNITS[kind][-1]
 

@@ -12,8 +12,16 @@ install(FILES doc/summary.schema.json doc/study.schema.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock COMPONENT program)
 install(PROGRAMS contrib/keyblock-report DESTINATION ${CMAKE_INSTALL_BINDIR}
   COMPONENT program)
-install(DIRECTORY contrib/report DESTINATION ${CMAKE_INSTALL_DATADIR}/keyblock
+# scripts that the manual names, and what they and keyblock-report share
+set(contrib_folder ${CMAKE_INSTALL_DATADIR}/keyblock/contrib)
+install(DIRECTORY contrib/report DESTINATION ${contrib_folder}
   COMPONENT program PATTERN "__pycache__" EXCLUDE)
+install(PROGRAMS contrib/blocks_stl.py contrib/factor_uncertainty.py
+  contrib/figures.py contrib/plot_geostress.py contrib/render.py contrib/view.py
+  DESTINATION ${contrib_folder} COMPONENT program)
+file(GLOB script_modules CONFIGURE_DEPENDS contrib/figures_*.py
+  contrib/render_*.py contrib/script_tools.py)
+install(FILES ${script_modules} DESTINATION ${contrib_folder} COMPONENT program)
 install(FILES README.md LICENSE.md CHANGELOG.md doc/parameters.md doc/theory.md
   doc/vtu.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

@@ -8,12 +8,20 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
+def find_program():
+    """The program that was built beside the scripts, else the installed one."""
+    built = ROOT / "build" / "keyblock"
+    installed = ROOT.parent.parent / "bin" / "keyblock"
+    return str(installed if installed.exists() and not built.exists()
+               else built)
+
+
 def make_parser(description):
     """A parser of arguments with the program to run and where runs are kept."""
     parser = argparse.ArgumentParser(
         description=description,
         formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--keyblock", default=str(ROOT / "build" / "keyblock"))
+    parser.add_argument("--keyblock", default=find_program())
     return parser
 
 

@@ -254,6 +254,13 @@ run = types.SimpleNamespace(named_blocks=lambda: list(range(1, 13)))
 looks = {(figures_style.block_colour(run, n), bool(figures_style.block_line(
     run, n))) for n in run.named_blocks()}
 assert len(looks) == 12, looks
+assert figures_style.fitting_unit("m", [[0.9997e-3]]) == ("mm", 1e-3)
+assert figures_style.fitting_unit("m", [[0.9e-3]])[1] == 1e-6
+import figures_maps
+uneven = grid(1., 1.05e-3)
+render_data.vtk_to_numpy(uneven.GetPointData().GetArray("displacement"))[1:] = 0.
+unit, size, most = figures_maps.scale_of([uneven])
+assert unit == "mm" and abs(most[0] - 1.05 * 3**0.5) < 1e-5, (unit, most)
 """
 
 # a run whose states have all the same time, as stages are static

@@ -294,6 +294,11 @@ def check_study():
     (folder / "study.json").write_text(json.dumps(results))
     _, page = make_report(folder, path)
     assert "In no sample a block can move." in page and "has no" not in page
+    results.update(immovable_share=0.75, held_share=0.25)
+    (folder / "study.json").write_text(json.dumps(results))
+    _, page = make_report(folder, path)
+    assert "In 25 % every block holds at the highest factor tried" in page
+    assert "No sample has a least factor below the highest" in page
     (folder / "study.json").write_text("{")
     done = subprocess.run([REPORT, folder, "-o", path], capture_output=True,
                           text=True)

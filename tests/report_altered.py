@@ -123,6 +123,13 @@ def check_held():
         page = altered(change)[1]
         assert f"Block 1 is held by {words or held} alone" in page
 
+        def three(summary, block):
+            change(summary, block)
+            summary["blocks"] += [{**block, "id": 98}, {**block, "id": 99}]
+
+        page = altered(three)[1]
+        assert f"Blocks 1, 98 and 99 are held by {words or held}" in page
+
 
 def check_demand():
     """The largest support of all stages; bolts in rings."""

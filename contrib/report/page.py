@@ -19,8 +19,11 @@ def title_of(run):
 
 def named(numbers):
     """Blocks by their numbers."""
-    return ", ".join(f"block {n}" for n in numbers[:30]) + (
-        " …" if len(numbers) > 30 else "")
+    if len(numbers) == 1:
+        return f"block {numbers[0]}"
+    names = [str(n) for n in numbers[:30]]
+    last = f"{len(numbers) - 30} more" if len(numbers) > 30 else names.pop()
+    return f"blocks {', '.join(names)} and {last}"
 
 
 def further_verdict(rows):

@@ -26,6 +26,10 @@ def head(study):
     if results.get("immovable_share"):
         verdict += (f" In {number(100. * results['immovable_share'], 3)} % of "
                     "the samples no block can move.")
+    if results.get("held_share"):
+        verdict += (f" In {number(100. * results['held_share'], 3)} % every "
+                    "block holds at the highest factor tried; means and "
+                    "percentiles leave these out.")
     return (f"<h1>{escape(study.title)}</h1><p>{escape(verdict)}</p>" + facts([
         ("scene", escape(results.get("scene", ""))),
         ("folder", escape(study.folder.resolve().name)),
@@ -103,8 +107,10 @@ def distributions_section(study, figures):
         ("failed_volume", f"failed {size} of a sample in which a block fails "
          f"[{unit}]")) if key in study.results]
     if not rows:
-        return ("<h2 id=factors>Factors</h2><p>In no sample a block can "
-                "move.</p>")
+        return ("<h2 id=factors>Factors</h2><p>"
+                + ("No sample has a least factor below the highest one tried."
+                   if study.results.get("held_share") else
+                   "In no sample a block can move.") + "</p>")
     return ("<h2 id=factors>Factors and sizes of failures</h2>"
             + figures_in(figures.get("factors"), figures.get("volumes"))
             + statistics_table(rows))

@@ -4,9 +4,11 @@
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/blocks.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
+#include <vector>
 
 namespace Keyblock
 {
@@ -14,6 +16,31 @@ namespace Keyblock
   {
     /** So many joints of an infinite block are named. */
     constexpr unsigned int most_joints_of_infinite = 8;
+
+    /** So many blocks are listed. */
+    constexpr unsigned int most_blocks = 40;
+
+    /** Blocks as they are listed: first those that may fall into an opening,
+     * then those behind them, then what reaches the end of the model. */
+    template <int dim>
+    std::vector<const Block<dim> *>
+    exposed_first(const Blocks<dim> &blocks)
+    {
+      std::vector<const Block<dim> *> list;
+      for (const auto &block : blocks.blocks)
+        list.push_back(&block);
+      const auto rank = [](const Block<dim> &block) {
+        return block.is_infinite || block.is_rigid ? 2
+               : block.exposed_stage == none       ? 1
+                                                   : 0;
+      };
+      std::stable_sort(list.begin(),
+                       list.end(),
+                       [&](const auto *one, const auto *other) {
+                         return rank(*one) < rank(*other);
+                       });
+      return list;
+    }
   } // namespace
 
 
@@ -49,8 +76,17 @@ namespace Keyblock
                      : "volume [m3]   weight [kN]")
         << "  centroid [m]                 joints\n";
     const double weight = weight_per_mass(scene);
-    for (const auto &block : blocks.blocks)
+    const auto list     = exposed_first(blocks);
+    unsigned int n_rows = 0;
+    for (const Block<dim> *pointer : list)
       {
+        if (n_rows++ == most_blocks)
+          {
+            out << "      and " << list.size() - most_blocks
+                << " more; a run writes all finite ones to blocks.csv\n";
+            break;
+          }
+        const Block<dim> &block = *pointer;
         out << std::setw(4) << block.id << "  " << std::left << std::setw(11)
             << to_string(block.class_of_stage.back()) << std::setw(9)
             << (block.is_removable ? "yes" : "no") << std::right

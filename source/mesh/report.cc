@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/mesh/report.h>
-
 #include <deal.II/base/numbers.h>
+
+#include <keyblock/base/delimited_text.h>
+#include <keyblock/mesh/report.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,8 @@ namespace Keyblock
               << " cells\n";
           if (report.area_ratio != 1.)
             out << "        finite joints have " << report.area_ratio
-                << " of their area in the mean\n";
+                << " of their " << (dim == 2 ? "length" : "area")
+                << " in the mean\n";
         }
     }
 
@@ -212,14 +214,17 @@ namespace Keyblock
     print_merged(out, report, scene);
     if (report.n_lost_blocks > 0)
       {
-        out << "Warning: " << report.n_lost_blocks
-            << " blocks smaller than a fifth of a triangle or tetrahedron went "
-               "to their neighbours, the largest of "
+        const bool is_one = report.n_lost_blocks == 1;
+        out << "Warning: " << count_text(report.n_lost_blocks, "block")
+            << " smaller than a fifth of a triangle or tetrahedron went to "
+            << (is_one ? "its" : "their") << " neighbours, "
+            << (is_one ? "" : "the largest ") << "of "
             << report.largest_lost_volume << (dim == 2 ? " m2" : " m3")
             << " at (";
         for (unsigned int d = 0; d < dim; ++d)
           out << (d ? ", " : "") << report.largest_lost_place[d];
-        out << ") m; lower 'Mesh/Size' there to keep them.\n";
+        out << ") m; lower 'Mesh/Size' there to keep "
+            << (is_one ? "it.\n" : "them.\n");
       }
     print_thin_rock(out, report, scene);
     if (!report.gaps.empty())

@@ -160,7 +160,8 @@ namespace Keyblock::Python
           "balance.")
         .def_property_readonly("max_displacement",
                                of(&StageReport::max_displacement),
-                               "Largest displacement since the start (m).")
+                               "Largest displacement since the start of the "
+                               "rock that is there (m).")
         .def_property_readonly("remark",
                                of(&StageReport::remark),
                                "What moves, or has failed, in words.")
@@ -284,7 +285,8 @@ namespace Keyblock::Python
           "displacement",
           gathered(&AnyRun::displacement),
           "Of blocks.vertices since the start, shape (n_vertices, "
-          "dimension): m. Where all is dug away, the last value.")
+          "dimension): m. Where all is dug away, or its block was taken away, "
+          "the last value, which stages' max_displacement leaves out.")
         .def_property_readonly("velocity",
                                gathered(&AnyRun::velocity),
                                "The same: m/s.")

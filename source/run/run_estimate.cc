@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/delimited_text.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/run/progress_line.h>
 #include <keyblock/run/run_estimate.h>
@@ -337,7 +338,7 @@ namespace Keyblock
                                                        : " until in balance")
           << (stages[s].may_end_late ? ", at most" : "");
     if (stages.size() > most_stages)
-      out << "; and " << stages.size() - most_stages << " more stages";
+      out << "; and " << count_text(stages.size() - most_stages, "more stage");
     if (seconds_per_step > 0.)
       out << "; " << text_of(1e3 * seconds_per_step, 2) << " ms each here on "
           << model.communicator.size()

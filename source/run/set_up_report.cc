@@ -6,6 +6,7 @@
 #include <keyblock/law/joint_stiffness.h>
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/run/bolt_warnings.h>
+#include <keyblock/run/circle_warnings.h>
 #include <keyblock/run/free_field_warnings.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/wanted_blocks.h>
@@ -244,6 +245,7 @@ namespace Keyblock
             model.communicator, model.scene, model.split, model.cells),
           warnings_of_short_waves(model.scene, model.split),
           warnings_of_free_fields(model.scene, model.split),
+          warnings_of_circles(model.scene, model.split.mesh),
           warnings_of_coarse_bolts(model.scene, model.split),
           warnings_of_brittle_bolts(model.scene, model.split),
           warnings_of_cut_bolts(model.scene, model.split),

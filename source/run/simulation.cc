@@ -54,6 +54,20 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** What the scene warns of, before it is meshed: that may take long. */
+    template <int dim>
+    void
+    print_warnings(const Scene<dim> &scene, dealii::ConditionalOStream &out)
+    {
+      for (const std::string &warning : scene.warnings())
+        out << "Warning: " << warning << std::endl;
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   Simulation<dim>::set_up()
@@ -95,8 +109,6 @@ namespace Keyblock
   void
   Simulation<dim>::print_head(std::ostream &out)
   {
-    for (const std::string &warning : model.scene.warnings())
-      out << "Warning: " << warning << '\n';
     mass_scaling_text = mass_scaling_of_stage();
     print_set_up(out, model, parts->record.report, warnings, mass_scaling_text);
   }
@@ -108,6 +120,7 @@ namespace Keyblock
   Simulation<dim>::validate()
   {
     check_kept_stages(model.scene);
+    print_warnings(model.scene, model.out);
     model.make_geometry();
     set_up();
     if (model.out.is_active())
@@ -212,6 +225,7 @@ namespace Keyblock
         file = std::make_unique<StateFile>(model.communicator, checkpoint);
         check_origin(*file, checkpoint, model.scene, StateUse::restart);
       }
+    print_warnings(model.scene, model.out);
     model.make_geometry();
     if (file)
       check_mesh(*file, checkpoint, model.split);

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/blocks/block_measures.h>
-#include <keyblock/mesh/size_remedy.h>
 #include <keyblock/run/study_report.h>
-#include <keyblock/scene/study_entries.h>
-
-#include <boost/algorithm/string/join.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -185,38 +181,6 @@ namespace Keyblock
 
 
   template <int dim>
-  std::vector<std::string>
-  StudyReport<dim>::warnings() const
-  {
-    const auto n                 = std::count_if(results.begin(),
-                                 results.end(),
-                                 [](const SampleResult &result) {
-                                   return result.is_coarse;
-                                 });
-    std::vector<std::string> all = mesh_warnings;
-    const auto idle              = list_variables_of_stress(scene);
-    if (scene.study.level == StudyLevel::rigid && !idle.empty())
-      all.push_back(
-        "Limit equilibrium takes neither stress nor stiffness of the "
-        "rock: '" +
-        boost::join(idle, "', '") +
-        "' changes nothing, and its rank correlation is chance; "
-        "set 'Study/Level' to full.");
-    if (!mesh_warnings.empty() || n == 0)
-      return all;
-    all.push_back(
-      "In " + std::to_string(n) + " of " + std::to_string(results.size()) +
-      " samples the mesh has moved faces of blocks off their joints by "
-      "more than half a cell, or changed volumes by more than 5 %; limit "
-      "equilibrium takes faces as plane and, where they are known, exact "
-      "volumes; " +
-      remedy_of_coarse_cells(scene.meshing) + ".");
-    return all;
-  }
-
-
-
-  template <int dim>
   std::vector<double>
   StudyReport<dim>::finite_factors() const
   {
@@ -266,10 +230,11 @@ namespace Keyblock
     if (dim == 3 && length > 0.)
       out << ", per metre of tunnel " << mean_failed / length << " and "
           << mean_volume / length << " m3";
-    const std::vector<double> factors = finite_factors();
-    if (!factors.empty())
+    const std::vector<double> factors = finite_factors(),
+                              found   = values_of(factors);
+    if (!found.empty())
       {
-        const SampleStatistics statistics(factors);
+        const SampleStatistics statistics(found);
         out << "\n        least factor: mean " << statistics.mean
             << ", deviation " << statistics.deviation << ", 5 % below "
             << statistics.percentile(0.05) << ", 95 % below "
@@ -277,6 +242,11 @@ namespace Keyblock
       }
     if (scene.study.level == StudyLevel::full)
       out << "\n        by limit equilibrium alone: " << rigid_probability();
+    if (found.size() < factors.size())
+      out << "\n        in " << factors.size() - found.size()
+          << " samples every block holds at 'Safety factor/Highest': least "
+             "factor above "
+          << scene.safety.highest;
     if (factors.size() < results.size())
       out << "\n        in " << results.size() - factors.size()
           << " samples no block can move";
@@ -308,12 +278,11 @@ namespace Keyblock
           continue;
         std::vector<double> factors;
         for (const SampleResult &result : results)
-          if (std::isfinite(result.factors[b]))
-            factors.push_back(result.factors[b]);
+          factors.push_back(result.factors[b]);
         Json json = {{"id", block.id},
                      {"volume", best_volume(block)},
                      {"probability", as_json(probability_of_block(b))}};
-        put_statistics(factors, "factor", json);
+        put_statistics(values_of(factors), "factor", json);
         list.push_back(json);
       }
     return list;
@@ -342,7 +311,8 @@ namespace Keyblock
         root["failed_blocks_per_metre"] = mean_failed / length;
         root["failed_volume_per_metre"] = mean_volume / length;
       }
-    put_statistics(finite_factors(), "least_factor", root);
+    put_statistics(values_of(finite_factors()), "least_factor", root);
+    root["held_share"] = held_share();
     root["immovable_share"] =
       1. - finite_factors().size() / double(results.size());
     std::vector<double> volumes;

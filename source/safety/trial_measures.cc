@@ -15,10 +15,6 @@ namespace Keyblock
   {
     /** Share of its load that what holds a block bears at least [-]. */
     constexpr double holding_share = 0.1;
-
-    /** Force through a block from joint to joint over its load, from which on
-     * it is clamped [-]. */
-    constexpr double clamping_loads = 3.;
   } // namespace
 
 
@@ -260,48 +256,6 @@ namespace Keyblock
   TrialMeasures<dim>::guided_blocks() const
   {
     return mark_guided_blocks(run.fields, nodes_of_block, communicator);
-  }
-
-
-
-  template <int dim>
-  double
-  TrialMeasures<dim>::n_across(const unsigned int block) const
-  {
-    const Block<dim> &b = blocks.blocks[block];
-    return std::max(4., b.size / std::pow(b.volume / b.n_cells, 1. / dim));
-  }
-
-
-
-  template <int dim>
-  unsigned int
-  TrialMeasures<dim>::period(const unsigned int block) const
-  {
-    return std::ceil(4. * n_across(block) / scene.time_stepping.safety);
-  }
-
-
-
-  template <int dim>
-  double
-  TrialMeasures<dim>::slowness(const TriedBlocks &tried) const
-  {
-    const double own = n_across(tried.block);
-    double slowest   = own;
-    for (const unsigned int other : tried.others())
-      {
-        const Block<dim> &b = blocks.blocks[other];
-        const double load =
-          measure_balance(run.fields, nodes_of_block[other], communicator).load;
-        // what stress clamps does not rock
-        const double slender =
-          force_through(other) > clamping_loads * load
-            ? 1.
-            : std::pow(b.size, dim) / (b.volume * std::pow(dim, 0.5 * dim));
-        slowest = std::max(slowest, n_across(other) * slender);
-      }
-    return slowest / own;
   }
 
 

@@ -161,7 +161,7 @@ namespace Keyblock
       "Shape",
       shape,
       "polygon (2D): Vertices; circle (2D): Center and Radius, "
-      "arcs kept; box: Corner and Size; extruded polygon "
+      "followed by chords of cells; box: Corner and Size; extruded polygon "
       "(3D): Vertices in the x-z plane, From and To along y; "
       "rectangle, horseshoe (half a circle on walls), cavern "
       "(an arch of Rise on walls): Center, Width and Height, in "

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/errors.h>
 #include <keyblock/scene/dropped_names.h>
 
 #include <boost/algorithm/string.hpp>
+
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <map>
@@ -25,20 +28,30 @@ namespace Keyblock
       return names;
     }
 
+    /** The sections and the entry that an override names. */
+    std::vector<std::string>
+    override_path(const std::string &assignment)
+    {
+      std::vector<std::string> path;
+      const std::string left = assignment.substr(0, assignment.find('='));
+      boost::split(path, left, boost::is_any_of("/"));
+      for (std::string &part : path)
+        boost::trim(part);
+      return path;
+    }
+
     /** Lists that overrides give, the last of each section. */
     NamesBySection
-    names_of_overrides(const SceneText &scene)
+    names_of_overrides(const std::vector<std::string> &assignments)
     {
       NamesBySection names;
-      for (const SceneText::Override &entry : scene.overrides)
+      for (const std::string &assignment : assignments)
         {
-          const auto equal = entry.assignment.find('=');
-          std::vector<std::string> path;
-          const std::string left = entry.assignment.substr(0, equal);
-          boost::split(path, left, boost::is_any_of("/"));
-          if (path.size() == 2 && boost::trim_copy(path[1]) == "Names")
-            names[boost::trim_copy(path[0])] =
-              names_in(entry.assignment.substr(equal + 1));
+          const auto equal                    = assignment.find('=');
+          const std::vector<std::string> path = override_path(assignment);
+          if (equal != std::string::npos && path.size() == 2 &&
+              path[1] == "Names")
+            names[path[0]] = names_in(assignment.substr(equal + 1));
         }
       return names;
     }
@@ -104,10 +117,57 @@ namespace Keyblock
 
 
 
+  std::vector<std::string>
+  without_patterns(const std::string &text,
+                   const std::vector<std::string> &assignments)
+  {
+    NamesBySection names;
+    std::vector<std::string> all;
+    for (const std::string &assignment : assignments)
+      {
+        const std::vector<std::string> path = override_path(assignment);
+        const auto equal                    = assignment.find('=');
+        if (path.size() != 3 || path[0] == "Joints" ||
+            path[1].find_first_of("*?[") == std::string::npos ||
+            equal == std::string::npos)
+          {
+            all.push_back(assignment);
+            continue;
+          }
+        if (names.empty())
+          {
+            names = names_of_overrides(assignments);
+            names.merge(names_of_file(text));
+          }
+        bool is_used = false;
+        std::string list;
+        for (const std::string &name : names[path[0]])
+          {
+            list += (list.empty() ? "" : ", ") + name;
+            if (fnmatch(path[1].c_str(), name.c_str(), 0) != 0)
+              continue;
+            all.push_back(path[0] + "/" + name + "/" + path[2] +
+                          assignment.substr(equal));
+            is_used = true;
+          }
+        AssertThrow(is_used,
+                    InputError("The override --set \"" + assignment +
+                               "\" matches no name of '" + path[0] +
+                               "/Names' (" + (list.empty() ? "none" : list) +
+                               "); name one, or use * for all of them."));
+      }
+    return all;
+  }
+
+
+
   void
   drop_names_taken_out(SceneText &scene)
   {
-    const NamesBySection wanted = names_of_overrides(scene);
+    std::vector<std::string> assignments;
+    for (const SceneText::Override &entry : scene.overrides)
+      assignments.push_back(entry.assignment);
+    const NamesBySection wanted = names_of_overrides(assignments);
     if (wanted.empty())
       return;
     NamesBySection dropped = names_of_file(scene.text);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace Keyblock
 {
@@ -72,7 +73,9 @@ namespace Keyblock
         {C::radius,
          Q::length,
          {"radius", "r", "half length", "half trace length"}},
-        {C::diameter, Q::length, {"diameter"}},
+        {C::diameter,
+         Q::length,
+         {"diameter", "length", "trace length", "persistence length"}},
         {C::extent, Q::words, {"extent"}},
         {C::vertices, Q::length, {"vertices", "polygon"}},
         {C::friction_angle,
@@ -189,7 +192,93 @@ namespace Keyblock
       return list;
     }
 
-    /** What a title of the header, maybe with a unit as its last word, means.*/
+    /** Whether @p word is @p known but for a slip of the pen: a letter wrong,
+     * missing, too many or swapped, two in words from eight letters on. */
+    bool
+    is_like(const std::string &word, const std::string &known)
+    {
+      const std::size_t n = word.size(), m = known.size();
+      const std::size_t slips = m < 4 ? 0 : m < 8 ? 1 : 2;
+      if (std::max(n, m) - std::min(n, m) > slips)
+        return false;
+      std::vector<std::vector<std::size_t>> distance(
+        n + 1, std::vector<std::size_t>(m + 1));
+      for (std::size_t i = 0; i <= n; ++i)
+        for (std::size_t j = 0; j <= m; ++j)
+          {
+            std::size_t &least = distance[i][j];
+            least              = i == 0 ? j : i;
+            if (i == 0 || j == 0)
+              continue;
+            least = std::min(
+              {distance[i - 1][j] + 1,
+               distance[i][j - 1] + 1,
+               distance[i - 1][j - 1] + (word[i - 1] == known[j - 1] ? 0 : 1)});
+            if (i > 1 && j > 1 && word[i - 1] == known[j - 2] &&
+                word[i - 2] == known[j - 1])
+              least = std::min(least, distance[i - 2][j - 2] + 1);
+          }
+      return distance[n][m] <= slips;
+    }
+
+    std::set<std::string>
+    words_of(const std::string &title)
+    {
+      std::set<std::string> words;
+      boost::split(words, title, boost::is_space(), boost::token_compress_on);
+      return words;
+    }
+
+    /** Words of columns that are input, or would be by another name. */
+    std::set<std::string>
+    list_telling_words()
+    {
+      std::set<std::string> telling = {"size",
+                                       "persistence",
+                                       "width",
+                                       "height",
+                                       "area",
+                                       "altitude",
+                                       "orientation",
+                                       "attitude",
+                                       "strength"};
+      for (const KnownColumn &known : known_columns())
+        if (known.column != JointColumn::name &&
+            known.column != JointColumn::comment)
+          for (const std::string &name : known.names)
+            telling.merge(words_of(name));
+      for (const std::string word : {"joint", "static", "distance", "water"})
+        telling.erase(word);
+      return telling;
+    }
+
+    /** A word that a column of these words may be known by; empty where it can
+     * be left out, as what nobody computes with. */
+    std::string
+    telling_word(const std::string &title)
+    {
+      static const std::set<std::string> telling = list_telling_words();
+      std::set<std::string> words                = words_of(title);
+      const auto space                           = title.rfind(' ');
+      if (space != std::string::npos)
+        if (known_units().count(title.substr(space + 1)) > 0)
+          words.erase(title.substr(space + 1));
+      for (const std::string &word : words)
+        for (const std::string &known : telling)
+          if (is_like(word, known))
+            return known;
+      return "";
+    }
+
+    /** A title that is no word names nothing, as in a table without header. */
+    bool
+    is_number(const std::string &words)
+    {
+      return words.find_first_not_of("0123456789 +") == std::string::npos;
+    }
+
+    /** What a title of the header, maybe with a unit as its last word, means;
+     * none where the column is left out. */
     std::pair<const KnownColumn *, double>
     understand(const std::string &title, const std::string &where)
     {
@@ -200,11 +289,23 @@ namespace Keyblock
       const KnownColumn *known = space == std::string::npos
                                    ? nullptr
                                    : column_called(words.substr(0, space));
-      AssertThrow(known,
-                  InputError(where + " names the column '" + title +
-                             "', which is not known; known are " +
-                             list_known() + "."));
-      const auto unit = known_units().find(words.substr(space + 1));
+      const auto unit          = known_units().find(words.substr(space + 1));
+      // (what stands in brackets is meant as a unit)
+      const bool has_unit = unit != known_units().end() ||
+                            title.find_first_of("([") != std::string::npos;
+      if (!known || !has_unit)
+        {
+          const std::string like = telling_word(words);
+          AssertThrow(like.empty() && !is_number(words),
+                      InputError(where + " names the column '" + title +
+                                 "', which is not known" +
+                                 (like.empty()
+                                    ? ""
+                                    : ", but may be input, by its '" + like +
+                                        "'; correct its name, or remove it") +
+                                 "; known are " + list_known() + "."));
+          return {nullptr, 1.};
+        }
       AssertThrow(
         unit != known_units().end() && unit->second.quantity == known->quantity,
         InputError(where + " gives the column '" + title +
@@ -252,6 +353,8 @@ namespace Keyblock
     for (unsigned int i = 0; i < table.header.fields.size(); ++i)
       {
         const auto [known, unit] = understand(table.header.fields[i], where);
+        if (!known)
+          continue;
         AssertThrow(known->column == JointColumn::comment ||
                       places.count(known->column) == 0,
                     InputError(where + " names the column '" +
@@ -262,5 +365,17 @@ namespace Keyblock
         places[known->column] = ColumnPlace{i, unit};
       }
     return places;
+  }
+
+
+
+  std::vector<std::string>
+  columns_left_out(const DelimitedText &table)
+  {
+    std::vector<std::string> titles;
+    for (const std::string &title : table.header.fields)
+      if (!understand(title, "The table").first)
+        titles.push_back(title);
+    return titles;
   }
 } // namespace Keyblock

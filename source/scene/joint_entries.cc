@@ -44,14 +44,17 @@ namespace Keyblock
       "Table of more joints, relative to the scene file: CSV with a header "
       "and one joint a row. Columns: name, set; dip and dip direction, or "
       "strike and dip (dip direction = strike + 90), or trend and plunge of "
-      "the pole, or normal x, y, z; x, y, z; radius or diameter, or extent, or "
+      "the pole, or normal x, y, z; x, y, z; radius (half length) or "
+      "diameter (trace length), or extent, or "
       "vertices (`\"x, y, z; ...\"`), in 2D x1, y1, x2, y2; friction angle, "
       "kinetic friction angle, cohesion, tensile strength, residual cohesion, "
       "water pressure; law and its entries; comment. Units m, deg and Pa, or "
       "as the header says, "
       "`cohesion (kPa)`. Separated by `,`, `;` or tabs; with the latter two "
       "decimal commas are understood. Rows without a name are J1, J2, ... by "
-      "their number; a subsection of that name overrides the row.");
+      "their number, with a name that is a set's, too, or stands twice, "
+      "SET.NAME; a subsection of that name overrides the row. Other columns "
+      "are left out with a warning.");
     prm.add_parameter(
       "Resolved",
       is_resolved,

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace Keyblock
 {
@@ -294,6 +295,16 @@ namespace Keyblock
                     InputError(where + " names the columns '" + name_of(one) +
                                "' and '" + name_of(other) +
                                "', which say the same; remove one."));
+      const std::string remedy =
+        dim == 2 && columns.count(C::dip_direction) + columns.count(C::trend) +
+                        columns.count(C::strike) >
+                      0
+          ? "a section has x along it and y upwards, and of each joint that "
+            "crosses it the apparent dip, tan(apparent dip) = tan(dip) "
+            "|cos(dip direction - bearing of x)|, with 'dip direction' 90 "
+            "where "
+            "it dips to +x, else 270; or set 'Dimension' to 3."
+          : "remove it, or change 'Dimension'.";
       const std::vector<C> foreign =
         dim == 2 ? std::vector<C>{C::z, C::normal_z}
                  : std::vector<C>{C::x1, C::y1, C::x2, C::y2};
@@ -301,24 +312,33 @@ namespace Keyblock
         AssertThrow(columns.count(column) == 0,
                     InputError(where + " names the column '" + name_of(column) +
                                "', which a table in " + std::to_string(dim) +
-                               "D cannot have; remove it, or change "
-                               "'Dimension'."));
+                               "D cannot have; " + remedy));
+    }
+
+    /** Call joints SET.NAME, as joints made of sets are, where their names are
+     * those of sets, too, or stand twice, as numbers within sets do. */
+    template <int dim>
+    void
+    part_names(const std::map<std::string, JointStrength> &strength_of_set,
+               std::vector<std::unique_ptr<Joint<dim>>> &joints,
+               const std::vector<bool> &has_name)
+    {
+      std::set<std::string> sets, names;
+      for (const auto &[set, strength] : strength_of_set)
+        sets.insert(set);
+      for (const auto &joint : joints)
+        if (!joint->set.empty())
+          sets.insert(joint->set);
+      bool is_ambiguous = false;
+      for (const auto &joint : joints)
+        is_ambiguous = !names.insert(joint->name).second ||
+                       sets.count(joint->name) > 0 || is_ambiguous;
+      if (is_ambiguous)
+        for (unsigned int i = 0; i < joints.size(); ++i)
+          if (has_name[i] && !joints[i]->set.empty())
+            joints[i]->name = joints[i]->set + "." + joints[i]->name;
     }
   } // namespace
-
-
-
-  void
-  check_name(const std::string &name, const std::string &owner)
-  {
-    const auto bad = name.find_first_of(",;/#*?[]={}|\\\"\n\t");
-    AssertThrow(!name.empty() && bad == std::string::npos &&
-                  name == boost::trim_all_copy(name),
-                InputError(owner + " is called '" + name +
-                           "', but names must not be empty and have no double "
-                           "blanks and none of , ; / # * ? [ ] = { } | \\ \"; "
-                           "give it another name."));
-  }
 
 
 
@@ -334,6 +354,7 @@ namespace Keyblock
     const bool has_commas = has_decimal_commas(table);
     std::vector<std::unique_ptr<Joint<dim>>> joints;
     joints.reserve(table.rows.size());
+    std::vector<bool> has_name;
     for (unsigned int i = 0; i < table.rows.size(); ++i)
       {
         const RowReader row(table, columns, table.rows[i], has_commas);
@@ -342,6 +363,7 @@ namespace Keyblock
         joint.origin      = row.place();
         joint.name =
           row.has(C::name) ? row.text(C::name) : "J" + std::to_string(i + 1);
+        has_name.push_back(row.has(C::name));
         joint.set = row.text(C::set);
         check_name(joint.name, row.place() + ", its joint");
         if (!joint.set.empty())
@@ -352,30 +374,12 @@ namespace Keyblock
         read_geometry(row, origin, joint);
         read_strength(row, joint);
       }
+    part_names(strength_of_set, joints, has_name);
     return joints;
   }
 
 
 
-  template <int dim>
-  std::vector<std::string>
-  warnings_of_table(const Scene<dim> &scene)
-  {
-    const bool has_row =
-      std::any_of(scene.joints.begin(),
-                  scene.joints.end(),
-                  [](const auto &joint) {
-                    return joint->origin.rfind("Line ", 0) == 0;
-                  });
-    if (scene.network.is_resolved || scene.network.file.empty() || has_row)
-      return {};
-    return {"The table '" + scene.network.file +
-            "' of the entry 'Joints/File' has a header and no rows, so that it "
-            "gives no joint; give each joint a row, or leave the entry out."};
-  }
-
-  template std::vector<std::string> warnings_of_table(const Scene<2> &);
-  template std::vector<std::string> warnings_of_table(const Scene<3> &);
   template std::vector<std::unique_ptr<Joint<2>>>
   read_joint_table(const std::string &,
                    const Point<2> &,

@@ -10,6 +10,7 @@
 #include <keyblock/scene/check_parts.h>
 #include <keyblock/scene/idle_entries.h>
 #include <keyblock/scene/joint_facets.h>
+#include <keyblock/scene/joint_sets.h>
 #include <keyblock/scene/joint_table.h>
 #include <keyblock/scene/joints.h>
 #include <keyblock/scene/shape_files.h>
@@ -266,6 +267,7 @@ namespace Keyblock
     read_shape_files(communicator, *this);
     joints = make_joints(*this, read_names(names, "Joints"), text);
     for (const auto &warnings : {warnings_of_table(*this),
+                                 warnings_of_sets(*this),
                                  warnings_of_drawings(*this),
                                  warnings_of_nested_solids(*this)})
       old_names.insert(old_names.end(), warnings.begin(), warnings.end());

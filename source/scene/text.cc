@@ -352,7 +352,7 @@ namespace Keyblock
   {
     warnings = replace_old_names(text);
     set_joints_apart(*this);
-    for (const std::string &assignment : overrides)
+    for (const std::string &assignment : without_patterns(text, overrides))
       add_override(assignment, *this);
     std::string all = text;
     for (const Override &entry : this->overrides)

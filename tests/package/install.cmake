@@ -14,6 +14,14 @@ endfunction()
 file(REMOVE_RECURSE ${FOLDER})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/usr)
 run(${FOLDER}/usr/bin/keyblock-report --help)
+# scripts find what they share: they tell their arguments, or what is not there
+foreach(script blocks_stl factor_uncertainty figures plot_geostress render view)
+  execute_process(COMMAND ${FOLDER}/usr/share/keyblock/contrib/${script}.py --help
+    RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT output MATCHES "usage: |cannot be loaded" OR output MATCHES "No module named 'report|No module named 'script_tools")
+    message(FATAL_ERROR "${script}.py\n${output}")
+  endif()
+endforeach()
 run(${FOLDER}/usr/bin/keyblock --help)
 # every option stands in the manual page
 file(READ ${FOLDER}/usr/share/man/man1/keyblock.1 manual)

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Random numbers to the last bit; the statistics of joints made from them.
+#include "world.h"
+
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/base/errors.h>
 #include <keyblock/scene/domain_outline.h>
 #include <keyblock/scene/joint_sets.h>
 #include <keyblock/scene/radius_law.h>
+#include <keyblock/scene/text.h>
 
 #include <cmath>
 #include <functional>
@@ -476,6 +479,43 @@ BOOST_AUTO_TEST_CASE(seeds_and_names_of_sets)
   set.seed = 1;
   set.name = "B";
   BOOST_TEST(places() != first);
+}
+
+// discs of a whole large domain, and of the rock around what is dug
+BOOST_AUTO_TEST_CASE(sets_that_fill_the_domain)
+{
+  const auto warnings = [](const std::string &region) {
+    const SceneInMemory memory(
+      "set Dimension = 3\n"
+      "subsection Domain\n set Corner = -50, -50, -50\n"
+      " set Size = 100, 100, 100\nend\n"
+      "subsection Mesh\n set Cells = 2, 2, 2\nend\n"
+      "subsection Excavations\n set Names = hall\n subsection hall\n"
+      "  set Shape = box\n  set Corner = -10, -10, -10\n"
+      "  set Size = 20, 20, 20\n end\nend\n"
+      "subsection Joint sets\n set Names = A\n subsection A\n"
+      "  set P32 = 0.2\n  set Radius law = constant\n"
+      "  set Radius mean = 5\n" +
+      region +
+      " end\nend\n"
+      "subsection Materials\n set Names = rock\nend\n");
+    Scene<3> scene;
+    scene.read(world, memory.name(), {});
+    std::vector<std::string> found;
+    for (const std::string &warning : scene.warnings())
+      if (warning.find("fill the whole domain") != std::string::npos)
+        found.push_back(warning);
+    return found;
+  };
+  const auto all = warnings("");
+  BOOST_REQUIRE(all.size() == 1u);
+  for (const std::string part : {"The sets 'A' fill the whole domain with ",
+                                 "'Region corner' and 'Region size'",
+                                 "in twice its size, 40, 40, 40 m"})
+    BOOST_TEST(all[0].find(part) != std::string::npos, all[0]);
+  BOOST_TEST(warnings("  set Region corner = -20, -20, -20\n"
+                      "  set Region size = 40, 40, 40\n")
+               .empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -5,6 +5,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/scene/joint_columns.h>
 #include <keyblock/scene/joint_table.h>
 
 #include <fstream>
@@ -198,6 +199,52 @@ BOOST_AUTO_TEST_CASE(table_of_a_field_book)
                ->point[2] == 12.5);
 }
 
+// what nobody computes with is left out; traces have a length
+BOOST_AUTO_TEST_CASE(table_with_other_columns)
+{
+  // (an entry of a law, not a size)
+  BOOST_TEST((read<3>("dip,dip direction,x,y,z,joint length\n45,90,0,0,0,2\n")
+                .at(0)
+                ->extent == JointShape::infinite));
+  const std::string content =
+    "ID;Station;Dip;Dip direction;x;y;z;Trace length (m);Roughness;"
+    "Infill;Aperture (mm);Date;Observer;Station No.;Water condition\n"
+    "1;A3;60;135;1;2;3;7,5;rough;clay;2;3 May;NN;4;wet\n";
+  const auto joints = read<3>(content);
+  BOOST_REQUIRE(joints.size() == 1u);
+  BOOST_TEST(joints[0]->radius == 3.75);
+  BOOST_TEST(joints[0]->name == "1");
+  const auto titles =
+    columns_left_out(read_delimited_text(write_table(content), "Joints/File"));
+  BOOST_TEST((titles == std::vector<std::string>{"Station",
+                                                 "Roughness",
+                                                 "Infill",
+                                                 "Aperture (mm)",
+                                                 "Date",
+                                                 "Observer",
+                                                 "Station No.",
+                                                 "Water condition"}));
+}
+
+// numbers of joints that are those of sets, or begin anew in each set
+BOOST_AUTO_TEST_CASE(table_of_numbers_and_sets)
+{
+  const std::string header = "ID,Set,dip,dip direction,x,y,z\n";
+  const auto names         = [&](const std::string &rows) {
+    std::vector<std::string> list;
+    for (const auto &joint : read<3>(header + rows))
+      list.push_back(joint->name);
+    return list;
+  };
+  using Names = std::vector<std::string>;
+  BOOST_TEST((names("1,1,2,3,4,5,6\n2,2,2,3,4,5,6\n3,1,2,3,4,5,6\n") ==
+              Names{"1.1", "2.2", "1.3"}));
+  BOOST_TEST((names("1,A,2,3,4,5,6\n1,B,2,3,4,5,6\nf,,2,3,4,5,6\n") ==
+              Names{"A.1", "B.1", "f"}));
+  BOOST_TEST((names("1,A,2,3,4,5,6\n2,B,2,3,4,5,6\n") == Names{"1", "2"}));
+  BOOST_TEST((names(",A,2,3,4,5,6\n,A,2,3,4,5,6\n") == Names{"J1", "J2"}));
+}
+
 BOOST_AUTO_TEST_CASE(water_in_a_table)
 {
   const auto joints = read<3>("dip,dip direction,x,y,z,water pressure (kPa)\n"
@@ -253,14 +300,22 @@ BOOST_AUTO_TEST_CASE(refused_tables)
   check_refused<3>("\xFF\xFE"
                    "d",
                    {"UTF-16"});
-  check_refused<3>("dip,colour\n", {"Line 1", "'colour'", "known are name, "});
+  for (const std::string column : {"Coheson", "Frcition (deg)", "dip dirn"})
+    check_refused<3>(
+      "dip," + column + "\n",
+      {"Line 1", "'" + column + "'", "may be input", "known are name, "});
+  for (const std::string column :
+       {"persistence", "Size (m)", "X start", "45,5"})
+    check_refused<3>("dip;" + column + "\n", {"'" + column + "'"});
   check_refused<3>("dip (kPa)\n", {"'dip (kPa)'", "unit"});
   check_refused<3>("dip (furlong)\n", {"'dip (furlong)'", "unit"});
   check_refused<3>("dip,Dip angle\n", {"'dip' twice", "'Dip angle'"});
   check_refused<3>("strike,dip direction\n", {"say the same"});
   check_refused<3>("radius,diameter\n", {"say the same"});
   check_refused<3>("x1,y1,x2,y2\n", {"'x1'", "3D"});
-  check_refused<2>("dip,dip direction,x,y,z\n", {"'z'", "2D"});
+  check_refused<2>("dip,dip direction,x,y,z\n",
+                   {"'z'", "2D", "apparent dip", "'Dimension' to 3"});
+  check_refused<2>("dip,x,y,z\n", {"'z'", "2D", "remove it"});
   check_refused<3>("dip,dip direction,x,y\n1,2,3,4\n",
                    {"column 'z'", "no such column"});
   check_refused<3>("vertices\n\"0 0 0; 1 0\"\n",

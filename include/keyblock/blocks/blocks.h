@@ -147,7 +147,7 @@ namespace Keyblock
   template <int dim>
   bool is_removable(const std::vector<Tensor<1, dim>> &inward);
 
-  /** The block table for people. */
+  /** The block table for people: exposed blocks first, and 40 at most. */
   template <int dim>
   void print_block_table(std::ostream &out,
                          const Blocks<dim> &blocks,

@@ -92,6 +92,15 @@ namespace Keyblock
     /** Finite least factors of the samples. */
     std::vector<double> finite_factors() const;
 
+    /** Those of @p factors that are values: neither infinite nor bounds. */
+    std::vector<double> values_of(std::vector<double> factors) const;
+
+    /** Whether a factor is only known to be above the highest one tried. */
+    bool is_bound(const double factor) const;
+
+    /** Share of the samples whose least factor is a bound. */
+    double held_share() const;
+
     /** Rank correlation of a variable (by index) with the least factor, over
      * samples that have one. */
     double correlation_of(const unsigned int variable) const;

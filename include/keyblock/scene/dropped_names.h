@@ -13,6 +13,16 @@ namespace Keyblock
    * stay, so that a wrong name is found.
    */
   void drop_names_taken_out(SceneText &scene);
+
+  /**
+   * The overrides with `Section/PATTERN/Entry=value`, as `Bolts/r?/Area=4e-4`,
+   * once for each name of the section's list that the pattern is of; lists are
+   * those of overrides, else of the file's @p text. Those of joints stay as
+   * they are. Throws InputError if a pattern is of no name.
+   */
+  std::vector<std::string>
+  without_patterns(const std::string &text,
+                   const std::vector<std::string> &assignments);
 } // namespace Keyblock
 
 #endif

@@ -25,6 +25,11 @@ namespace Keyblock
   std::vector<std::unique_ptr<Joint<dim>>>
   make_joints_of_set(const JointSet<dim> &set, const Domain<dim> &domain);
 
+  /** Sets of finite joints in 3D that fill the domain with very many, as long
+   * as the scene's joints are as they were made. */
+  template <int dim>
+  std::vector<std::string> warnings_of_sets(const Scene<dim> &scene);
+
   /** E|cos| of the angle between a pole and the mean one, by Fisher's law or,
    * in 2D, von Mises'; negative @p concentration: all are parallel. */
   template <int dim>

@@ -20,6 +20,9 @@ namespace Keyblock
    * trend + 180), by a normal vector, or by a polygon's vertices (in 2D by
    * the ends of a trace).
    *
+   * Joints with a set are called SET.NAME where a name of the table is that of
+   * a set, too, or stands twice.
+   *
    * Throws InputError with file, line, column and value of what cannot be
    * used. Names are not compared with each other.
    */
