@@ -158,6 +158,16 @@ namespace Keyblock
                 ? ", counted by limit equilibrium"
                 : "");
     out << explain_difference(factor, scene);
+    if (factor.outcome == SafetyFactor::Outcome::immovable ||
+        factor.outcome == SafetyFactor::Outcome::clamped)
+      for (const Trial &trial : factor.trials)
+        if (!trial.is_stable && !trial.is_undecided && !trial.is_of_group)
+          {
+            out << "; it failed at " << trial.factor
+                << " when its strength changed in one go from that at "
+                << trial.start;
+            break;
+          }
     if (is_too_coarse(block, scene))
       out << "; only " << std::setprecision(2) << block.cells_across()
           << " cells across, not " << scene.meshing.cells_across;

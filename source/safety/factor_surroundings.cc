@@ -7,6 +7,7 @@
 #include <keyblock/safety/stress_ratio.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <set>
 #include <sstream>
@@ -16,34 +17,49 @@ namespace Keyblock
   namespace
   {
     /** Say on how much of the faces cohesion counts which the run has lost,
-     * and the factor with what is left at least.
-     * @param area ContactReport::weakened_area() */
+     * and how much friction, and the factor with what is left at least.
+     * @param losses ContactReport::lost_strength() */
     template <int dim>
     void
-    remark_on_weakened_area(const Scene<dim> &scene,
-                            const std::vector<double> &area,
+    remark_on_lost_strength(const Scene<dim> &scene,
+                            const std::vector<StrengthLoss> &losses,
                             BlockStatics<dim> &statics)
     {
+      constexpr double least = 1e-6; // of what the face has
+      const auto degrees     = [](const double tangent) {
+        return std::atan(tangent) * 180. / dealii::numbers::PI;
+      };
       BlockSurroundings<dim> weakened = statics.around;
       std::ostringstream text;
       text << std::setprecision(4);
       for (const unsigned int i : statics.limit.faces)
-        for (unsigned int j = 0; j < area.size(); ++j)
-          if (area[j] > 0. &&
-              scene.joints[j]->name == statics.around.faces[i].name)
-            {
+        for (unsigned int j = 0; j < losses.size(); ++j)
+          {
+            const StrengthLoss &loss = losses[j];
+            BlockFace<dim> &face     = weakened.faces[i];
+            if (scene.joints[j]->name != face.name)
+              continue;
+            if (loss.area > 0.)
               text << (text.tellp() > 0 ? ", " : "") << "cohesion of "
-                   << scene.joints[j]->name << " counted on " << area[j]
-                   << (dim == 2 ? " m" : " m2");
-              BlockFace<dim> &face = weakened.faces[i];
-              face.cohesion *= std::max(0., 1. - area[j] / face.area);
-            }
+                   << face.name << " counted on " << loss.area
+                   << (dim == 2 ? " m" : " m2") << " that have lost it";
+            const double tangent =
+              std::max(0., face.tangent_friction - loss.tangent / face.area);
+            if (tangent < (1. - least) * face.tangent_friction)
+              text << (text.tellp() > 0 ? ", " : "") << "friction of "
+                   << face.name << " counted with "
+                   << degrees(face.tangent_friction) << " degrees, of which "
+                   << degrees(tangent) << " are left";
+            face.tangent_friction = tangent;
+            face.cohesion =
+              std::max(0., face.cohesion - loss.cohesion / face.area);
+          }
       if (text.tellp() == 0)
         return;
       const bool is_passive =
         scene.safety.bolt_convention == BoltConvention::passive;
       text
-        << " that have lost it; "
+        << "; "
         << find_motion<dim>(weakened, statics.support, is_passive).limit.factor
         << " without that";
       statics.remarks.push_back(text.str());
@@ -134,8 +150,8 @@ namespace Keyblock
              << std::setprecision(3) << way << " m";
         statics.remarks.push_back(text.str());
       }
-    remark_on_weakened_area(scene,
-                            run.contact->report().weakened_area(block),
+    remark_on_lost_strength(scene,
+                            run.contact->report().lost_strength(block),
                             statics);
     result.limit_mode     = statics.mode();
     result.limit_remark   = statics.remark();

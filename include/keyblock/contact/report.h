@@ -9,6 +9,15 @@
 namespace Keyblock
 {
 
+  /** Strength that points of a joint have had and do no longer, integrated over
+   * their areas. */
+  struct StrengthLoss
+  {
+    double area     = 0.; ///< of those that have lost cohesion [m^(dim-1)]
+    double cohesion = 0.; ///< [N]
+    double tangent  = 0.; ///< tan(phi) times area [m^(dim-1)]
+  };
+
   /** Contact as monitors, output and safety factors see it: states and sums
    * over all ranks. */
   template <int dim>
@@ -33,6 +42,10 @@ namespace Keyblock
      * the intact joint: they have opened, or slid where it is brittle
      * [m^(dim-1)] (collective). */
     std::vector<double> weakened_area(const unsigned int block) const;
+
+    /** What a block's pairs have lost of the strength of the intact joint, by
+     * joint (collective). */
+    std::vector<StrengthLoss> lost_strength(const unsigned int block) const;
 
     /** Sums over the points of @p joints, shear being the sum of what each of
      * them bears; without any joint over all points, shear being that of all
@@ -69,6 +82,9 @@ namespace Keyblock
     list_blocks_pressed_on(const unsigned int block) const;
 
   private:
+    /** What its joint's law remembers of a pair. */
+    JointHistory history_of_pair(const unsigned int pair) const;
+
     void add_pairs(const std::vector<unsigned int> &sum_of_joint,
                    std::vector<JointSums<dim>> &sums,
                    std::vector<Vector<dim>> &moment) const;
