@@ -34,7 +34,22 @@ namespace Keyblock
 
 
 
-    /** Sentences on histories that begin when all is over. */
+    /** Whether a history has values other than 0 before its time 0. */
+    bool
+    shakes_before_start(const TimeSeries &history)
+    {
+      constexpr unsigned int n_samples = 1000;
+      for (unsigned int i = 0; i < n_samples && history.start_time() < 0.; ++i)
+        for (unsigned int c = 0; c < history.n_components(); ++c)
+          if (history.value(history.start_time() * (1. - double(i) / n_samples),
+                            c) != 0.)
+            return true;
+      return false;
+    }
+
+
+
+    /** Sentences on histories that begin when all is over, or before. */
     template <int dim>
     std::vector<std::string>
     warnings_of_late_histories(const Scene<dim> &scene)
@@ -55,6 +70,14 @@ namespace Keyblock
                   is_known && stage->is_dynamic() && stage->duration > 0.;
               }
           const double start = support->history->start_time();
+          if (shakes_before_start(*support->history))
+            found.push_back(
+              "The history '" + support->history_file +
+              "' of the entry "
+              "'Supports/" +
+              support->name + "/History file' begins at " + text_of(start) +
+              " s, before its stage, where times are 0: what shakes until then "
+              "is cut off; let its times begin at 0.");
           if (is_known && duration > 0. && start >= duration)
             found.push_back(
               "The history '" + support->history_file +
