@@ -3,6 +3,7 @@
 #include <keyblock/base/history_columns.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/gravity.h>
+#include <keyblock/scene/idle_entries.h>
 #include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/scene.h>
 #include <keyblock/scene/unit_warnings.h>
@@ -222,6 +223,7 @@ namespace Keyblock
     std::vector<std::string> found = old_names;
     for (const auto &warnings : {warnings_of_facets(*this),
                                  warnings_of_units(*this),
+                                 warnings_of_idle_entries(*this),
                                  warnings_of_base_lines(*this),
                                  warnings_of_late_histories(*this),
                                  warnings_of_water(*this),
