@@ -114,8 +114,8 @@ namespace Keyblock
                   "The history '" + support->history_file + "' ends with " +
                   (is_stress ? "an impulse" : "a displacement") + " of " +
                   text_of(way.last(d)) + unit + " along " + "xyz"[d] +
-                  ", of at most " + text_of(way.largest_magnitude()) + unit +
-                  " on the way" +
+                  ", and has at most " + text_of(way.largest_magnitude()) +
+                  unit + " along any axis on the way" +
                   (is_stress ? ", which leaves the ground displaced" : "") +
                   "; correct its base line if it should end where it began.");
           }
