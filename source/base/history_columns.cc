@@ -6,7 +6,9 @@
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
+#include <regex>
 
 namespace Keyblock
 {
@@ -62,6 +64,66 @@ namespace Keyblock
 
       std::string name, unit;
     };
+
+    /** Axis that a column is of by its @p name: x, y and z are east, north and
+     * up, in 2D the last is y. Words, letters behind that of a quantity, as in
+     * vx, codes of channels, as HNZ, and numbers; or no_axis. */
+    constexpr unsigned int no_axis = 3;
+
+    unsigned int
+    axis_of(const std::string &name, const unsigned int n_axes)
+    {
+      if (n_axes == 1)
+        return 0;
+      static const std::map<std::string, unsigned int> words = {{"east", 0},
+                                                                {"eastwest", 0},
+                                                                {"e-w", 0},
+                                                                {"ew", 0},
+                                                                {"e", 0},
+                                                                {"north", 1},
+                                                                {"northsouth",
+                                                                 1},
+                                                                {"n-s", 1},
+                                                                {"ns", 1},
+                                                                {"n", 1},
+                                                                {"up", 2},
+                                                                {"updown", 2},
+                                                                {"vertical", 2},
+                                                                {"u-d", 2},
+                                                                {"ud", 2},
+                                                                {"u", 2},
+                                                                {"v", 2}};
+      static const std::map<char, unsigned int> letters      = {
+             {'x', 0}, {'y', 1}, {'z', 2}, {'1', 0}, {'2', 1}, {'3', 2}};
+      static const std::regex channel("[bceh][hnl][enz]");
+      const bool is_flat = n_axes == 2;
+      if (is_flat && (name == "horizontal" || name == "h"))
+        return 0;
+      const bool is_channel = std::regex_match(name, channel);
+      const auto word       = words.find(is_channel ? name.substr(2, 1) : name);
+      // a section may look along either, and what is up is its second axis
+      if (word != words.end())
+        return is_flat ? word->second / 2 : word->second;
+      const auto letter =
+        name.empty() ? letters.end() : letters.find(name.back());
+      // components that are horizontal are not x and y by their numbers
+      if (letter == letters.end() || name == "velocity" ||
+          name == "intensity" || (std::isdigit(name.back()) && name[0] == 'h'))
+        return no_axis;
+      return is_flat && name.back() == 'z' ? 1 : letter->second;
+    }
+
+    std::string
+    known_names(const unsigned int n_axes)
+    {
+      return n_axes == 2
+               ? "; name it x, east, north or horizontal, or y, up, vertical "
+                 "or "
+                 "z, also behind a quantity, as vx, by the axis of the scene."
+               : "; name it x, east, E or EW, y, north, N or NS, or z, up, "
+                 "vertical, U, V or UD, also behind a quantity, as vx, by the "
+                 "axis of the scene.";
+    }
   } // namespace
 
 
@@ -98,17 +160,15 @@ namespace Keyblock
                     InputError(where + "has the time in column " +
                                std::to_string(i + 1) +
                                "; put it into the first one."));
-        const auto axis = title.name.empty()
-                            ? std::string::npos
-                            : std::string("xyz").find(title.name.back());
-        if (i > 0 && axis < n_axes)
-          axes.push_back(axis);
+        if (i == 0)
+          continue;
+        axes.push_back(axis_of(title.name, n_axes));
+        AssertThrow(axes.back() < n_axes,
+                    InputError(where + "names the column '" + titles[i] +
+                               "', which tells no axis" + known_names(n_axes)));
       }
     for (unsigned int axis = 0; axis < n_axes; ++axis)
       columns.push_back(axis + 1);
-    // names that do not tell the axes are in their order
-    if (axes.size() != n_axes)
-      return;
     for (unsigned int axis = 0; axis < n_axes; ++axis)
       {
         const auto place = std::find(axes.begin(), axes.end(), axis);

@@ -110,7 +110,7 @@ namespace Keyblock
         std::map<Ridge, unsigned int> first_at;
         for (unsigned int i = 0; i < facets.size(); ++i)
           for_each_ridge<dim>(facets[i], [&](const Ridge &ridge) {
-            if (surfaces_at.at(ridge).size() > 1)
+            if (is_crossed(surface, facets[i], ridge))
               is_junction[i] = true;
             else
               {
@@ -149,9 +149,10 @@ namespace Keyblock
           }
       }
 
-      /** Drop the facets at whose ridges a plane joint ends on another one that
-       * it does not reach: two that are nearly parallel may be nearer to each
-       * other than cells are large, share vertices, and meet far beyond a rim.
+      /** Drop the facets at whose ridges a plane joint ends on nothing but
+       * others that it does not reach: two that are nearly parallel may be
+       * nearer to each other than cells are large, share vertices, and meet far
+       * beyond a rim. Where they have fallen together there is nothing to part.
        * Whether there were any. */
       bool
       part_ends(const unsigned int surface, const std::vector<Facet> &facets)
@@ -167,17 +168,47 @@ namespace Keyblock
             const double gap = closing * mesh.size_at(facet);
             bool is_apart    = false;
             for_each_ridge<dim>(facet, [&](const Ridge &ridge) {
-              if (n_facets_at.at(ridge) == 1)
-                for (const unsigned int other : surfaces_at.at(ridge))
-                  is_apart = is_apart ||
-                             (other != surface &&
-                              !reaches(sheet_of(surface), other, ridge, gap));
+              if (n_facets_at.at(ridge) > 1)
+                return;
+              bool touches = false, is_closed = false;
+              for (const unsigned int other : surfaces_at.at(ridge))
+                if (other != surface && !lies_on(facet, other))
+                  {
+                    touches   = true;
+                    is_closed = is_closed ||
+                                reaches(sheet_of(surface), other, ridge, gap);
+                  }
+              is_apart = is_apart || (touches && !is_closed);
             });
             if (is_apart)
               drop(facet, surface);
             is_parted = is_parted || is_apart;
           }
         return is_parted;
+      }
+
+      /** Whether another surface leaves a facet of @p surface at a ridge; one
+       * that has fallen together with it does not. */
+      bool
+      is_crossed(const unsigned int surface,
+                 const Facet &facet,
+                 const Ridge &ridge) const
+      {
+        const auto &list = surfaces_at.at(ridge);
+        return list.size() > 1 &&
+               std::any_of(list.begin(), list.end(), [&](const auto other) {
+                 return other != surface && !lies_on(facet, other);
+               });
+      }
+
+      /** Whether a facet lies on a surface. */
+      bool
+      lies_on(const Facet &facet, const unsigned int surface) const
+      {
+        const auto &list = mesh.marks.at(facet);
+        return std::any_of(list.begin(), list.end(), [&](const auto &mark) {
+          return whole_of(mark.surface) == surface;
+        });
       }
 
       /** Whether a plane joint meets another surface near a ridge of the mesh

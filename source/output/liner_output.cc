@@ -129,6 +129,12 @@ namespace Keyblock
                 figures.place[d] += loads.points[p][d] / loads.faces[f].size();
           }
       }
+    // what is left of one where there is only the other
+    constexpr double round_off = 1e-12;
+    if (figures.largest_tension < round_off * figures.largest_compression)
+      figures.largest_tension = 0.;
+    if (figures.largest_compression < round_off * figures.largest_tension)
+      figures.largest_compression = 0.;
     return figures;
   }
 

@@ -10,6 +10,10 @@ namespace Keyblock
     /** Stiffness of a plate for which the scene gives none, over that of a
      * metre of the bar. */
     constexpr double plate_over_bar = 10.;
+
+    /** Grout of a node up to which it is round-off, over that between the
+     * middles of its segments. */
+    constexpr double least_grout = 1e-9;
   } // namespace
 
 
@@ -74,6 +78,24 @@ namespace Keyblock
     for (unsigned int j = 0; j + 1 < n; ++j)
       row(segment_stiffness)[j] = is_parted_at(j) ? 0. : whole_stiffness(j);
     is_factorised = false;
+    stretches.clear();
+    for (unsigned int j = 0; j + 1 < n; ++j)
+      if (j > 0 && has_equal_forces_at(j))
+        stretches.back()[1] = j + 1;
+      else
+        stretches.push_back({{j, j + 1}});
+  }
+
+
+
+  bool
+  BoltChain::has_equal_forces_at(const unsigned int i) const
+  {
+    const double grouted = row(bond_stiffness)[i],
+                 whole   = 0.5 * properties.bond_stiffness *
+                         (place[i + 1] - place[i - 1]);
+    return grouted <= least_grout * whole && !is_parted_at(i - 1) &&
+           !is_parted_at(i);
   }
 
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace Keyblock
 {
@@ -238,8 +239,8 @@ namespace Keyblock
     for (unsigned int j = 0; j + 1 < n; ++j)
       is_elastic = is_elastic & (std::abs(axial[j]) <= properties.yield_force);
     if (properties.rupture_strain > 0.)
-      for (unsigned int j = 0; j + 1 < n; ++j)
-        is_elastic = is_elastic && !is_over_rupture(j);
+      for (const Stretch &stretch : stretches)
+        is_elastic = is_elastic && !is_over_rupture(stretch);
     if (is_plate_held)
       {
         const double force = trial_plate_force(rock[0]);
@@ -286,11 +287,13 @@ namespace Keyblock
 
 
   bool
-  BoltChain::is_over_rupture(const unsigned int j) const
+  BoltChain::is_over_rupture(const Stretch &stretch) const
   {
-    const double *w = row(displacement);
-    return row(segment_stiffness)[j] > 0. &&
-           w[j + 1] - w[j] > properties.rupture_strain * segment_length(j);
+    const auto [first, last] = stretch;
+    const double *w          = row(displacement);
+    return row(segment_stiffness)[first] > 0. &&
+           w[last] - w[first] >
+             properties.rupture_strain * (place[last] - place[first]);
   }
 
 
@@ -306,8 +309,31 @@ namespace Keyblock
     for (unsigned int j = 0; j + 1 < n; ++j)
       if (!segment_is_elastic[j])
         row(elongation)[j] = w[j + 1] - w[j] - axial[j] / stiffness[j];
+    for (const Stretch &stretch : stretches)
+      spread_elongation(stretch);
     if (is_plate_held && !is_plate_elastic && plate_on_rock > 0.)
       plate_shift = w[0] - rock[0] - plate_on_rock / properties.plate_stiffness;
+  }
+
+
+
+  void
+  BoltChain::spread_elongation(const Stretch &stretch)
+  {
+    const auto [first, last] = stretch;
+    const auto is_elastic    = segment_is_elastic.begin();
+    if (std::find(is_elastic + first, is_elastic + last, false) ==
+        is_elastic + last)
+      return;
+    double *w = row(displacement), *e = row(elongation);
+    const double length = place[last] - place[first], way = w[last] - w[first],
+                 total = std::accumulate(e + first, e + last, 0.);
+    for (unsigned int j = first; j < last; ++j)
+      {
+        e[j] = total * segment_length(j) / length;
+        if (j > first)
+          w[j] = w[first] + way * (place[j] - place[first]) / length;
+      }
   }
 
 
@@ -317,12 +343,15 @@ namespace Keyblock
   {
     bool is_any = false;
     if (properties.rupture_strain > 0.)
-      for (unsigned int j = 0; j + 1 < n; ++j)
-        if (is_over_rupture(j))
+      for (const Stretch &stretch : stretches)
+        if (is_over_rupture(stretch))
           {
-            row(broken)[j]            = 1.;
-            row(segment_stiffness)[j] = 0.;
-            is_any                    = true;
+            const auto [first, last] = stretch;
+            std::fill(row(broken) + first, row(broken) + last, 1.);
+            std::fill(row(segment_stiffness) + first,
+                      row(segment_stiffness) + last,
+                      0.);
+            is_any = true;
           }
     return is_any;
   }

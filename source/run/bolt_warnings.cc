@@ -78,12 +78,16 @@ namespace Keyblock
   warnings_of_brittle_bolts(const Scene<dim> &scene,
                             const SplitMesh<dim> &split)
   {
-    // shortest segments that cross a joint
+    // shortest segments that cross a joint in grout; the bar in its free length
+    // stretches as a whole
     std::vector<double> shortest(scene.bolts.size(),
                                  std::numeric_limits<double>::infinity());
     for (const Bolt<dim> &bolt : split.bolts)
       for (const BoltCrossing<dim> &crossing : bolt.crossings)
         {
+          if (crossing.begin <= scene.bolts[bolt.set]->free_length +
+                                  shortest_bolt_piece * bolt.length())
+            continue;
           const auto end = std::upper_bound(bolt.places.begin(),
                                             bolt.places.end() - 1,
                                             crossing.begin);

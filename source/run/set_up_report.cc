@@ -136,7 +136,7 @@ namespace Keyblock
     std::string
     warning_of_compliant_joints(const Scene<dim> &scene)
     {
-      if (!are_any_compliant(scene.joints) ||
+      if (!are_any_compliant(scene.joints) || scene.safety.is_by_statics() ||
           std::none_of(scene.stages.begin(),
                        scene.stages.end(),
                        [](const auto &stage) { return stage->is_static(); }))

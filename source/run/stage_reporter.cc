@@ -85,12 +85,9 @@ namespace Keyblock
       std::vector<Mover> movers;
       if (model.contact == nullptr)
         return movers;
-      std::vector<double> displacement = model.fields.displacement;
-      for (unsigned int i = 0; i < displacement.size(); ++i)
-        displacement[i] -= progress.start_displacement[i];
       const BlockMotions<dim> &motions = model.contact->motions();
-      const auto since_start           = motions.measure();
-      const auto in_stage              = motions.measure(displacement);
+      const auto in_stage =
+        motions.measure(progress.way_in_stage(model.fields));
       const auto velocities            = motions.measure(model.fields.velocity);
       const std::vector<bool> is_there = find_present_blocks(model);
       const std::vector<bool> is_guided = mark_guided_blocks(
@@ -108,9 +105,8 @@ namespace Keyblock
             dot<dim>(in_stage[b].shift, velocities[b].shift) > 0. &&
             !progress.is_converged;
           // or slowly, but as fast as ever
-          const auto motion = progress.slips.motion_since(b,
-                                                          progress.n_done,
-                                                          since_start[b].way());
+          const auto motion =
+            progress.slips.motion_since(b, progress.n_done, way);
           const bool creeps =
             !progress.is_converged && motion.way > least_creep * block.size;
           if (goes_off || creeps || way > long_way * block.size)

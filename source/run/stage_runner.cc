@@ -130,6 +130,8 @@ namespace Keyblock
   {
     if (progress.n_done == 0)
       progress.n_planned = plan_steps(stage, model.step->dt);
+    if (progress.start_displacement.empty()) // of a stage that is tried
+      progress.start_displacement = model.fields.displacement;
     const std::uint64_t n_steps = progress.n_planned;
     const unsigned int interval =
       stage.is_quasi_static()
@@ -266,7 +268,8 @@ namespace Keyblock
       return {};
     std::vector<unsigned int> failed;
     std::vector<double> ways(model.blocks.blocks.size(), 0.);
-    const auto motions = model.contact->motions().measure();
+    const auto motions =
+      model.contact->motions().measure(progress.way_in_stage(model.fields));
     for (unsigned int b = 0; b < ways.size(); ++b)
       if (can_fail(b))
         ways[b] = motions[b].way();

@@ -69,16 +69,22 @@ namespace Keyblock
       }
     if (pulls.empty())
       return out.str();
-    std::map<std::string, unsigned int> limits;
+    std::map<unsigned int, const Pull *> strongest; // of each bolt
     double sum = 0., sum_of_dowels = 0.;
     for (const Pull &pull : pulls)
       {
-        ++limits[Keyblock::describe(pull.limit)];
-        sum += pull.force;
+        const Pull *&best = strongest.emplace(pull.bolt, &pull).first->second;
+        best              = pull.force > best->force ? &pull : best;
         sum_of_dowels += pull.dowel_strength;
       }
-    out << pulls.size() << (pulls.size() == 1 ? " bolt" : " bolts") << " of "
-        << 1e-3 * sum << " kN" << (dim == 2 ? "/m" : "") << " (";
+    std::map<std::string, unsigned int> limits;
+    for (const auto &[bolt, pull] : strongest)
+      {
+        ++limits[Keyblock::describe(pull->limit)];
+        sum += pull->force;
+      }
+    out << strongest.size() << (strongest.size() == 1 ? " bolt" : " bolts")
+        << " of " << 1e-3 * sum << " kN" << (dim == 2 ? "/m" : "") << " (";
     for (auto limit = limits.begin(); limit != limits.end(); ++limit)
       {
         out << (limit == limits.begin() ? "" : ", ");
@@ -243,6 +249,7 @@ namespace Keyblock
             pull.limit      = capacity.limit;
             pull.is_reduced = has_reduced(reduced, crossing.joint);
             pull.set        = bolt.set;
+            pull.bolt       = b;
             result.pulls.push_back(pull);
           }
       }

@@ -88,8 +88,9 @@ namespace Keyblock
                       not_negative);
     prm.add_parameter("Rupture strain",
                       rupture_strain,
-                      "Strain of a segment at which the bar breaks; 0: it "
-                      "never does [-].",
+                      "Strain at which the bar breaks: of a segment in grout, "
+                      "of the whole length where there is none between, as in "
+                      "the free length; 0: it never does [-].",
                       not_negative);
     prm.add_parameter("Pretension",
                       pretension,

@@ -3,6 +3,7 @@
 #include <keyblock/base/history_columns.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/gravity.h>
+#include <keyblock/scene/idle_entries.h>
 #include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/scene.h>
 #include <keyblock/scene/unit_warnings.h>
@@ -34,7 +35,22 @@ namespace Keyblock
 
 
 
-    /** Sentences on histories that begin when all is over. */
+    /** Whether a history has values other than 0 before its time 0. */
+    bool
+    shakes_before_start(const TimeSeries &history)
+    {
+      constexpr unsigned int n_samples = 1000;
+      for (unsigned int i = 0; i < n_samples && history.start_time() < 0.; ++i)
+        for (unsigned int c = 0; c < history.n_components(); ++c)
+          if (history.value(history.start_time() * (1. - double(i) / n_samples),
+                            c) != 0.)
+            return true;
+      return false;
+    }
+
+
+
+    /** Sentences on histories that begin when all is over, or before. */
     template <int dim>
     std::vector<std::string>
     warnings_of_late_histories(const Scene<dim> &scene)
@@ -55,6 +71,14 @@ namespace Keyblock
                   is_known && stage->is_dynamic() && stage->duration > 0.;
               }
           const double start = support->history->start_time();
+          if (shakes_before_start(*support->history))
+            found.push_back(
+              "The history '" + support->history_file +
+              "' of the entry "
+              "'Supports/" +
+              support->name + "/History file' begins at " + text_of(start) +
+              " s, before its stage, where times are 0: what shakes until then "
+              "is cut off; let its times begin at 0.");
           if (is_known && duration > 0. && start >= duration)
             found.push_back(
               "The history '" + support->history_file +
@@ -90,8 +114,8 @@ namespace Keyblock
                   "The history '" + support->history_file + "' ends with " +
                   (is_stress ? "an impulse" : "a displacement") + " of " +
                   text_of(way.last(d)) + unit + " along " + "xyz"[d] +
-                  ", of at most " + text_of(way.largest_magnitude()) + unit +
-                  " on the way" +
+                  ", and has at most " + text_of(way.largest_magnitude()) +
+                  unit + " along any axis on the way" +
                   (is_stress ? ", which leaves the ground displaced" : "") +
                   "; correct its base line if it should end where it began.");
           }
@@ -199,6 +223,7 @@ namespace Keyblock
     std::vector<std::string> found = old_names;
     for (const auto &warnings : {warnings_of_facets(*this),
                                  warnings_of_units(*this),
+                                 warnings_of_idle_entries(*this),
                                  warnings_of_base_lines(*this),
                                  warnings_of_late_histories(*this),
                                  warnings_of_water(*this),

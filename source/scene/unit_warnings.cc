@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 
@@ -111,7 +109,7 @@ namespace Keyblock
     constexpr double least_modulus     = 1e5;  // [Pa]
     constexpr double least_stiffness   = 1e5;  // [Pa/m]
     constexpr double largest_depth     = 20e3; // [m]
-    constexpr double least_unit_weight = 1e3;  // [N/m3]
+    constexpr double least_unit_weight = 5e3;  // [N/m3]
 
     void
     doubt_density(Doubts &doubts,
@@ -154,13 +152,44 @@ namespace Keyblock
                      question);
     }
 
+    /** What the law of a joint names, and the pressure of its water. */
+    template <int dim>
+    void
+    doubt_strength(Doubts &doubts,
+                   const Joint<dim> &joint,
+                   const std::string &owner)
+    {
+      constexpr double largest_roughness = 20., largest_residual = 60.; // [deg]
+      constexpr double least_pressure = 100.;                           // [Pa]
+      const JointStrength &strength   = joint;
+      const double residual = strength.value_of("Residual friction angle");
+      doubt_angle(doubts, residual, owner, "Residual friction angle");
+      doubts.look_at(residual,
+                     owner,
+                     "Residual friction angle",
+                     largest_residual,
+                     endless,
+                     "degrees",
+                     "residual angles of rock are about 20 to 40 degrees.");
+      doubts.look_at(strength.value_of("JRC"),
+                     owner,
+                     "JRC",
+                     largest_roughness,
+                     endless,
+                     "[-]",
+                     "the roughest joints have 20.");
+      double pressure = 0.;
+      if (read_number(boost::trim_copy(joint.water_pressure), false, pressure))
+        doubt_stress(doubts, pressure, owner, "Water pressure", least_pressure);
+    }
+
     template <int dim>
     void
     doubt_bolts(Doubts &doubts, const BoltSet<dim> &bolts)
     {
       constexpr double largest_area   = 0.05; // [m2]
       constexpr double least_strength = 10e6; // of their section [Pa]
-      constexpr double least_bond     = 1e3;  // [N/m]
+      constexpr double least_bond     = 1e3;  // [N/m]; of plates [N]
       const std::string owner         = "Bolts/" + bolts.name;
       const auto doubt_force          = [&](const double value,
                                    const std::string &name,
@@ -187,15 +216,31 @@ namespace Keyblock
                   least_strength * std::min(bolts.area, 1e-4),
                   "N");
       doubt_force(bolts.bond_strength, "Bond strength", least_bond, "N/m");
+      doubt_force(bolts.plate_strength, "Plate strength", least_bond, "N");
+      doubts.look_at(bolts.bond_stiffness,
+                     owner,
+                     "Bond stiffness",
+                     0.,
+                     least_stiffness,
+                     "N/m/m",
+                     "is it in GN/m/m or MN/m/m? 1 MN/m/m is 1e6.");
+      doubt_stress(
+        doubts, bolts.young_modulus, owner, "Young modulus", least_modulus);
     }
 
     void
     doubt_liner(Doubts &doubts, const Liner &liner)
     {
-      constexpr double largest_thickness = 3.; // [m]
-      const std::string owner            = "Shotcrete/" + liner.name;
+      constexpr double largest_thickness    = 3.;  // [m]
+      constexpr double least_liner_strength = 1e3; // [Pa]
+      const std::string owner               = "Shotcrete/" + liner.name;
       doubt_stress(
         doubts, liner.young_modulus, owner, "Young modulus", least_modulus);
+      for (const auto &[strength, name] :
+           {std::make_pair(liner.shear_strength, "Shear strength"),
+            std::make_pair(liner.compressive_strength, "Compressive strength"),
+            std::make_pair(liner.tensile_strength, "Tensile strength")})
+        doubt_stress(doubts, strength, owner, name, least_liner_strength);
       doubts.look_at(liner.thickness,
                      owner,
                      "Thickness",
@@ -204,79 +249,6 @@ namespace Keyblock
                      "m",
                      "is it in mm or cm?");
       doubt_density(doubts, liner.density, owner, "Shotcrete", 2400);
-    }
-
-    /** What drawings call their unit, by the code of $INSUNITS. */
-    struct DrawingUnit
-    {
-      const char *name;
-      double length; ///< [m]
-    };
-
-    const std::map<int, DrawingUnit> &
-    drawing_units()
-    {
-      static const std::map<int, DrawingUnit> units = {
-        {1, {"inches", 0.0254}},
-        {2, {"feet", 0.3048}},
-        {4, {"millimetres", 1e-3}},
-        {5, {"centimetres", 1e-2}},
-        {6, {"metres", 1.}},
-        {7, {"kilometres", 1e3}},
-        {14, {"decimetres", 0.1}}};
-      return units;
-    }
-
-    /** Code of $INSUNITS in the header of a drawing; 0: none. */
-    int
-    unit_code(std::istream &drawing)
-    {
-      std::string line;
-      const auto next = [&]() {
-        std::getline(drawing, line);
-        boost::trim(line);
-        return line;
-      };
-      while (drawing)
-        {
-          const std::string word = next();
-          if (word == "ENDSEC") // the header is the first section
-            return 0;
-          if (word == "$INSUNITS" && next() == "70")
-            {
-              double code = 0.;
-              return read_number(next(), false, code) ? std::lround(code) : 0;
-            }
-        }
-      return 0;
-    }
-
-    /** A sentence on a drawing that names another unit than the scene; or
-     * empty. */
-    std::string
-    doubt_of_drawing(const std::string &scene_file,
-                     const std::string &name,
-                     const std::string &section,
-                     const double scale)
-    {
-      constexpr double tolerance = 0.01; // survey feet are other feet
-      if (!boost::iends_with(name, ".dxf"))
-        return "";
-      const auto beside =
-        std::filesystem::path(scene_file).parent_path() / name;
-      std::ifstream in(beside);
-      if (!in)
-        in.open(name);
-      const auto unit = drawing_units().find(unit_code(in));
-      if (unit == drawing_units().end() ||
-          std::abs(scale / unit->second.length - 1.) < tolerance)
-        return "";
-      return "The drawing '" + name + "' of the entry '" + section +
-             "/File' says that it is in " + unit->second.name +
-             " ($INSUNITS), but 'Scale' is " + text_of(scale) +
-             ", the length of its unit in metres; set '" + section +
-             "/Scale' to " + text_of(unit->second.length) +
-             " if the drawing is right.";
     }
   } // namespace
 
@@ -295,6 +267,7 @@ namespace Keyblock
         doubt_stress(
           doubts, joint->cohesion, owner, "Cohesion", least_cohesion);
         doubt_stiffness(doubts, JointStiffness(*joint), owner);
+        doubt_strength(doubts, *joint, owner);
       }
     doubt_angle(doubts,
                 scene.contact.default_friction_angle,
@@ -338,31 +311,10 @@ namespace Keyblock
                    0.,
                    least_unit_weight,
                    "N/m3",
-                   "is it in kN/m3? Water weighs about 9810 N/m3.");
+                   "is it in kN/m3 or kg/m3? Water weighs about 9810 N/m3.");
     return doubts.sentences();
-  }
-
-
-
-  template <int dim>
-  std::vector<std::string>
-  warnings_of_drawings(const Scene<dim> &scene)
-  {
-    std::vector<std::string> found;
-    const auto look_at = [&](const auto &items, const std::string &section) {
-      for (const auto &item : items)
-        if (const std::string sentence = doubt_of_drawing(
-              scene.file, item->file, section + item->name, item->scale);
-            !sentence.empty())
-          found.push_back(sentence);
-    };
-    look_at(scene.excavations, "Excavations/");
-    look_at(scene.joints, "Joints/");
-    return found;
   }
 
   template std::vector<std::string> warnings_of_units(const Scene<2> &);
   template std::vector<std::string> warnings_of_units(const Scene<3> &);
-  template std::vector<std::string> warnings_of_drawings(const Scene<2> &);
-  template std::vector<std::string> warnings_of_drawings(const Scene<3> &);
 } // namespace Keyblock

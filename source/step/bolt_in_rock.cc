@@ -359,6 +359,9 @@ namespace Keyblock
         least = std::min(least, capacity.force);
       }
     result.is_broken = chain.is_broken();
+    if (result.is_broken &&
+        (least == 0. || least == std::numeric_limits<double>::max()))
+      result.limit = "broken";
     return result;
   }
 

@@ -241,6 +241,45 @@ BOOST_AUTO_TEST_CASE(bolt_pretension_and_rupture)
   BOOST_TEST(std::abs(chain.plate_force()) < 1.);
 }
 
+BOOST_AUTO_TEST_CASE(bolt_breaks_by_the_strain_of_its_whole_free_length)
+{
+  // 4 m of free bar in a few or many segments, the last ones short
+  for (const std::vector<double> &free_places :
+       {std::vector<double>{0.},
+        std::vector<double>{0., 1., 2., 3.},
+        std::vector<double>{0., 0.5, 1., 1.5, 2., 2.5, 3., 3.5, 3.8, 3.9}})
+    {
+      BoltProperties p           = properties();
+      p.free_length              = 4.;
+      p.yield_force              = 100e3;
+      p.rupture_strain           = 0.01;
+      p.bond_strength            = 1e6;
+      p.plate_stiffness          = 1e12;
+      p.plate_strength           = 1e9;
+      std::vector<double> places = free_places;
+      const unsigned int n_nodes = 31 + free_places.size();
+      for (unsigned int i = 0; i <= 30; ++i)
+        places.push_back(4. + 0.1 * i);
+      BoltChain chain(p, places);
+      std::vector<double> rock(n_nodes, 0.);
+      const double step = 1e-5;
+      unsigned int k    = 0;
+      while (!chain.is_broken() && k < 10000)
+        {
+          rock[0] = -step * ++k;
+          chain.follow(rock.data());
+        }
+      BOOST_TEST_MESSAGE(places.size() << " nodes: broken at " << k * step
+                                       << " m, dissipated "
+                                       << chain.dissipated_energy() << " J");
+      // the grout gives way a little
+      const double way = k * step, plastic = 0.04 - 4. * p.yield_force / bar;
+      BOOST_TEST(std::abs(way - 0.041) < 0.002);
+      const double work = p.yield_force * 0.5 * (plastic + way);
+      BOOST_TEST(std::abs(chain.dissipated_energy() / work - 1.) < 0.01);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(bolt_rupture_dissipates_all_that_it_lets_go)
 {
   // soft grout and the other segments store more than the one that breaks

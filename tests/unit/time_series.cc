@@ -115,9 +115,19 @@ BOOST_AUTO_TEST_CASE(time_series_order_of_axes)
   BOOST_TEST(
     TimeSeries::read(write("t,vy,vx\n0,1,2\n1,3,4\n"), entry, 2).value(0., 0) ==
     2.);
-  // other names stand in the order of the axes
-  BOOST_TEST(TimeSeries::read(write("t,east,y\n0,1,2\n1,3,4\n"), entry, 2)
-               .value(0., 0) == 1.);
+  // of the second value; in 2D the one that is up is y
+  for (const std::string names :
+       {"t,up,east", "t,V,h", "t,z,x", "t,UD,NS", "t,HNZ,HNE", "t,v2,v1"})
+    BOOST_TEST(TimeSeries::read(write(names + "\n0,1,2\n1,3,4\n"), entry, 2)
+                 .value(0., 0) == 2.);
+  for (const std::string names :
+       {"t,up,east,north", "t,vertical,E,N", "time,U,EW,NS", "t,a_z,a_x,a_y"})
+    for (unsigned int d = 0; d < 3; ++d)
+      BOOST_TEST(
+        TimeSeries::read(write(names + "\n0,3,1,2\n1,0,0,0\n"), entry, 3)
+          .value(0., d) == d + 1.);
+  BOOST_TEST(refusal("t,V,H1\n0,1,2\n1,3,4\n", 2).find("'H1', which tells") !=
+             std::string::npos);
   BOOST_TEST(refusal("t,vx,vx\n0,1,2\n1,3,4\n", 2).find("axis y") !=
              std::string::npos);
   BOOST_TEST(refusal("vx,t\n0,1\n1,3\n").find("the time in column 2") !=

@@ -39,9 +39,10 @@ namespace Keyblock
    * One bolt without mass: axial springs in a row from the head into the rock,
    * each node tied to the rock by grout, and the head by a plate that can only
    * push the rock. Grout slips at its strength, the bar yields, and breaks at
-   * its rupture strain. Equilibrium of the nodes is solved for in every step by
-   * Newton's method on a tridiagonal system, so that the bolt does not bear on
-   * the time step; while nothing slips or yields, by its factors alone.
+   * its rupture strain, over the whole length where no grout is between.
+   * Equilibrium of the nodes is solved for in every step by Newton's method on
+   * a tridiagonal system, so that the bolt does not bear on the time step;
+   * while nothing slips or yields, by its factors alone.
    *
    * Displacements are along the bolt, positive from the head into the rock, and
    * since it was installed.
@@ -225,7 +226,8 @@ namespace Keyblock
       return numbers.data() + r * n;
     }
 
-    /** Segments are as stiff as cuts and breaks leave them. */
+    /** Segments are as stiff as cuts and breaks leave them, and stretches lie
+     * between cuts, breaks and grout. */
     void set_segments();
 
     /** Follow if all springs are elastic before and behind, by one solution;
@@ -248,8 +250,18 @@ namespace Keyblock
              (row(displacement)[0] - rock - plate_shift);
     }
 
-    /** Whether segment @p j, if it is whole, is longer than it can bear. */
-    bool is_over_rupture(const unsigned int j) const;
+    /** First and last node of segments in a row without grout between them,
+     * which bear the same force: one bar, however it is divided. */
+    using Stretch = std::array<unsigned int, 2>;
+
+    /** Whether the segments on both sides of node @p i are in one stretch. */
+    bool has_equal_forces_at(const unsigned int i) const;
+
+    /** Whether a stretch, if it is whole, is longer than it can bear. */
+    bool is_over_rupture(const Stretch &stretch) const;
+
+    /** Let a stretch that yields be elongated alike all along. */
+    void spread_elongation(const Stretch &stretch);
 
     /** Set forces to those at the present displacement. */
     void respond(const double *rock);
@@ -279,8 +291,8 @@ namespace Keyblock
     /** Slip and yield for good. */
     void commit(const double *rock);
 
-    /** Segments that are longer than they can bear are no more. Returns whether
-     * there are any. */
+    /** Stretches that are longer than they can bear are no more. Returns
+     * whether there are any. */
     bool break_segments();
 
     /** Grout of node @p i between two distances from the head [m]. */
@@ -306,13 +318,14 @@ namespace Keyblock
     std::vector<double> numbers; ///< all rows
     std::vector<double> place;   ///< of the nodes [m]
     std::vector<char> bond_is_elastic, segment_is_elastic;
-    std::vector<bool> is_cut;      ///< of segments
-    std::vector<GroutRange> grout; ///< of nodes
-    double stiffest       = 0.;    ///< of all springs [N/m]
-    double plate_shift    = 0.;    ///< of the plate on the bolt [m]
-    double plate_on_rock  = 0.;    ///< [N]
-    double dissipated     = 0.;    ///< [J]
-    bool is_plate_held    = true;  ///< by rock
+    std::vector<bool> is_cut;       ///< of segments
+    std::vector<GroutRange> grout;  ///< of nodes
+    std::vector<Stretch> stretches; ///< all segments, in order
+    double stiffest       = 0.;     ///< of all springs [N/m]
+    double plate_shift    = 0.;     ///< of the plate on the bolt [m]
+    double plate_on_rock  = 0.;     ///< [N]
+    double dissipated     = 0.;     ///< [J]
+    bool is_plate_held    = true;   ///< by rock
     bool is_plate_elastic = true;
     bool was_elastic      = true; ///< all springs; and no force in a plate
                                   ///< that is not

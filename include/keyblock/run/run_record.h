@@ -33,6 +33,16 @@ namespace Keyblock
     /** Displacement of local nodes when the stage began [m]. */
     std::vector<double> start_displacement;
 
+    /** Displacement of local nodes since then [m]. */
+    std::vector<double>
+    way_in_stage(const Fields<dim> &fields) const
+    {
+      std::vector<double> way = fields.displacement;
+      for (unsigned int i = 0; i < way.size(); ++i)
+        way[i] -= start_displacement[i];
+      return way;
+    }
+
     /** Forget what blocks have done up to now. */
     void
     restart_slips()

@@ -22,8 +22,9 @@ namespace Keyblock
       double force                     = 0.; ///< its capacity there [N]
       double dowel_strength            = 0.; ///< across it [N]
       BoltChain::Capacity::Limit limit = BoltChain::Capacity::Limit::yield;
-      bool is_reduced  = true; ///< BlockFace::is_reduced of the joint
-      unsigned int set = 0;    ///< index of its set of bolts
+      bool is_reduced   = true; ///< BlockFace::is_reduced of the joint
+      unsigned int set  = 0;    ///< index of its set of bolts
+      unsigned int bolt = 0;    ///< index into SplitMesh::bolts
     };
     std::vector<Pull> pulls;
 
@@ -70,7 +71,8 @@ namespace Keyblock
     /** Those of all as the block moves along @p direction (unit vector). */
     std::vector<Force> forces_against(const Tensor<1, dim> &direction) const;
 
-    /** Number, capacity and what limits what holds it, in words. */
+    /** Number, capacity and what limits what holds it, in words; a bolt that
+     * goes through the block counts once, where it can bear most. */
     std::string describe() const;
   };
 

@@ -36,6 +36,10 @@ namespace Keyblock
   void refuse_idle_entries(ParameterHandler &prm,
                            const Scene<dim> &scene,
                            const SceneText &text);
+
+  /** Sentences on entries that are allowed and have no effect. */
+  template <int dim>
+  std::vector<std::string> warnings_of_idle_entries(const Scene<dim> &scene);
 } // namespace Keyblock
 
 #endif
