@@ -110,7 +110,7 @@ namespace Keyblock
         std::map<Ridge, unsigned int> first_at;
         for (unsigned int i = 0; i < facets.size(); ++i)
           for_each_ridge<dim>(facets[i], [&](const Ridge &ridge) {
-            if (is_crossed(surface, facets[i], ridge))
+            if (surfaces_at.at(ridge).size() > 1)
               is_junction[i] = true;
             else
               {
@@ -185,20 +185,6 @@ namespace Keyblock
             is_parted = is_parted || is_apart;
           }
         return is_parted;
-      }
-
-      /** Whether another surface leaves a facet of @p surface at a ridge; one
-       * that has fallen together with it does not. */
-      bool
-      is_crossed(const unsigned int surface,
-                 const Facet &facet,
-                 const Ridge &ridge) const
-      {
-        const auto &list = surfaces_at.at(ridge);
-        return list.size() > 1 &&
-               std::any_of(list.begin(), list.end(), [&](const auto other) {
-                 return other != surface && !lies_on(facet, other);
-               });
       }
 
       /** Whether a facet lies on a surface. */
