@@ -44,7 +44,7 @@ namespace Keyblock
                    << face.name << " counted on " << loss.area
                    << (dim == 2 ? " m" : " m2") << " that have lost it";
             const double tangent =
-              std::max(0., face.tangent_friction - loss.tangent / face.area);
+              std::max(0., face.tangent_friction - loss.tangent);
             if (tangent < (1. - least) * face.tangent_friction)
               text << (text.tellp() > 0 ? ", " : "") << "friction of "
                    << face.name << " counted with "

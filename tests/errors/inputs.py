@@ -792,6 +792,51 @@ def lost_cohesion():
     assert f"cohesion lost on {lost} m by the last that held, counted by limit" in text
 
 
+def strength_lost_by_slip():
+    """A block that an earthquake slides on a base of 25 degrees: limit equilibrium says what
+    slip has left of friction and of cohesion, which strength reduction finds."""
+    shaken = ["Bolts/Names=", "Materials/rock/Young modulus=2e8",
+              "Initial state/Gravity=9.81*sin(25*pi/180); -9.81*cos(25*pi/180)",
+              "Stages/Names=rest, shake, calm", "Stages/shake/Kind=dynamic",
+              "Stages/shake/Damping ratio=0.3", "Stages/shake/Seismic coefficient=0.8, 0",
+              "Stages/calm/Kind=quasi-static", "Stages/calm/Unbalanced ratio=1e-6",
+              "Stages/calm/Seismic coefficient=0, 0", "Stages/calm/Reset motion=true",
+              "Safety factor/Stages=calm", "Safety factor/Bracket=0.002"]
+
+    def factor_of(settings):
+        done = run([PRM / "verification/bolted_incline.prm", "--output", "o"]
+                   + [w for s in shaken + settings for w in ("--set", s)])
+        assert done.returncode == 0, done.stderr
+        print(done.stdout.decode("utf-8"))
+        summary = json.loads(pathlib.Path("o/summary.json").read_text(encoding="utf-8"))
+        block = summary["blocks"][0]
+        limit = block["limit_equilibrium"][-1]
+        assert limit["stage"] == "calm", limit
+        return block["weight"], block["safety_factor"][0], limit
+
+    def left(limit):
+        return float(re.search(r"; ([0-9.]+) without that", limit["remark"]).group(1))
+
+    dip = math.radians(25.)
+    weight, factor, limit = factor_of(
+        ["Stages/shake/Duration=0.09", "Joints/base/Law=slip weakening",
+         "Joints/base/Friction angle=40", "Joints/base/Residual friction angle=28",
+         "Joints/base/Slip distance=0.02"])
+    assert math.isclose(limit["value"], math.tan(math.radians(40.)) / math.tan(dip),
+                        rel_tol=1e-6), limit
+    assert "friction of base counted with 40 degrees, of which " in limit["remark"], limit
+    assert math.isclose(left(limit), factor["value"], rel_tol=2e-3), (limit, factor)
+    assert factor["value"] < 1.3, factor
+
+    weight, factor, limit = factor_of(
+        ["Stages/shake/Duration=0.08", "Joints/base/Friction angle=30",
+         "Joints/base/Cohesion=2000", "Joints/base/Residual cohesion=1500"])
+    residual = (math.tan(math.radians(30.)) / math.tan(dip)
+                + 1500. * 0.5 / (weight * math.sin(dip)))
+    assert math.isclose(left(limit), residual, rel_tol=1e-3), (limit, residual)
+    assert math.isclose(factor["value"], residual, rel_tol=2e-3), (factor, residual)
+
+
 def monitor_of_all_joints():
     """Of one joint the same as of all."""
     done = run([INCLINE, "--output", "o", *SHORT, "--set", "Monitors/Names=one, every",

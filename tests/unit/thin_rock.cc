@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(lost_skins_are_named)
       BOOST_TEST_CONTEXT(depth << " m, area " << skin.area << " m2")
       if (world.is_root() && std::abs(skin.area / (4. * depth) - 1.) > 0.06)
         BOOST_TEST((says(skin.warnings(), "too thin for the cells") ||
-                    says(skin.warnings(), "went to their neighbours") ||
+                    says(skin.warnings(), "neighbours, ") ||
                     says(skin.warnings(), "instead of about")));
     }
 }

@@ -9,13 +9,12 @@
 namespace Keyblock
 {
 
-  /** Strength that points of a joint have had and do no longer, integrated over
-   * their areas. */
+  /** Strength that points of a joint have had and do no longer. */
   struct StrengthLoss
   {
     double area     = 0.; ///< of those that have lost cohesion [m^(dim-1)]
-    double cohesion = 0.; ///< [N]
-    double tangent  = 0.; ///< tan(phi) times area [m^(dim-1)]
+    double cohesion = 0.; ///< over their areas [N]
+    double tangent  = 0.; ///< tan(phi), mean over their normal forces [-]
   };
 
   /** Contact as monitors, output and safety factors see it: states and sums
