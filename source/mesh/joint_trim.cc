@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace Keyblock
 {
@@ -149,11 +150,11 @@ namespace Keyblock
           }
       }
 
-      /** Drop the facets at whose ridges a plane joint ends on nothing but
-       * others that it does not reach: two that are nearly parallel may be
-       * nearer to each other than cells are large, share vertices, and meet far
-       * beyond a rim. Where they have fallen together there is nothing to part.
-       * Whether there were any. */
+      /** Drop the facets at whose ridges a plane joint ends on another one that
+       * it does not reach: two that are nearly parallel may be nearer to each
+       * other than cells are large, share vertices, and meet far beyond a rim.
+       * A parallel one that has fallen together with it elsewhere does not
+       * count beside what it ends on else. Whether there were any. */
       bool
       part_ends(const unsigned int surface, const std::vector<Facet> &facets)
       {
@@ -162,6 +163,10 @@ namespace Keyblock
           for_each_ridge<dim>(facet, [&](const Ridge &ridge) {
             ++n_facets_at[ridge];
           });
+        std::set<unsigned int> twins;
+        for (const Facet &facet : facets)
+          for (const auto &mark : mesh.marks.at(facet))
+            twins.insert(whole_of(mark.surface));
         bool is_parted = false;
         for (const Facet &facet : facets)
           {
@@ -170,21 +175,50 @@ namespace Keyblock
             for_each_ridge<dim>(facet, [&](const Ridge &ridge) {
               if (n_facets_at.at(ridge) > 1)
                 return;
-              bool touches = false, is_closed = false;
+              bool misses_twin = false, is_closed = false;
               for (const unsigned int other : surfaces_at.at(ridge))
-                if (other != surface && !lies_on(facet, other))
-                  {
-                    touches   = true;
-                    is_closed = is_closed ||
-                                reaches(sheet_of(surface), other, ridge, gap);
-                  }
-              is_apart = is_apart || (touches && !is_closed);
+                {
+                  if (other == surface)
+                    continue;
+                  const bool is_reached =
+                    reaches(sheet_of(surface), other, ridge, gap);
+                  const bool is_twin = !is_reached && twins.count(other) > 0 &&
+                                       are_parallel(surface, other, ridge);
+                  is_closed =
+                    is_closed || (is_reached && !lies_on(facet, other));
+                  misses_twin =
+                    misses_twin || (is_twin && !lies_on(facet, other));
+                  is_apart = is_apart || (!is_twin && !is_reached);
+                }
+              is_apart = is_apart || (misses_twin && !is_closed);
             });
             if (is_apart)
               drop(facet, surface);
             is_parted = is_parted || is_apart;
           }
         return is_parted;
+      }
+
+      /** Whether two surfaces are parallel at a ridge, so that they meet
+       * nowhere near it. */
+      bool
+      are_parallel(const unsigned int surface,
+                   const unsigned int other,
+                   const Ridge &ridge) const
+      {
+        constexpr double least_cosine = 0.9998; // 1.1 degrees
+        return std::abs(sheet_of(surface).normal_at(middle_of(ridge)) *
+                        sheet_of(other).normal_at(middle_of(ridge))) >
+               least_cosine;
+      }
+
+      Point<dim>
+      middle_of(const Ridge &ridge) const
+      {
+        Point<dim> middle;
+        for (const unsigned int v : ridge)
+          middle += 1. / ridge.size() * mesh.vertices[v];
+        return middle;
       }
 
       /** Whether a facet lies on a surface. */
@@ -207,9 +241,7 @@ namespace Keyblock
       {
         if (!mesh.surfaces[other].is_joint() || !sheet_of(other).is_plane())
           return true;
-        Point<dim> here;
-        for (const unsigned int v : ridge)
-          here += 1. / ridge.size() * mesh.vertices[v];
+        const Point<dim> here  = middle_of(ridge);
         const double a         = sheet.distance(here),
                      b         = sheet_of(other).distance(here);
         const Tensor<1, dim> m = sheet.normal_at(here),
