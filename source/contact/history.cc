@@ -1,32 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/contact/history.h>
+#include <keyblock/contact/node_history.h>
 #include <keyblock/law/joint_law.h>
 
 #include <algorithm>
 
 namespace Keyblock
 {
-  namespace
-  {
-    /** Where that of a node is, or is to be inserted. */
-    template <typename Histories>
-    auto
-    place_in(Histories &histories,
-             const unsigned int node,
-             const unsigned int joint)
-    {
-      return std::lower_bound(histories.begin(),
-                              histories.end(),
-                              std::make_pair(node, joint),
-                              [](const NodeHistory &entry, const auto &key) {
-                                return std::make_pair(entry.node, entry.joint) <
-                                       key;
-                              });
-    }
-  } // namespace
-
-
-
   template <int dim>
   ContactHistory<dim>::ContactHistory(const PairTopology<dim> &topology,
                                       const ContactStrength<dim> &strength,
@@ -50,11 +30,7 @@ namespace Keyblock
   ContactHistory<dim>::find(const unsigned int node,
                             const unsigned int joint) const
   {
-    const auto place = place_in(memory.node_histories, node, joint);
-    return place != memory.node_histories.end() && place->node == node &&
-               place->joint == joint
-             ? place->history
-             : JointHistory();
+    return find_history(memory.node_histories, node, joint);
   }
 
 
@@ -82,7 +58,7 @@ namespace Keyblock
   JointHistory &
   ContactHistory<dim>::at(const unsigned int node, const unsigned int joint)
   {
-    const auto place = place_in(memory.node_histories, node, joint);
+    const auto place = place_of_history(memory.node_histories, node, joint);
     if (place != memory.node_histories.end() && place->node == node &&
         place->joint == joint)
       return place->history;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/contact/node_history.h>
 #include <keyblock/contact/report.h>
 #include <keyblock/law/joint_law.h>
 
@@ -6,32 +7,6 @@
 
 namespace Keyblock
 {
-  namespace
-  {
-    /** Of a node on a joint that has met others than its partners. */
-    JointHistory
-    find_history(const std::vector<NodeHistory> &histories,
-                 const unsigned int node,
-                 const unsigned int joint)
-    {
-      const auto key = std::make_pair(node, joint);
-      const auto place =
-        std::lower_bound(histories.begin(),
-                         histories.end(),
-                         key,
-                         [](const NodeHistory &entry, const auto &wanted) {
-                           return std::make_pair(entry.node, entry.joint) <
-                                  wanted;
-                         });
-      return place != histories.end() &&
-                 std::make_pair(place->node, place->joint) == key
-               ? place->history
-               : JointHistory();
-    }
-  } // namespace
-
-
-
   template <int dim>
   JointHistory
   ContactReport<dim>::history_of_pair(const unsigned int pair) const

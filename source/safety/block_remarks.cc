@@ -3,6 +3,8 @@
 #include <keyblock/base/expression.h>
 #include <keyblock/safety/block_remarks.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -213,13 +215,10 @@ namespace Keyblock
               face.cohesion > 0. && face.inward * limit.direction > 1e-6 &&
               std::count(limit.faces.begin(), limit.faces.end(), i) == 0)
             names.insert(face.name);
-        const char *between = "cohesion of ";
-        for (const std::string &name : names)
-          (between[0] == 'c' ? add() : last)
-            << std::exchange(between, "/") << name;
         if (!names.empty())
-          last << (names.size() == 1 ? ", which opens, left out"
-                                     : ", which open, left out");
+          add() << "cohesion of " << boost::algorithm::join(names, "/")
+                << (names.size() == 1 ? ", which opens" : ", which open")
+                << ", left out";
         for (const auto &[name, pieces] : n_facets)
           for (const auto &[piece, n] : pieces)
             if (n > dim)

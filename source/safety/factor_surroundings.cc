@@ -16,6 +16,24 @@ namespace Keyblock
 {
   namespace
   {
+    /** judge_block() in the present state of a run. */
+    template <int dim>
+    BlockStatics<dim>
+    judge_now(const Blocks<dim> &blocks,
+              const unsigned int block,
+              const RunParts<dim> &run)
+    {
+      const Ground<dim> ground = run.conditions.active_cells.ground();
+      return judge_block<dim>(ground,
+                              FreeFaces<dim>(ground),
+                              blocks,
+                              block,
+                              run.step.time,
+                              run.conditions.broken_segments());
+    }
+
+
+
     /** Say on how much of the faces cohesion counts which the run has lost,
      * and how much friction, and the factor with what is left at least.
      * @param losses ContactReport::lost_strength() */
@@ -135,14 +153,7 @@ namespace Keyblock
   StrengthReductionSearch<dim>::add_cheap_answers(const unsigned int block,
                                                   SafetyFactor &result) const
   {
-    const Ground<dim> ground = run.conditions.active_cells.ground();
-    BlockStatics<dim> statics =
-      judge_block<dim>(ground,
-                       FreeFaces<dim>(ground),
-                       blocks,
-                       block,
-                       run.step.time,
-                       run.conditions.broken_segments());
+    BlockStatics<dim> statics = judge_now(blocks, block, run);
     if (const double way = trials.measures.way_from_place(block); way > 0.)
       {
         std::ostringstream text;
@@ -171,14 +182,7 @@ namespace Keyblock
   std::string
   StrengthReductionSearch<dim>::mode_if_not_held(const unsigned int block) const
   {
-    const Ground<dim> ground = run.conditions.active_cells.ground();
-    const BlockStatics<dim> statics =
-      judge_block<dim>(ground,
-                       FreeFaces<dim>(ground),
-                       blocks,
-                       block,
-                       run.step.time,
-                       run.conditions.broken_segments());
+    const BlockStatics<dim> statics          = judge_now(blocks, block, run);
     const std::vector<BlockFace<dim>> &faces = statics.around.faces;
     const std::set<unsigned int> pressed =
       statics.limit.pressed_faces(faces, statics.around.loads.without_water());
@@ -230,21 +234,23 @@ namespace Keyblock
                             &is_gone};
     const BrokenSegments broken = run.conditions.broken_segments();
     found.row.clear();
-    TriedBlocks reached = tried;
     for (std::vector<unsigned int> going = tried.all(); !going.empty();)
       {
+        TriedBlocks gone;
+        gone.block = going.back();
+        gone.companions.assign(going.begin(), going.end() - 1);
         for (const unsigned int b : going)
           is_gone[b] = true;
         const FreeFaces<dim> free(later);
         going.clear();
-        for (const unsigned int other : blocks_pressed_on(reached))
-          if (!is_guided[other] &&
+        // others stand as they did
+        for (const unsigned int other : blocks_pressed_on(gone))
+          if (!is_gone[other] && !is_guided[other] &&
               (trials.measures.way_from_place(other) > 0. ||
                !stands_alone<dim>(
                  later, free, blocks, other, run.step.time, broken)))
             going.push_back(other);
         found.row.insert(found.row.end(), going.begin(), going.end());
-        reached = reached.with(going);
       }
     return found;
   }
