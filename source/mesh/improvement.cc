@@ -232,47 +232,62 @@ namespace Keyblock
   MeshImprovement<dim>::flatten(const double least_quality)
   {
     for (unsigned int v = 0; v < mesh.vertices.size(); ++v)
+      flatten_at(v, least_quality);
+  }
+
+
+
+  template <int dim>
+  void
+  MeshImprovement<dim>::flatten(const double least_quality,
+                                const std::vector<unsigned int> &vertices)
+  {
+    for (const unsigned int v : vertices)
+      flatten_at(v, least_quality);
+  }
+
+
+
+  template <int dim>
+  void
+  MeshImprovement<dim>::flatten_at(const unsigned int v,
+                                   const double least_quality)
+  {
+    if (mesh.is_fixed[v] || mesh.cells_at[v].empty())
+      return;
+    const Point<dim> before = mesh.vertices[v];
+    const double size       = mesh.target_size[v];
+    const double quality    = mesh.least_quality_at(v);
+    for (const double part : {1., 0.5})
       {
-        if (mesh.is_fixed[v] || mesh.cells_at[v].empty())
-          continue;
-        const Point<dim> before = mesh.vertices[v];
-        const double size       = mesh.target_size[v];
-        const double quality    = mesh.least_quality_at(v);
-        for (const double part : {1., 0.5})
-          {
-            std::vector<Tensor<1, dim>> locked;
-            double height = 0.;
-            for (const bool is_joint : {false, true})
-              for (const unsigned int s : mesh.bound_to[v])
-                if (mesh.surfaces[s].is_joint() == is_joint)
-                  {
-                    const Surface<dim> &surface = mesh.surfaces[s];
-                    const double distance = surface.distance(mesh.vertices[v]);
-                    const Tensor<1, dim> way = SimplexMesh<dim>::free_part(
-                      surface.normal_at(mesh.vertices[v]), locked);
-                    if (is_joint)
-                      height =
-                        std::max(height, std::abs(surface.distance(before)));
-                    if (way.norm() <
-                        (is_joint ? least_sine : surface.least_sine()))
-                      continue;
-                    if (is_joint)
-                      mesh.vertices[v] -=
-                        part * distance / way.norm_square() * way;
-                    locked.push_back(way / way.norm());
-                  }
-            mesh.return_to_circles(v);
-            if (height < flat_enough * size ||
-                mesh.vertices[v].distance(before) > longest_move * size)
+        std::vector<Tensor<1, dim>> locked;
+        double height = 0.;
+        for (const bool is_joint : {false, true})
+          for (const unsigned int s : mesh.bound_to[v])
+            if (mesh.surfaces[s].is_joint() == is_joint)
               {
-                mesh.vertices[v] = before;
-                break;
+                const Surface<dim> &surface = mesh.surfaces[s];
+                const double distance    = surface.distance(mesh.vertices[v]);
+                const Tensor<1, dim> way = SimplexMesh<dim>::free_part(
+                  surface.normal_at(mesh.vertices[v]), locked);
+                if (is_joint)
+                  height = std::max(height, std::abs(surface.distance(before)));
+                if (way.norm() < (is_joint ? least_sine : surface.least_sine()))
+                  continue;
+                if (is_joint)
+                  mesh.vertices[v] -= part * distance / way.norm_square() * way;
+                locked.push_back(way / way.norm());
               }
-            if (mesh.least_quality_at(v) >=
-                std::min(quality / gain, least_quality))
-              break;
+        mesh.return_to_circles(v);
+        if (height < flat_enough * size ||
+            mesh.vertices[v].distance(before) > longest_move * size)
+          {
             mesh.vertices[v] = before;
+            return;
           }
+        if (mesh.least_quality_at(v) >= std::min(quality / gain, least_quality))
+          return;
+        mesh.vertices[v] = before;
       }
   }
 

@@ -23,6 +23,10 @@ namespace Keyblock
     constexpr double least_loss         = 0.02;
     constexpr unsigned int least_losses = 2;
 
+    /** A corner of the model stays where it is: only joints that pass nearer
+     * than this, over the target size, go through it. */
+    constexpr double through_corner = 0.01;
+
     /** Sine up to which a joint and an outline are nearly parallel. */
     constexpr double nearly_parallel = 0.1;
 
@@ -136,7 +140,9 @@ namespace Keyblock
               {
                 const double relative =
                   std::abs(distance[v]) / mesh.target_size[v];
-                if (relative < snap &&
+                if (relative < (mesh.is_fixed[v]
+                                  ? std::min(snap, through_corner)
+                                  : snap) &&
                     (is_cut || sheet.depth_inside(mesh.vertices[v]) > 0.))
                   near.insert({relative, v});
               }

@@ -47,6 +47,10 @@ namespace Keyblock
      * below @p least_quality for it (or all around become better). */
     void flatten(const double least_quality);
 
+    /** The same of some @p vertices. */
+    void flatten(const double least_quality,
+                 const std::vector<unsigned int> &vertices);
+
   private:
     /** An operation counts as better if the quality rises by this factor. */
     static constexpr double gain = 1.001;
@@ -82,6 +86,9 @@ namespace Keyblock
     /** The marked facets at a vertex with their marks, ascending. */
     std::vector<std::pair<Facet, std::vector<Mark>>>
     marks_at(const unsigned int vertex) const;
+
+    /** Put one vertex back into the planes of its joints, see flatten(). */
+    void flatten_at(const unsigned int vertex, const double least_quality);
 
     /** Whether a vertex is no farther from its joints than it may be. */
     bool is_near_its_joints(const unsigned int vertex) const;

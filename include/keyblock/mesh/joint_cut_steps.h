@@ -2,6 +2,7 @@
 #ifndef keyblock_mesh_joint_cut_steps_h
 #define keyblock_mesh_joint_cut_steps_h
 
+#include <keyblock/mesh/improvement.h>
 #include <keyblock/mesh/joint_sheet.h>
 #include <keyblock/mesh/report.h>
 #include <keyblock/mesh/simplex_mesh.h>
@@ -59,6 +60,19 @@ namespace Keyblock
    */
   template <int dim>
   void dissolve_crumbs(SimplexMesh<dim> &mesh, MeshReport<dim> &report);
+
+  /**
+   * Put the faces of pieces at an outline back into the planes of their joints,
+   * where leaving these has changed the volume or the shape of a piece, for
+   * cells there of down to @p least_quality. Pieces inside excavations and
+   * large ones at the model's outer faces stay as they are. Returns how many
+   * pieces stay changed.
+   */
+  template <int dim>
+  unsigned int straighten_pieces(SimplexMesh<dim> &mesh,
+                                 const Scene<dim> &scene,
+                                 const double least_quality,
+                                 MeshImprovement<dim> &improvement);
 } // namespace Keyblock
 
 #endif
