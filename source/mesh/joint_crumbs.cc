@@ -14,6 +14,45 @@ namespace Keyblock
     /** Pieces of less than this part of a cell go to a neighbour. */
     constexpr double crumb = 0.2;
 
+    /** Area shared with a neighbour, over the most, that is much [-]. */
+    constexpr double much_area = 0.25;
+
+
+
+    using PiecePair = std::pair<unsigned int, unsigned int>;
+
+    /** The pair with the neighbour that crumb @p p goes to: the largest of
+     * those with which it shares much area of joints, which changes least by
+     * it. Pieces that are equal: none. */
+    template <int dim>
+    PiecePair
+    neighbor_of_crumb(const unsigned int p,
+                      const Pieces<dim> &pieces,
+                      const std::map<PiecePair, double> &common)
+    {
+      const auto other = [p](const PiecePair &pair) {
+        return pair.first == p ? pair.second : pair.first;
+      };
+      const auto is_candidate = [&](const PiecePair &pair) {
+        return (pair.first == p || pair.second == p) &&
+               pieces.volume[other(pair)] > pieces.volume[p];
+      };
+      double most_area = 0.;
+      for (const auto &[pair, area] : common)
+        if (is_candidate(pair))
+          most_area = std::max(most_area, area);
+      double largest = 0.;
+      PiecePair best(0, 0);
+      for (const auto &[pair, area] : common)
+        if (is_candidate(pair) && area > much_area * most_area &&
+            pieces.volume[other(pair)] > largest)
+          {
+            largest = pieces.volume[other(pair)];
+            best    = pair;
+          }
+      return best;
+    }
+
 
 
     /** One pass; whether there were any. */
@@ -22,10 +61,9 @@ namespace Keyblock
     dissolve_crumbs_once(SimplexMesh<dim> &mesh, MeshReport<dim> &report)
     {
       const Pieces<dim> pieces(mesh);
-      using Pair  = std::pair<unsigned int, unsigned int>;
       using Facet = typename SimplexMesh<dim>::Facet;
-      std::map<Pair, double> common;
-      std::vector<std::pair<Facet, Pair>> facets;
+      std::map<PiecePair, double> common;
+      std::vector<std::pair<Facet, PiecePair>> facets;
       for (unsigned int c = 0; c < mesh.cells.size(); ++c)
         if (mesh.cells[c].is_alive)
           for (unsigned int i = 0; i <= dim; ++i)
@@ -40,32 +78,20 @@ namespace Keyblock
                               }))
                 continue;
               const unsigned int other = mesh.neighbor(c, i);
-              const Pair pair =
+              const PiecePair pair =
                 std::minmax(pieces.of_cell[c], pieces.of_cell[other]);
               if (other < c || pair.first == pair.second)
                 continue;
               common[pair] += mesh.measure(facet);
               facets.push_back({facet, pair});
             }
-      std::set<Pair> dissolved;
+      std::set<PiecePair> dissolved;
       for (unsigned int p = 0; p < pieces.volume.size(); ++p)
         {
           if (pieces.volume[p] > crumb * pieces.wanted_volume[p])
             continue;
-          double largest = 0.;
-          Pair best;
-          for (const auto &[pair, area] : common)
-            {
-              const unsigned int other =
-                pair.first == p ? pair.second : pair.first;
-              if ((pair.first == p || pair.second == p) && area > largest &&
-                  pieces.volume[other] > pieces.volume[p])
-                {
-                  largest = area;
-                  best    = pair;
-                }
-            }
-          if (largest == 0.)
+          const auto best = neighbor_of_crumb(p, pieces, common);
+          if (best.first == best.second)
             continue;
           dissolved.insert(best);
           ++report.n_lost_blocks;

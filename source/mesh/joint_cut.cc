@@ -39,8 +39,9 @@ namespace Keyblock
     constexpr double less_snap        = 0.25;
 
     /** Such pieces are put right for cells of this quality, where some joints
-     * are bent, and where there are many joints. */
-    constexpr double least_quality_of_few = 0.03, least_quality_of_bent = 0.05,
+     * are bent or there are more than half as many, and where there are many.
+     */
+    constexpr double least_quality_of_few = 0.03, least_quality_of_more = 0.08,
                      least_quality_of_many = 0.1;
 
     /** Joints are put back into their planes where cells stay as good. */
@@ -261,7 +262,7 @@ namespace Keyblock
                          sheets.sheets.end(),
                          [](const auto &sheet) { return sheet->is_plane(); })
                ? least_quality_of_few
-               : least_quality_of_bent;
+               : least_quality_of_more;
     }
 
 
@@ -274,10 +275,11 @@ namespace Keyblock
       MeshReport<dim> report;
       unsigned int n_changed = 0; ///< pieces, see straighten_pieces()
 
-      unsigned int
-      n_faults() const
+      /** What is worse comes first: pieces that are there, but wrong. */
+      std::pair<unsigned int, unsigned int>
+      faults() const
       {
-        return n_changed + report.n_lost_blocks;
+        return {n_changed, report.n_lost_blocks};
       }
     };
 
@@ -315,10 +317,8 @@ namespace Keyblock
       improvement.flatten(least_quality_of_flattening);
 
       improvement.improve_by_bending(least_quality<dim>, 8, largest_bend);
-      result.n_changed = straighten_pieces(mesh,
-                                           scene,
-                                           least_quality_of_pieces(sheets),
-                                           improvement);
+      result.n_changed =
+        straighten_pieces(mesh, scene, least_quality_of_pieces(sheets));
       return result;
     }
   } // namespace
@@ -334,10 +334,11 @@ namespace Keyblock
   {
     const JointSheets<dim> sheets = make_sheets(scene);
     CutMesh<dim> best             = cut_with(mesh, scene, sheets, snap);
-    if (best.n_faults() > 0 && sheets.sheets.size() <= few_joints<dim>)
+    if (best.faults() > std::make_pair(0u, 0u) &&
+        sheets.sheets.size() <= few_joints<dim>)
       {
         CutMesh<dim> nearer = cut_with(mesh, scene, sheets, less_snap * snap);
-        if (nearer.n_faults() < best.n_faults())
+        if (nearer.faults() < best.faults())
           best = std::move(nearer);
       }
     mesh            = std::move(best.mesh);

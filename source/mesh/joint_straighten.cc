@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/mesh/excavation_region.h>
+#include <keyblock/mesh/improvement.h>
 #include <keyblock/mesh/joint_cut_steps.h>
 #include <keyblock/mesh/pieces.h>
 
@@ -34,6 +35,7 @@ namespace Keyblock
     public:
       ChangedPieces(const SimplexMesh<dim> &mesh, const Scene<dim> &scene)
         : pieces(mesh)
+        , most_outer_cells(is_truncated_all_around(scene) ? 0. : most_cells)
         , surplus(pieces.volume.size(), 0.)
         , off_joint(pieces.volume.size(), 0.)
         , is_outer(pieces.volume.size(), false)
@@ -110,9 +112,16 @@ namespace Keyblock
         const double volume = pieces.volume[piece];
         return is_bare[piece] &&
                (!is_outer[piece] ||
-                volume < most_cells * pieces.wanted_volume[piece]) &&
+                volume < most_outer_cells * pieces.wanted_volume[piece]) &&
                (std::abs(surplus[piece]) > largest_change * volume ||
                 off_joint[piece] > farthest);
+      }
+
+      static bool
+      is_truncated_all_around(const Scene<dim> &scene)
+      {
+        const auto &names = scene.domain.truncated_boundaries;
+        return std::count(names.begin(), names.end(), "all") > 0;
       }
 
       static bool
@@ -127,6 +136,7 @@ namespace Keyblock
       }
 
       const Pieces<dim> pieces;
+      const double most_outer_cells;
       std::vector<double> surplus;   ///< by piece, to first order [m^dim]
       std::vector<double> off_joint; ///< the farthest vertex, see above [-]
       std::vector<bool> is_outer;    ///< at the model's outer faces
@@ -141,9 +151,9 @@ namespace Keyblock
   unsigned int
   straighten_pieces(SimplexMesh<dim> &mesh,
                     const Scene<dim> &scene,
-                    const double least_quality,
-                    MeshImprovement<dim> &improvement)
+                    const double least_quality)
   {
+    MeshImprovement<dim> improvement(mesh, 0.);
     for (const double quality : qualities)
       for (unsigned int i = 0; i < n_tries && quality >= least_quality; ++i)
         {
@@ -155,12 +165,8 @@ namespace Keyblock
     return ChangedPieces<dim>(mesh, scene).n();
   }
 
-  template unsigned int straighten_pieces(SimplexMesh<2> &,
-                                          const Scene<2> &,
-                                          const double,
-                                          MeshImprovement<2> &);
-  template unsigned int straighten_pieces(SimplexMesh<3> &,
-                                          const Scene<3> &,
-                                          const double,
-                                          MeshImprovement<3> &);
+  template unsigned int
+  straighten_pieces(SimplexMesh<2> &, const Scene<2> &, const double);
+  template unsigned int
+  straighten_pieces(SimplexMesh<3> &, const Scene<3> &, const double);
 } // namespace Keyblock

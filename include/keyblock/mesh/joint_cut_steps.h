@@ -2,7 +2,6 @@
 #ifndef keyblock_mesh_joint_cut_steps_h
 #define keyblock_mesh_joint_cut_steps_h
 
-#include <keyblock/mesh/improvement.h>
 #include <keyblock/mesh/joint_sheet.h>
 #include <keyblock/mesh/report.h>
 #include <keyblock/mesh/simplex_mesh.h>
@@ -55,9 +54,9 @@ namespace Keyblock
   template <int dim>
   void trim_joints(SimplexMesh<dim> &mesh, const JointSheets<dim> &sheets);
 
-  /** Let pieces below a part of a cell join the neighbour with which they share
-   * most area of joints, until there are none; they are counted in @p report.
-   */
+  /** Let pieces below a part of a cell join the largest of the neighbours with
+   * which they share much area of joints, until there are none; they are
+   * counted in @p report. */
   template <int dim>
   void dissolve_crumbs(SimplexMesh<dim> &mesh, MeshReport<dim> &report);
 
@@ -71,8 +70,7 @@ namespace Keyblock
   template <int dim>
   unsigned int straighten_pieces(SimplexMesh<dim> &mesh,
                                  const Scene<dim> &scene,
-                                 const double least_quality,
-                                 MeshImprovement<dim> &improvement);
+                                 const double least_quality);
 } // namespace Keyblock
 
 #endif
