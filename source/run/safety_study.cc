@@ -132,7 +132,9 @@ namespace Keyblock
     // only rest at the joints' own strength is a start at factor 1
     if (known.stable == 0.)
       known.start = std::max(model.scene.safety.lowest, 0.5 * known.hint);
-    return search.find(block, record.present.number(), known);
+    SafetyFactor result = search.find(block, record.present.number(), known);
+    search.add_demand(record.present.number(), known, result);
+    return result;
   }
 
 
