@@ -78,8 +78,9 @@ namespace Keyblock
       {
         double &sum = steps[earlier.block];
         sum         = 0.;
-        for (const Trial &trial : earlier.trials)
-          sum += trial.n_steps;
+        for (const auto &trials : {earlier.trials, earlier.tried_demand.trials})
+          for (const Trial &trial : trials)
+            sum += trial.n_steps;
         most = std::max(most, sum);
       }
     std::vector<double> costs;

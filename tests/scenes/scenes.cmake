@@ -275,6 +275,13 @@ keyblock_scene(verification/toe_block REFERENCES toe_block_demand RANKS 1 2
 keyblock_scene(verification/column_on_block REFERENCES column_on_block_demand
   RANKS 1 SET "Safety factor/Wanted=1.6" "Safety factor/Blocks=2"
   "Safety factor/Wanted by=strength reduction" "Safety factor/Bracket=0.004")
+# both of a group ask for what both need, pressed wherever each is free, under stress
+keyblock_scene(verification/carried_slab REFERENCES carried_slab_demand RANKS 1
+  SET "Safety factor/Wanted=1.2" "Safety factor/Wanted by=strength reduction"
+  "Safety factor/Bracket=0.01")
+keyblock_scene(verification/two_wedges REFERENCES two_wedges_demand ALIKE RANKS 1
+  SET "Safety factor/Wanted=2" "Safety factor/Wanted by=strength reduction"
+  "Safety factor/Blocks=2" "Safety factor/Bracket=0.005")
 # nothing ties what only met through rock that is dug
 keyblock_scene(verification/wedges_at_point RANKS 1 2)
 # rock that yields where its strength is reduced, too
