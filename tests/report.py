@@ -29,6 +29,7 @@ SCENES = {
         "Stages/wait/Kind=quasi-static", "Output/Write VTU=true"]),
     "wedge": ("verification/wedge_3d", [
         "Safety factor/Bracket=0.05", "Safety factor/Wanted=1.5",
+        "Safety factor/Wanted by=strength reduction",
         "Output/Write VTU=true"]),
     "bolts": ("verification/bolted_incline", ["Output/Write VTU=true"]),
     "poor": ("verification/factor_incline", [
@@ -82,6 +83,18 @@ def assert_demand(row, demand):
         assert force == "out of reach"
 
 
+def assert_tried_demand(row, demand):
+    """The same by trials."""
+    assert row["support by trials"] == (demand or {}).get("outcome", "")
+    force, = (value for title, value in row.items()
+              if title.startswith("support by trials (N"))
+    for text, key in ((force, "force"),
+                      (row["pressure by trials (Pa)"], "pressure"),
+                      (row["lower pressure (Pa)"], "lower"),
+                      (row["upper pressure (Pa)"], "upper")):
+        assert float(text or 0.) == (demand or {}).get(key, 0.), (key, row)
+
+
 def assert_tables(summary, folder):
     """Every number of the tables is that of summary.json."""
     blocks = finite_blocks(summary)
@@ -120,6 +133,7 @@ def assert_tables(summary, folder):
         assert row["limit equilibrium"] == "stable" or float(
             row["limit equilibrium"]) == limit["value"]
         assert_demand(row, limit.get("support_demand"))
+        assert_tried_demand(row, factor.get("support_demand"))
         if factor["outcome"] == "value":
             assert float(row["factor"]) == factor["value"]
     stages = rows_of(folder / "stages.csv")

@@ -146,6 +146,30 @@ def check_demand():
             "early") in row, row
 
 
+def check_tried_demand():
+    """Support by trials beside that by limit equilibrium, the largest."""
+    def change(_, block):
+        one = block["safety_factor"][-1]
+        demand = {"factor": 1.5, "outcome": "support", "force": 9e3,
+                  "lower": 3.9e3, "upper": 4.1e3, "pressure": 4e3,
+                  "bolts": {"roof": 1}, "trials": []}
+        if is_found:
+            block["safety_factor"] = [
+                {**one, "stage": "early", "support_demand": demand},
+                {**one, "support_demand": {"factor": 1.5, "outcome": "met",
+                                           "trials": []}}]
+        else:
+            one["support_demand"] = {"factor": 1.5, "trials": [],
+                                     "outcome": "out of reach"}
+
+    for is_found, words in (
+            (True, "9 kN/m, 4 [3.9, 4.1] kPa by trials or 1 bolt of set 'roof' "
+             "in each ring for 1.5 after early"),
+            (False, "no pressure is enough for 1.5 after")):
+        row = html.unescape(row_of(altered(change)[1], 1))
+        assert words in row, row
+
+
 def check_tie():
     """Of stages with equal factors the row has the most dangerous one."""
     def change(_, block):
@@ -231,8 +255,8 @@ def main():
                     "Output/Write VTU=true"],
                    check=True, stdout=subprocess.DEVNULL)
     for case in (check_open, check_support, check_moving, check_held,
-                 check_demand, check_tie, check_lost, check_unjudged,
-                 check_taken_away, check_pipe):
+                 check_demand, check_tried_demand, check_tie, check_lost,
+                 check_unjudged, check_taken_away, check_pipe):
         case()
         print(f"{case.__name__}: as it should be")
 

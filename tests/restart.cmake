@@ -47,6 +47,12 @@ keyblock_restart(roof_block verification/roof_block_falls
   --set "Materials/rock/Model=mohr_coulomb"
   --set "Materials/rock/Cohesion=1e5")
 keyblock_restart(factor_incline verification/factor_incline)
+# and the support that it asks for by trials, where it falls freely
+keyblock_restart(demand verification/roof_block_falls
+  ARGUMENTS --breaks 2 --set "Safety factor/Removal slip=0.05"
+  --set "Safety factor/Blocks=all" --set "Safety factor/Bracket=0.02"
+  --set "Safety factor/Wanted=1.3" --set "Safety factor/Wanted by=strength reduction"
+  --set "Joints/*/Friction angle=2" --set "Check/Closed form=none")
 # a bolt that yields, and one installed in a later stage
 set(bolted --set "Stages/Names=rest, again" --set "Stages/again/Kind=quasi-static"
   --set "Stages/again/Friction angle override=84.2894"

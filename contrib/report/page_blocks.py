@@ -6,7 +6,7 @@ from .html import clamped_text, escape, group_text
 from .statics import (follows_others, limit_in_words, mode_by_statics,
                       own_factor, statics_in_words)
 from .tables import STATES, few, in_words, is_held_by_clamping, of_stage
-from .words import demand_in_words, mode_in_words, number
+from .words import mode_in_words, number, support_in_words
 
 MOST_ROWS = 60  # rows of blocks before the rest is folded away
 
@@ -41,8 +41,8 @@ def block_columns(run):
         ("with its group", False, lambda r: escape(group_text(
             r["group"])).replace(", ", ",&nbsp;").replace(" [", "&nbsp;[")),
         ("held by clamping", False, lambda r: clamped_text(r["clamped"])),
-        ("support it needs", False, lambda r: escape(demand_in_words(
-            r["demand"], run.is_plane) or "–")),
+        ("support it needs", False, lambda r: escape(support_in_words(
+            r, run.is_plane) or "–")),
         ("moved [mm]", True, lambda r: mm(r["displacement"])),
         ("failed in", False, lambda r: escape(
             f"{r['removed']}, taken away" if r["removed"] else

@@ -6,7 +6,7 @@ import math
 
 from .statics import (factor_by_statics, follows_others, force_of,
                       last_factor, least_limit, passed_factor)
-from .words import demand_of, number
+from .words import demand_of, number, tried_demand_of
 
 # What a block is like, for colours: name, colour (of Okabe and Ito, which
 # colour-blind people tell apart), what the legend says
@@ -156,10 +156,10 @@ def where_is(normal, down):
             "floor" if along < -math.sqrt(0.5) else "wall")
 
 
-def largest_demand(limits):
+def largest_demand(results, demand_in=demand_of):
     """The largest support that a stage asks for, with its name; or None."""
-    demands = [{**demand_of(limit), "stage": limit.get("stage")}
-               for limit in limits if demand_of(limit)]
+    demands = [{**demand_in(result), "stage": result.get("stage")}
+               for result in results if demand_in(result)]
     return max(demands, key=force_of, default=None)
 
 
@@ -189,6 +189,7 @@ def row_of(run, geometry, n, moved_off, moving):
                             None) or {},
            "group": (worst or {}).get("group"),
            "demand": largest_demand(limits),
+           "tried_demand": largest_demand(factors, tried_demand_of),
            "clamped": is_held_by_clamping(worst, limit),
            "held_by": next((what for what in (
                held_by(f, of_stage(limits, f.get("stage"))) for f in factors)

@@ -16,7 +16,7 @@ from .polygons import clip_polygon
 from .style import GROUP_COLOURS
 from .statics import statics_in_words
 from .tables import STATES, in_words
-from .words import demand_in_words, mode_in_words, number
+from .words import mode_in_words, number, support_in_words
 
 SHARP = 0.9  # faces at an edge that is drawn differ by more, as a cosine
 
@@ -195,8 +195,8 @@ def describe(run, row):
             f"{number(row['weight'] / 1e3)} kN" if row["weight"] else "",
             mode_in_words(row["mode"]) or "",
             {True: "held by clamping", None: "", False: ""}[row["clamped"]],
-            f"needs {demand_in_words(row['demand'], run.is_plane)}"
-            if row["demand"] else "",
+            f"needs {support_in_words(row, run.is_plane)}"
+            if row["demand"] or row["tried_demand"] else "",
             f"limit equilibrium {statics_in_words(row)}"
             if row["limit"] or row["passed"] else "",
             f"strength reduction {in_words(factor)} after {factor['stage']}"

@@ -46,6 +46,37 @@ def bolts_in_words(demand, is_plane):
                + (" in each ring" if is_plane else ""))
 
 
+def tried_demand_of(factor):
+    """Support that a wanted factor asks for by trials; or None."""
+    demand = (factor or {}).get("support_demand") or {}
+    return demand if demand.get("outcome") not in (None, "met") else None
+
+
+def tried_demand_in_words(demand, is_plane):
+    """The same as people say it."""
+    if not demand:
+        return None
+    after = f" after {demand['stage']}" if demand.get("stage") else ""
+    wanted = f"{number(demand['factor'])}{after}"
+    if demand["outcome"] == "out of reach":
+        return f"no pressure is enough for {wanted} by trials"
+    if demand["outcome"] == "undecided":
+        return f"undecided by trials for {wanted}"
+    ends = ", ".join(number(1e-3 * demand.get(end, 0.))
+                     for end in ("lower", "upper"))
+    return " or ".join([
+        f"{number(1e-3 * demand['force'])} kN{'/m' if is_plane else ''}, "
+        f"{number(1e-3 * demand['pressure'])} [{ends}] kPa by trials",
+        *bolts_in_words(demand, is_plane)]) + f" for {wanted}"
+
+
+def support_in_words(row, is_plane):
+    """What a row of the table needs, by limit equilibrium and by trials."""
+    return "; ".join(text for text in (
+        demand_in_words(row["demand"], is_plane),
+        tried_demand_in_words(row["tried_demand"], is_plane)) if text)
+
+
 def demand_in_words(demand, is_plane):
     """Support that is asked for, as people say it."""
     if not demand:

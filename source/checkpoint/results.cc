@@ -19,6 +19,7 @@ namespace Keyblock
   for_each_number(Trial &trial, const Action &action)
   {
     action(trial.factor);
+    action(trial.pressure);
     action(trial.start);
     action(trial.is_of_group);
     action(trial.is_stable);
@@ -55,6 +56,12 @@ namespace Keyblock
     action(factor.support_demand.factor);
     action(factor.support_demand.force);
     action(factor.support_demand.pressure);
+    action(factor.tried_demand.outcome);
+    action(factor.tried_demand.lower);
+    action(factor.tried_demand.upper);
+    action(factor.tried_demand.undecided_lower);
+    action(factor.tried_demand.undecided_upper);
+    action(factor.tried_demand.area);
   }
 
   template <typename Action>
@@ -104,18 +111,21 @@ namespace Keyblock
 
   namespace
   {
-    /** Numbers of bolts that factors ask for, by set. */
+    /** Numbers of bolts that factors ask for, by set; @p demand is what names
+     * them in a factor. */
+    template <typename Demand>
     void
     exchange_bolt_numbers(StateFile &file,
                           const std::string &group,
-                          std::vector<SafetyFactor> &factors)
+                          std::vector<SafetyFactor> &factors,
+                          Demand SafetyFactor::*const demand)
     {
       std::vector<std::string> sets;
       std::vector<unsigned int> numbers, n_sets;
       for (const SafetyFactor &factor : factors)
         {
-          n_sets.push_back(factor.support_demand.numbers.size());
-          for (const auto &[set, number] : factor.support_demand.numbers)
+          n_sets.push_back((factor.*demand).numbers.size());
+          for (const auto &[set, number] : (factor.*demand).numbers)
             {
               sets.push_back(set);
               numbers.push_back(number);
@@ -127,10 +137,35 @@ namespace Keyblock
       unsigned int next = 0;
       for (unsigned int f = 0; f < factors.size(); ++f)
         {
-          factors[f].support_demand.numbers.clear();
+          (factors[f].*demand).numbers.clear();
           for (const unsigned int end = next + n_sets.at(f); next < end; ++next)
-            factors[f].support_demand.numbers.emplace_back(sets.at(next),
-                                                           numbers.at(next));
+            (factors[f].*demand)
+              .numbers.emplace_back(sets.at(next), numbers.at(next));
+        }
+    }
+
+    /** Trials of factors, or of their demands; @p list gives those of one. */
+    template <typename List>
+    void
+    exchange_trials(StateFile &file,
+                    const std::string &group,
+                    std::vector<SafetyFactor> &factors,
+                    const List &list)
+    {
+      std::vector<unsigned int> n_trials;
+      std::vector<Trial> trials;
+      for (SafetyFactor &factor : factors)
+        {
+          n_trials.push_back(list(factor).size());
+          trials.insert(trials.end(), list(factor).begin(), list(factor).end());
+        }
+      file.exchange(group + "n_trials", n_trials);
+      exchange_rows(file, group + "trials", trials);
+      auto next = trials.begin();
+      for (unsigned int f = 0; f < factors.size(); ++f)
+        {
+          list(factors[f]).assign(next, next + n_trials.at(f));
+          next += n_trials[f];
         }
     }
 
@@ -185,29 +220,33 @@ namespace Keyblock
                    group + "limit_remark",
                    factors,
                    &SafetyFactor::limit_remark);
-    exchange_bolt_numbers(file, group, factors);
+    exchange_bolt_numbers(file, group, factors, &SafetyFactor::support_demand);
+    exchange_bolt_numbers(file,
+                          group + "tried_",
+                          factors,
+                          &SafetyFactor::tried_demand);
     exchange_once_gone(file, group, factors);
-    std::vector<unsigned int> n_trials, group_sizes, group_ids;
-    std::vector<Trial> trials;
+    exchange_trials(
+      file, group, factors, [](SafetyFactor & factor) -> auto & {
+        return factor.trials;
+      });
+    exchange_trials(
+      file, group + "demand_", factors, [](SafetyFactor & factor) -> auto & {
+        return factor.tried_demand.trials;
+      });
+    std::vector<unsigned int> group_sizes, group_ids;
     for (const SafetyFactor &factor : factors)
       {
-        n_trials.push_back(factor.trials.size());
         group_sizes.push_back(factor.group.size());
         group_ids.insert(group_ids.end(),
                          factor.group.begin(),
                          factor.group.end());
-        trials.insert(trials.end(), factor.trials.begin(), factor.trials.end());
       }
-    file.exchange(group + "n_trials", n_trials);
     file.exchange(group + "group_sizes", group_sizes);
     file.exchange(group + "group_ids", group_ids);
-    exchange_rows(file, group + "trials", trials);
-    auto next    = trials.begin();
     auto next_id = group_ids.begin();
     for (unsigned int f = 0; f < factors.size(); ++f)
       {
-        factors[f].trials.assign(next, next + n_trials[f]);
-        next += n_trials[f];
         factors[f].group.assign(next_id, next_id + group_sizes[f]);
         next_id += group_sizes[f];
       }
@@ -219,58 +258,84 @@ namespace Keyblock
   gather_from_rank_groups(const Communicator &all,
                           const std::vector<SafetyFactor> &mine)
   {
-    // numbers of factors, of their trials, groups and bolts, and texts
+    // numbers of factors, of their trials, groups and bolts, of the trials and
+    // bolts of their demands, and texts
     using Rows                    = std::vector<std::vector<double>>;
-    constexpr unsigned int n_rows = 4, n_texts = 6;
+    constexpr unsigned int n_rows = 6, n_texts = 7;
+    const auto row_of_trials = [](const std::vector<Trial> &trials) {
+      std::vector<double> row;
+      for (const Trial &trial : trials)
+        for (const double number : numbers_of(trial))
+          row.push_back(number);
+      return row;
+    };
+    const auto row_of_bolts = [](const auto &bolts, std::string &sets) {
+      std::vector<double> row;
+      for (const auto &[set, number] : bolts)
+        {
+          row.push_back(number);
+          sets += set + '\n';
+        }
+      return row;
+    };
     std::pair<Rows, std::vector<std::string>> packed;
     for (const SafetyFactor &factor : mine)
       {
         packed.first.push_back(numbers_of(factor));
-        packed.first.emplace_back();
-        for (const Trial &trial : factor.trials)
-          for (const double number : numbers_of(trial))
-            packed.first.back().push_back(number);
+        packed.first.push_back(row_of_trials(factor.trials));
         packed.first.emplace_back(factor.group.begin(), factor.group.end());
-        packed.first.emplace_back();
-        std::string sets;
-        for (const auto &[set, number] : factor.support_demand.numbers)
-          {
-            packed.first.back().push_back(number);
-            sets += set + '\n';
-          }
+        std::string sets, tried_sets;
+        packed.first.push_back(
+          row_of_bolts(factor.support_demand.numbers, sets));
+        packed.first.push_back(row_of_trials(factor.tried_demand.trials));
+        packed.first.push_back(
+          row_of_bolts(factor.tried_demand.numbers, tried_sets));
         for (const std::string &text : {factor.stage,
                                         factor.failure_mode,
                                         factor.limit_mode,
                                         factor.limit_remark,
                                         factor.held_by,
-                                        sets})
+                                        sets,
+                                        tried_sets})
           packed.second.push_back(text);
       }
-    const std::size_t n = numbers_of(Trial()).size();
+    const auto trials_of = [](const std::vector<double> &row) {
+      const std::size_t n = numbers_of(Trial()).size();
+      std::vector<Trial> trials;
+      for (std::size_t t = 0; t + n <= row.size(); t += n)
+        trials.push_back(from_numbers<Trial>(row.data() + t));
+      return trials;
+    };
+    const auto bolts_of = [](const std::vector<double> &row,
+                             const std::string &sets) {
+      std::vector<std::pair<std::string, unsigned int>> bolts;
+      std::istringstream lines(sets);
+      for (const double number : row)
+        {
+          bolts.emplace_back("", static_cast<unsigned int>(number));
+          std::getline(lines, bolts.back().first);
+        }
+      return bolts;
+    };
     std::vector<SafetyFactor> found;
     for (const auto &[rows, texts] :
          dealii::Utilities::MPI::all_gather(all, packed))
       for (std::size_t f = 0; n_rows * f < rows.size(); ++f)
         {
-          const auto row  = rows.begin() + n_rows * f;
-          const auto text = texts.begin() + n_texts * f;
-          auto factor     = from_numbers<SafetyFactor>(row[0].data());
-          for (std::size_t t = 0; t + n <= row[1].size(); t += n)
-            factor.trials.push_back(from_numbers<Trial>(row[1].data() + t));
+          const auto row      = rows.begin() + n_rows * f;
+          const auto text     = texts.begin() + n_texts * f;
+          auto factor         = from_numbers<SafetyFactor>(row[0].data());
+          factor.trials       = trials_of(row[1]);
           factor.stage        = text[0];
           factor.failure_mode = text[1];
           factor.limit_mode   = text[2];
           factor.limit_remark = text[3];
           factor.group.assign(row[2].begin(), row[2].end());
-          factor.held_by = text[4];
-          std::istringstream sets(text[5]);
-          for (const double number : row[3])
-            {
-              factor.support_demand.numbers.emplace_back(
-                "", static_cast<unsigned int>(number));
-              std::getline(sets, factor.support_demand.numbers.back().first);
-            }
-          const auto is_same = [&](const SafetyFactor &other) {
+          factor.held_by                = text[4];
+          factor.support_demand.numbers = bolts_of(row[3], text[5]);
+          factor.tried_demand.trials    = trials_of(row[4]);
+          factor.tried_demand.numbers   = bolts_of(row[5], text[6]);
+          const auto is_same            = [&](const SafetyFactor &other) {
             return other.block == factor.block;
           };
           if (std::none_of(found.begin(), found.end(), is_same))

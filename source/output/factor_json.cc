@@ -13,6 +13,7 @@ namespace Keyblock
       Json list = Json::array();
       for (const Trial &trial : trials)
         list.push_back({{"factor", trial.factor},
+                        {"pressure", trial.pressure},
                         {"start", trial.start},
                         {"of_group", trial.is_of_group},
                         {"stable", trial.is_stable},
@@ -66,6 +67,32 @@ namespace Keyblock
       return json;
     }
 
+    /** By trials, for a factor that is wanted. */
+    Json
+    demand_as_json(const TriedDemand &demand, const double factor)
+    {
+      Json json = {{"factor", factor}, {"outcome", describe_outcome(demand)}};
+      if (demand.outcome == TriedDemand::Outcome::bracketed)
+        {
+          json["lower"]    = demand.lower;
+          json["pressure"] = demand.pressure();
+          json["force"]    = demand.force();
+        }
+      else if (demand.lower > 0.)
+        json["lower"] = demand.lower;
+      if (demand.upper > 0.)
+        json["upper"] = demand.upper;
+      if (demand.undecided_upper > 0.)
+        {
+          json["undecided_lower"] = demand.undecided_lower;
+          json["undecided_upper"] = demand.undecided_upper;
+        }
+      for (const auto &[set, number] : demand.numbers)
+        json["bolts"][set] = number;
+      json["trials"] = trials_as_json(demand.trials);
+      return json;
+    }
+
     Json
     strength_reduction_as_json(const SafetyFactor &factor)
     {
@@ -86,6 +113,9 @@ namespace Keyblock
       json["failure_mode"] = factor.failure_mode;
       if (!factor.group.empty())
         json["group"] = group_as_json(factor);
+      if (factor.tried_demand.outcome != TriedDemand::Outcome::not_sought)
+        json["support_demand"] =
+          demand_as_json(factor.tried_demand, factor.support_demand.factor);
       json["trials"] = trials_as_json(factor.trials);
       return json;
     }

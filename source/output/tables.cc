@@ -67,14 +67,22 @@ namespace Keyblock
               "support bolts"};
     }
 
-    Fields
-    demand_fields(const SupportDemand &demand)
+    /** Numbers of bolts of each set, without those that have none. */
+    std::string
+    list_bolts(const std::vector<std::pair<std::string, unsigned int>> &numbers)
     {
       std::string bolts;
-      for (const auto &[set, number] : demand.numbers)
+      for (const auto &[set, number] : numbers)
         if (number > 0)
           bolts +=
             (bolts.empty() ? "" : "; ") + std::to_string(number) + " " + set;
+      return bolts;
+    }
+
+    Fields
+    demand_fields(const SupportDemand &demand)
+    {
+      const std::string bolts = list_bolts(demand.numbers);
       if (demand.factor > 0. && std::isinf(demand.force))
         return {exact_text(demand.factor),
                 "out of reach",
@@ -86,6 +94,32 @@ namespace Keyblock
                 exact_text(demand.pressure),
                 bolts};
       return Fields(4);
+    }
+
+    /** Titles of what tried_demand_fields() gives. */
+    template <int dim>
+    Fields
+    tried_demand_titles()
+    {
+      return {"support by trials",
+              std::string("support by trials (N") +
+                (dim == 2 ? " per m)" : ")"),
+              "pressure by trials (Pa)",
+              "lower pressure (Pa)",
+              "upper pressure (Pa)",
+              "bolts by trials"};
+    }
+
+    Fields
+    tried_demand_fields(const TriedDemand &demand)
+    {
+      const bool is_closed = demand.outcome == TriedDemand::Outcome::bracketed;
+      return {describe_outcome(demand),
+              is_closed ? exact_text(demand.force()) : "",
+              is_closed ? exact_text(demand.pressure()) : "",
+              positive(demand.lower),
+              positive(demand.upper),
+              list_bolts(demand.numbers)};
     }
 
     Fields
@@ -212,6 +246,8 @@ namespace Keyblock
       append(titles, factor_titles());
       append(titles, demand_titles<dim>());
       titles.emplace_back("support after");
+      append(titles, tried_demand_titles<dim>());
+      titles.emplace_back("by trials after");
       std::string text    = csv_line(titles);
       const double weight = weight_per_mass(scene);
       Exposure<dim> exposure(scene, split);
@@ -251,6 +287,11 @@ namespace Keyblock
                  demand_fields(asking == nullptr ? SupportDemand()
                                                  : asking->support_demand));
           fields.push_back(asking == nullptr ? "" : asking->stage);
+          const SafetyFactor *tried = largest_tried_demand(factors, b);
+          append(fields,
+                 tried == nullptr ? Fields(tried_demand_titles<dim>().size())
+                                  : tried_demand_fields(tried->tried_demand));
+          fields.push_back(tried == nullptr ? "" : tried->stage);
           text += csv_line(fields);
         }
       return text;
@@ -265,6 +306,8 @@ namespace Keyblock
       append(titles, factor_titles());
       append(titles, demand_titles<dim>());
       titles.emplace_back("trials");
+      append(titles, tried_demand_titles<dim>());
+      titles.emplace_back("trials of support");
       std::string text = csv_line(titles);
       for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
         for (const SafetyFactor &factor : factors)
@@ -275,6 +318,11 @@ namespace Keyblock
               append(fields, factor_fields(factor));
               append(fields, demand_fields(factor.support_demand));
               fields.push_back(std::to_string(factor.trials.size()));
+              const TriedDemand &tried = factor.tried_demand;
+              append(fields, tried_demand_fields(tried));
+              fields.push_back(tried.outcome == TriedDemand::Outcome::not_sought
+                                 ? ""
+                                 : std::to_string(tried.trials.size()));
               text += csv_line(fields);
             }
       return text;

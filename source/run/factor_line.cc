@@ -74,6 +74,48 @@ namespace Keyblock
 
 
 
+    /** The line about the support that a wanted factor asks for by trials. */
+    template <int dim>
+    void
+    print_demand(std::ostream &out,
+                 const SafetyFactor &factor,
+                 const Blocks<dim> &blocks)
+    {
+      using Outcome             = TriedDemand::Outcome;
+      const TriedDemand &demand = factor.tried_demand;
+      const double by_statics   = factor.support_demand.pressure;
+      const std::string per     = dim == 2 ? " kN/m" : " kN";
+      out << "Support block " << blocks.blocks[factor.block].id << " after "
+          << factor.stage << ": " << std::setprecision(4);
+      if (demand.outcome == Outcome::bracketed)
+        out << 1e-3 * demand.pressure() << " kPa [" << 1e-3 * demand.lower
+            << ", " << 1e-3 * demand.upper << "], " << 1e-3 * demand.force()
+            << per << " against its free faces";
+      else if (demand.outcome == Outcome::out_of_reach)
+        out << "no pressure on its free faces is enough";
+      else
+        out << "undecided";
+      if (demand.undecided_upper > 0.)
+        out << ", undecided from " << 1e-3 * demand.undecided_lower << " to "
+            << 1e-3 * demand.undecided_upper << " kPa";
+      for (const auto &[set, number] : demand.numbers)
+        out << ", or " << number << (number == 1 ? " bolt" : " bolts")
+            << " of the set " << set << (dim == 2 ? " in each ring" : "");
+      out << ", for a factor of " << factor.support_demand.factor;
+      if (by_statics == 0.)
+        out << "; limit equilibrium asks for none";
+      else if (std::isfinite(by_statics))
+        out << "; limit equilibrium " << 1e-3 * by_statics << " kPa";
+      double seconds = 0.;
+      for (const Trial &trial : demand.trials)
+        seconds += trial.seconds;
+      out << "; " << demand.trials.size()
+          << (demand.trials.size() == 1 ? " trial, " : " trials, ")
+          << std::setprecision(3) << seconds << " s" << std::endl;
+    }
+
+
+
     template <int dim>
     void
     begin_line(std::ostream &out,
@@ -176,6 +218,9 @@ namespace Keyblock
           << (factor.trials.size() == 1 ? " trial, " : " trials, ")
           << std::setprecision(3) << seconds << " s";
     out << std::endl;
+    if (factor.tried_demand.outcome != TriedDemand::Outcome::not_sought &&
+        factor.tried_demand.outcome != TriedDemand::Outcome::met)
+      print_demand(out, factor, blocks);
   }
 
   template void

@@ -5,12 +5,18 @@
 #include <keyblock/run/stage_runner.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace Keyblock
 {
   namespace
   {
+    /** Pressures, over the first guess, with which a stage is run again in
+     * which nothing else holds a block: no more than that takes, as what
+     * pushes it into a notch may wedge it there [-]. */
+    constexpr std::array<double, 5> holding_parts = {{1., 1.25, 2.5, 5., 20.}};
+
     /** Looks for signals only: a stage that is run on trial leaves no trace. */
     template <int dim>
     class SignalWatch : public StageObserver<dim>
@@ -54,14 +60,22 @@ namespace Keyblock
         search.add_cheap_answers(block, cheap);
         if (std::isfinite(cheap.limit_factor))
           known.limit = cheap.limit_factor;
-        return search.find(block, record.present.number(), known);
+        SafetyFactor result =
+          search.find(block, record.present.number(), known);
+        search.add_demand(record.present.number(), known, result);
+        return result;
       }
     // with those that failed beside it, it may hold: they carry it along
     TriedBlocks carried = alone;
     carried.companions  = list_failed_beside(block);
     carried.is_carried  = true;
     if (!carried.companions.empty() && hold_when_strong(carried.all()))
-      return search.find_with(carried, record.present.number(), known);
+      {
+        SafetyFactor result =
+          search.find_with(carried, record.present.number(), known);
+        search.add_demand(record.present.number(), known, result);
+        return result;
+      }
     SafetyFactor result;
     result.block   = block;
     result.outcome = SafetyFactor::Outcome::falls_freely;
@@ -73,7 +87,34 @@ namespace Keyblock
     result.failure_mode = result.limit_factor < lowest
                             ? result.limit_mode
                             : search.mode_if_not_held(block);
+    if (model.scene.safety.is_demand_tried())
+      add_demand_of_fallen_block(search, result);
     return result;
+  }
+
+
+
+  template <int dim>
+  void
+  SafetyStudy<dim>::add_demand_of_fallen_block(
+    StrengthReductionSearch<dim> &search,
+    SafetyFactor &result)
+  {
+    const PressedBlock<dim> pressed = search.press_on_block(result);
+    result.tried_demand.outcome     = TriedDemand::Outcome::out_of_reach;
+    if (pressed.unit == 0.)
+      return;
+    typename StrengthReductionSearch<dim>::Known known;
+    known.start = model.scene.safety.lowest;
+    for (const double part : holding_parts)
+      if (hold_when_strong({result.block}, part * pressed.first_guess))
+        {
+          search.add_demand_of_pressed(pressed,
+                                       record.present.number(),
+                                       known,
+                                       result);
+          return;
+        }
   }
 
 
@@ -113,9 +154,11 @@ namespace Keyblock
 
   template <int dim>
   bool
-  SafetyStudy<dim>::hold_when_strong(const std::vector<unsigned int> &blocks)
+  SafetyStudy<dim>::hold_when_strong(const std::vector<unsigned int> &blocks,
+                                     const double pressure)
   {
     recall(record.before, model.parts());
+    model.conditions->trial_pressure.value = pressure;
     StrengthReduction strong;
     strong.blocks = blocks;
     strong.share  = 1. / model.scene.safety.lowest;

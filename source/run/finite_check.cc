@@ -122,11 +122,14 @@ namespace Keyblock
     bool is_good = std::isfinite(factor.value()) &&
                    std::isfinite(factor.lower) && std::isfinite(factor.upper) &&
                    std::isfinite(factor.stress_ratio) &&
-                   !std::isnan(factor.limit_factor);
-    for (const Trial &trial : factor.trials)
-      is_good =
-        is_good && std::isfinite(trial.slip) && std::isfinite(trial.velocity) &&
-        std::isfinite(trial.acceleration) && std::isfinite(trial.unbalanced);
+                   !std::isnan(factor.limit_factor) &&
+                   std::isfinite(factor.tried_demand.force());
+    for (const auto &trials : {factor.trials, factor.tried_demand.trials})
+      for (const Trial &trial : trials)
+        is_good = is_good && std::isfinite(trial.slip) &&
+                  std::isfinite(trial.velocity) &&
+                  std::isfinite(trial.acceleration) &&
+                  std::isfinite(trial.unbalanced);
     // every rank has the same numbers, or at least the same verdict
     if (model.communicator.on_any(!is_good))
       fail("safety factor after stage '" + factor.stage + "'", factor.block);

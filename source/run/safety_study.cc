@@ -78,8 +78,9 @@ namespace Keyblock
       {
         double &sum = steps[earlier.block];
         sum         = 0.;
-        for (const Trial &trial : earlier.trials)
-          sum += trial.n_steps;
+        for (const auto &trials : {earlier.trials, earlier.tried_demand.trials})
+          for (const Trial &trial : trials)
+            sum += trial.n_steps;
         most = std::max(most, sum);
       }
     std::vector<double> costs;
@@ -132,7 +133,9 @@ namespace Keyblock
     // only rest at the joints' own strength is a start at factor 1
     if (known.stable == 0.)
       known.start = std::max(model.scene.safety.lowest, 0.5 * known.hint);
-    return search.find(block, record.present.number(), known);
+    SafetyFactor result = search.find(block, record.present.number(), known);
+    search.add_demand(record.present.number(), known, result);
+    return result;
   }
 
 

@@ -108,6 +108,7 @@ namespace Keyblock
     list.insert(list.end(),
                 {"Safety factor/Blocks=critical",
                  "Safety factor/Wanted=0",
+                 "Safety factor/Wanted by=limit equilibrium",
                  "Safety factor/Rank groups=1",
                  "Output/Write VTU=false",
                  "Output/Checkpoint interval=0"});

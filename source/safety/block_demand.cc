@@ -10,10 +10,8 @@ namespace Keyblock
 {
   namespace
   {
-    /** Halvings by which a demand is found, and least and greatest demand over
-     * the load that is looked at. */
+    /** Halvings by which a demand is found. */
     constexpr unsigned int n_halvings = 60;
-    constexpr double least_demand = 1e-3, most_demand = 1e4;
 
     /** Bolts of a set more than which are none. */
     constexpr unsigned int most_bolts = 4096;
@@ -109,9 +107,21 @@ namespace Keyblock
              !(has_numbered_sides && mesh.boundary_id[f.cell][f.face] != none);
     }
 
-    /** Free faces of a block that support can press on: all but, for one with a
-     * face that was dug, the ground's surface where it leaves that along @p
-     * way. Centres and vector areas, outwards. */
+    /** Bolts of a set that give @p force [N] together, each the mean capacity
+     * of the set; 0: none do, or it has none. */
+    template <int dim>
+    unsigned int
+    number_of_new_bolts(const Ground<dim> &ground,
+                        const unsigned int set,
+                        const double force)
+    {
+      const double capacity = mean_bolt_capacity(ground, set);
+      return capacity > 0. && std::isfinite(force)
+               ? static_cast<unsigned int>(std::ceil(force / capacity - 1e-9))
+               : 0;
+    }
+
+    /** Centres and vector areas, outwards, of list_supported_faces(). */
     template <int dim>
     std::vector<PointForce<dim>>
     supported_faces(const Ground<dim> &ground,
@@ -121,24 +131,54 @@ namespace Keyblock
                     const Tensor<1, dim> &way)
     {
       const Mesh<dim> &mesh = ground.split.mesh;
-      const auto &own       = free.of_block(block);
-      const bool has_dug =
-        std::any_of(own.begin(), own.end(), [&](const auto i) {
-          return is_dug(ground, free.faces[i]);
-        });
       std::vector<PointForce<dim>> faces;
-      for (const unsigned int i : own)
-        {
-          const CellFace &f         = free.faces[i];
-          const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
-          if (!has_dug || is_dug(ground, f) ||
-              area * way >= -1e-6 * area.norm())
-            faces.push_back(
-              {mesh.face_center(f.cell, f.face), area_ratio * area});
-        }
+      for (const CellFace &f : list_supported_faces(ground, free, block, way))
+        faces.push_back({mesh.face_center(f.cell, f.face),
+                         area_ratio * mesh.face_area_vector(f.cell, f.face)});
       return faces;
     }
   } // namespace
+
+
+
+  template <int dim>
+  std::vector<CellFace>
+  list_supported_faces(const Ground<dim> &ground,
+                       const FreeFaces<dim> &free,
+                       const unsigned int block,
+                       const Tensor<1, dim> &way)
+  {
+    const auto &own    = free.of_block(block);
+    const bool has_dug = std::any_of(own.begin(), own.end(), [&](const auto i) {
+      return is_dug(ground, free.faces[i]);
+    });
+    std::vector<CellFace> faces;
+    for (const unsigned int i : own)
+      {
+        const CellFace &f = free.faces[i];
+        const Tensor<1, dim> area =
+          ground.split.mesh.face_area_vector(f.cell, f.face);
+        if (!has_dug || is_dug(ground, f) || area * way >= -1e-6 * area.norm())
+          faces.push_back(f);
+      }
+    return faces;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::pair<std::string, unsigned int>>
+  list_new_bolts(const Ground<dim> &ground,
+                 const BlockSupport<dim> &support,
+                 const double force)
+  {
+    std::vector<std::pair<std::string, unsigned int>> numbers;
+    for (unsigned int set = 0; set < ground.scene.bolts.size(); ++set)
+      if (const unsigned int n = number_of_new_bolts(ground, set, force);
+          n > 0 && n_bolts_of(support, set) == 0)
+        numbers.emplace_back(ground.scene.bolts[set]->name, n);
+    return numbers;
+  }
 
 
 
@@ -224,19 +264,16 @@ namespace Keyblock
                                area > 0. ? most : 0.);
     demand.pressure   = area > 0. ? demand.force / area : demand.force;
     for (unsigned int set = 0; set < ground.scene.bolts.size(); ++set)
-      {
-        const std::string &name = ground.scene.bolts[set]->name;
-        if (n_bolts_of(support, set) > 0)
-          demand.numbers.emplace_back(
-            name, least_number([&](const unsigned int n) {
-              return does(limit_with(with_more_bolts(support, set, n), {}, 0.));
-            }));
-        else if (const double capacity = mean_bolt_capacity(ground, set);
-                 capacity > 0. && std::isfinite(demand.force))
-          demand.numbers.emplace_back(name,
-                                      static_cast<unsigned int>(std::ceil(
-                                        demand.force / capacity - 1e-9)));
-      }
+      if (n_bolts_of(support, set) > 0)
+        demand.numbers.emplace_back(
+          ground.scene.bolts[set]->name,
+          least_number([&](const unsigned int n) {
+            return does(limit_with(with_more_bolts(support, set, n), {}, 0.));
+          }));
+      else if (const unsigned int n =
+                 number_of_new_bolts(ground, set, demand.force);
+               n > 0)
+        demand.numbers.emplace_back(ground.scene.bolts[set]->name, n);
     return demand;
   }
 
@@ -252,7 +289,13 @@ namespace Keyblock
                                      const unsigned int,                       \
                                      const BlockSurroundings<dim> &,           \
                                      const BlockSupport<dim> &,                \
-                                     const double);
+                                     const double);                            \
+  template std::vector<CellFace> list_supported_faces(const Ground<dim> &,     \
+                                                      const FreeFaces<dim> &,  \
+                                                      const unsigned int,      \
+                                                      const Tensor<1, dim> &); \
+  template std::vector<std::pair<std::string, unsigned int>> list_new_bolts(   \
+    const Ground<dim> &, const BlockSupport<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

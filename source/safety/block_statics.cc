@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/safety/block_remarks.h>
+#include <keyblock/safety/kinetic_friction.h>
 
 #include <algorithm>
 
@@ -57,6 +58,16 @@ namespace Keyblock
            !scene.initial_state.measured_points.empty();
   }
 
+
+
+  template <int dim>
+  bool
+  is_known_to_statics(const Scene<dim> &scene)
+  {
+    return !has_initial_stress(scene) && !has_kinetic_friction(scene) &&
+           scene.bolts.empty() && scene.liners.empty();
+  }
+
   template BlockStatics<2> judge_block(const Ground<2> &,
                                        const FreeFaces<2> &,
                                        const Blocks<2> &,
@@ -71,4 +82,6 @@ namespace Keyblock
                                        const BrokenSegments &);
   template bool has_initial_stress(const Scene<2> &);
   template bool has_initial_stress(const Scene<3> &);
+  template bool is_known_to_statics(const Scene<2> &);
+  template bool is_known_to_statics(const Scene<3> &);
 } // namespace Keyblock

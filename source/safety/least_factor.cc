@@ -69,4 +69,26 @@ namespace Keyblock
         largest = &factor;
     return largest;
   }
+
+
+
+  const SafetyFactor *
+  largest_tried_demand(const std::vector<SafetyFactor> &factors,
+                       const unsigned int block)
+  {
+    using Outcome      = TriedDemand::Outcome;
+    const auto size_of = [](const TriedDemand &demand) {
+      return demand.outcome == Outcome::bracketed ? demand.force()
+             : demand.outcome == Outcome::met     ? 0.
+                                                  : infinity;
+    };
+    const SafetyFactor *largest = nullptr;
+    for (const SafetyFactor &factor : factors)
+      if (factor.block == block &&
+          factor.tried_demand.outcome != Outcome::not_sought &&
+          (largest == nullptr ||
+           size_of(factor.tried_demand) > size_of(largest->tried_demand)))
+        largest = &factor;
+    return largest;
+  }
 } // namespace Keyblock

@@ -2,7 +2,6 @@
 // The search for the factor between holding and failing.
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/safety/factor_bracket.h>
-#include <keyblock/safety/kinetic_friction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,17 +17,6 @@ namespace Keyblock
     held_so_far(const SafetyFactor &result)
     {
       return result.group.empty() ? result.lower : result.group_lower;
-    }
-
-
-
-    /** Whether limit equilibrium knows all that acts on blocks. */
-    template <int dim>
-    bool
-    is_known_to_statics(const Scene<dim> &scene)
-    {
-      return !has_initial_stress(scene) && !has_kinetic_friction(scene) &&
-             scene.bolts.empty() && scene.liners.empty();
     }
   } // namespace
 

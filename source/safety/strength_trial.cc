@@ -159,11 +159,14 @@ namespace Keyblock
   {
     // along half a cosine
     const unsigned int ramp = ramp_periods * measures.period(tried.block);
+    double &pressure        = run.conditions.trial_pressure.value;
+    const double before     = pressure;
     for (unsigned int step = 1; step <= ramp; ++step)
       {
         const double s =
           0.5 * (1. - std::cos(dealii::numbers::PI * step / ramp));
         reduce(tried, from * std::pow(to / from, s));
+        pressure = before + s * (trial.pressure - before);
         run.step.advance(false);
       }
     trial.n_steps += ramp;
@@ -293,12 +296,14 @@ namespace Keyblock
                                   const unsigned int number,
                                   const double start,
                                   const double factor,
-                                  const Vector<dim> &first)
+                                  const Vector<dim> &first,
+                                  const double pressure)
   {
     const double begin = MPI_Wtime();
     Trial trial;
-    trial.factor = factor;
-    trial.start  = start;
+    trial.factor   = factor;
+    trial.pressure = pressure;
+    trial.start    = start;
     reduce(tried, start);
     run.conditions.scale_density(false);
     const double true_mass = measures.mass_in_use(tried.block);

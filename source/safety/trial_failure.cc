@@ -45,6 +45,7 @@ namespace Keyblock
   TrialFailure<dim>::forget()
   {
     last_mode.clear();
+    last_way = Vector<dim>{};
     along.clear();
     moving.clear();
   }
@@ -107,6 +108,7 @@ namespace Keyblock
       return mean;
     };
     const Vector<dim> own = way(block);
+    last_way              = own;
     along.clear();
     moving.clear();
     for (unsigned int b = 0; b < n_blocks; ++b)

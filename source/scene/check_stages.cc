@@ -285,6 +285,18 @@ namespace Keyblock
             "no step is made, but 'Check/Closed form' is " +
               name_of(scene.checks.closed_form) +
               ", which is measured on steps; set it to none.");
+    if (safety.wanted_by == DemandSearch::strength_reduction)
+      {
+        require(safety.wanted > 0.,
+                "The entry 'Safety factor/Wanted by' is strength reduction, "
+                "but 'Wanted' is 0, so that no support is looked for; set "
+                "'Safety factor/Wanted' to the factor that blocks shall have.");
+        require(!safety.is_by_statics(),
+                "The entry 'Safety factor/Wanted by' is strength reduction, "
+                "but 'Method' is limit equilibrium, with which no trial is "
+                "made; set 'Safety factor/Method' to bisection, or 'Wanted "
+                "by' to limit equilibrium.");
+      }
     require(safety.lowest < 1. && safety.highest > 1.,
             "The entries 'Safety factor/Lowest' and 'Highest' must have 1 "
             "between them.");

@@ -18,6 +18,10 @@ namespace dealii::Patterns::Tools
     : Keyblock::ChoiceConversion<Keyblock::FactorSearch>
   {};
   template <>
+  struct Convert<Keyblock::DemandSearch>
+    : Keyblock::ChoiceConversion<Keyblock::DemandSearch>
+  {};
+  template <>
   struct Convert<Keyblock::BoltConvention>
     : Keyblock::ChoiceConversion<Keyblock::BoltConvention>
   {};
@@ -76,6 +80,13 @@ namespace Keyblock
                       "for besides the support it has; the search for a factor "
                       "ends where a block holds at it; 0: none [-].",
                       not_negative);
+    prm.add_parameter(
+      "Wanted by",
+      wanted_by,
+      "What tells the support that a wanted factor asks for. limit "
+      "equilibrium: that alone; strength reduction: besides, for each block "
+      "that does not hold at Wanted, the least pressure on its free faces "
+      "with which it does, by trials with strength divided by Wanted.");
     prm.add_parameter(
       "Bolt convention",
       bolt_convention,

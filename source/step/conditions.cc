@@ -14,6 +14,7 @@ namespace Keyblock
     : active_cells(scene, split, numbering, cells, fields)
     , supports(scene, split, numbering, clock, fields)
     , loads(scene, split, numbering, fields)
+    , trial_pressure(split, numbering)
     , scene(scene)
     , split(split)
     , numbering(numbering)
@@ -122,7 +123,11 @@ namespace Keyblock
   StageState
   Conditions<dim>::remember() const
   {
-    StageState state{active_cells.state(), loads.state(), clock.state(), {}};
+    StageState state{active_cells.state(),
+                     loads.state(),
+                     clock.state(),
+                     {},
+                     trial_pressure.value};
     for (const auto &element : elements)
       state.elements.push_back(element->remember());
     return state;
@@ -137,6 +142,7 @@ namespace Keyblock
     active_cells.recall(state.cells);
     loads.recall(state.loads);
     clock.recall(state.stage_begins);
+    trial_pressure.value = state.trial_pressure;
     for (unsigned int i = 0; i < elements.size(); ++i)
       elements[i]->recall(state.elements.at(i));
   }

@@ -103,6 +103,7 @@ namespace Keyblock
     numbering.add_ghosts_to_owners(fields.internal_force);
     for (const auto &element : conditions.elements)
       element->add_force(fields.displacement, fields.internal_force);
+    conditions.trial_pressure.add_force(fields.internal_force);
     if (pass.has_damping)
       {
         numbering.add_hanging_to_masters(fields.damping_force);

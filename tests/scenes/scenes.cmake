@@ -242,6 +242,46 @@ keyblock_scene(verification/two_wedges REFERENCES two_wedges_wanted ALIKE RANKS 
 # blocks that others push, which reach farther or move more slowly
 keyblock_scene(verification/toe_block RANKS 1 SET "Safety factor/Blocks=2")
 keyblock_scene(verification/column_on_block RANKS 1 SET "Safety factor/Blocks=2")
+# support that a wanted factor asks for by trials: of a block that slides, also with a
+# bolt, or bolts to come; of a wedge that falls; and pushed by others, where limit
+# equilibrium asks for none
+keyblock_scene(verification/factor_incline REFERENCES factor_incline_demand RANKS 1 2
+  SET "Safety factor/Wanted=1.4" "Safety factor/Wanted by=strength reduction"
+  "Safety factor/Bracket=0.002" "Joints/base/Friction angle=50"
+  "Initial state/Gravity=9.81*sin(60*pi/180)@ -9.81*cos(60*pi/180)")
+keyblock_scene(verification/factor_incline REFERENCES factor_incline_met RANKS 1
+  SET "Safety factor/Wanted=0.65" "Safety factor/Wanted by=strength reduction")
+keyblock_scene(verification/factor_incline REFERENCES factor_incline_demands RANKS 2
+  SET "Safety factor/Wanted=1.1" "Safety factor/Wanted by=strength reduction"
+  "Safety factor/Rank groups=2" "Safety factor/Bracket=0.002"
+  "Excavations/Names=uphill, downhill, slot" "Excavations/slot/Shape=box"
+  "Excavations/slot/Corner=-0.05, 0" "Excavations/slot/Size=0.1, 0.1")
+keyblock_scene(verification/bolted_incline REFERENCES bolted_incline_demand RANKS 1
+  SET "Safety factor/Wanted=1.5" "Safety factor/Wanted by=strength reduction"
+  "Safety factor/Bracket=0.002")
+keyblock_scene(verification/bolted_incline REFERENCES bolted_incline_to_come RANKS 1
+  SET "Safety factor/Wanted=1.5" "Safety factor/Wanted by=strength reduction"
+  "Safety factor/Bracket=0.002" "Safety factor/Stages=rest"
+  "Stages/Names=rest, later" "Stages/later/Kind=quasi-static"
+  "Stages/later/Friction angle override=84.2894" "Bolts/anchor/Stage=later")
+keyblock_scene(verification/falling_wedge RANKS 1 2)
+keyblock_scene(verification/falling_wedge REFERENCES falling_wedge_3 ALIKE RANKS 1
+  SET "Safety factor/Wanted=3")
+keyblock_scene(verification/slanted_wedge REFERENCES slanted_wedge_demand RANKS 1
+  SET "Safety factor/Wanted=2.2" "Safety factor/Wanted by=strength reduction")
+keyblock_scene(verification/toe_block REFERENCES toe_block_demand RANKS 1 2
+  SET "Safety factor/Wanted=1.25" "Safety factor/Wanted by=strength reduction"
+  "Safety factor/Blocks=2" "Safety factor/Bracket=0.004")
+keyblock_scene(verification/column_on_block REFERENCES column_on_block_demand
+  RANKS 1 SET "Safety factor/Wanted=1.6" "Safety factor/Blocks=2"
+  "Safety factor/Wanted by=strength reduction" "Safety factor/Bracket=0.004")
+# both of a group ask for what both need, pressed wherever each is free, under stress
+keyblock_scene(verification/carried_slab REFERENCES carried_slab_demand RANKS 1
+  SET "Safety factor/Wanted=1.2" "Safety factor/Wanted by=strength reduction"
+  "Safety factor/Bracket=0.01")
+keyblock_scene(verification/two_wedges REFERENCES two_wedges_demand ALIKE RANKS 1
+  SET "Safety factor/Wanted=2" "Safety factor/Wanted by=strength reduction"
+  "Safety factor/Blocks=2" "Safety factor/Bracket=0.005")
 # nothing ties what only met through rock that is dug
 keyblock_scene(verification/wedges_at_point RANKS 1 2)
 # rock that yields where its strength is reduced, too

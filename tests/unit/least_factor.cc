@@ -79,3 +79,29 @@ BOOST_AUTO_TEST_CASE(least_factor_and_largest_demand_of_different_stages)
   BOOST_TEST(stage_of(largest_demand(factors, 0)) == "dig");
   BOOST_TEST(stage_of(largest_demand({factors[2]}, 0)) == "none");
 }
+
+
+
+BOOST_AUTO_TEST_CASE(largest_demand_by_trials)
+{
+  const auto asking = [](const std::string &stage,
+                         const TriedDemand::Outcome outcome,
+                         const double upper) {
+    SafetyFactor factor;
+    factor.stage                = stage;
+    factor.tried_demand.outcome = outcome;
+    factor.tried_demand.lower = factor.tried_demand.upper = upper;
+    factor.tried_demand.area                              = 2.;
+    return factor;
+  };
+  std::vector<SafetyFactor> factors = {
+    asking("dig", TriedDemand::Outcome::met, 0.),
+    asking("bench", TriedDemand::Outcome::bracketed, 3e3),
+    asking("bolt", TriedDemand::Outcome::bracketed, 2e3),
+    SafetyFactor()};
+  BOOST_TEST(stage_of(largest_tried_demand(factors, 0)) == "bench");
+  BOOST_TEST(factors[1].tried_demand.force() == 6e3);
+  BOOST_TEST(stage_of(largest_tried_demand({factors[3]}, 0)) == "none");
+  factors.push_back(asking("lake", TriedDemand::Outcome::out_of_reach, 0.));
+  BOOST_TEST(stage_of(largest_tried_demand(factors, 0)) == "lake");
+}

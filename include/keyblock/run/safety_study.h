@@ -63,14 +63,22 @@ namespace Keyblock
     SafetyFactor factor_of_standing_block(StrengthReductionSearch<dim> &search,
                                           const unsigned int block);
 
+    /** Find the support by which a block that nothing has held in the stage
+     * holds at the wanted factor: the stage is run again with a pressure on it.
+     */
+    void add_demand_of_fallen_block(StrengthReductionSearch<dim> &search,
+                                    SafetyFactor &result);
+
     /** Blocks (indices) that failed in the present stage, too, and touch @p
      * block or each other. */
     std::vector<unsigned int>
     list_failed_beside(const unsigned int block) const;
 
     /** Whether @p blocks (indices), which failed in the present stage, all hold
-     * in it with the highest strength that is tried. */
-    bool hold_when_strong(const std::vector<unsigned int> &blocks);
+     * in it with the highest strength that is tried, and with @p pressure as
+     * Conditions::trial_pressure [Pa]. */
+    bool hold_when_strong(const std::vector<unsigned int> &blocks,
+                          const double pressure = 0.);
 
     Model<dim> &model;
     FiniteCheck<dim> &finite_check;

@@ -30,6 +30,27 @@ namespace Keyblock
               const std::vector<PointForce<dim>> &free_faces = {},
               const double pressure                          = 0.);
 
+  /** Demands over the load of a block that are none, and that are looked at
+   * [-]. */
+  constexpr double least_demand = 1e-3, most_demand = 1e4;
+
+  /** Free faces of a block (by index) that support can press on: all but, for
+   * one with a face that was dug, the ground's surface where it leaves that
+   * along @p way. */
+  template <int dim>
+  std::vector<CellFace> list_supported_faces(const Ground<dim> &ground,
+                                             const FreeFaces<dim> &free,
+                                             const unsigned int block,
+                                             const Tensor<1, dim> &way);
+
+  /** Bolts of the scene's sets of which a block (by index) has none, that give
+   * @p force [N] together, each its mean capacity. */
+  template <int dim>
+  std::vector<std::pair<std::string, unsigned int>>
+  list_new_bolts(const Ground<dim> &ground,
+                 const BlockSupport<dim> &support,
+                 const double force);
+
   /** What @p block (index) needs besides its support for a @p factor; nothing
    * if it has that. */
   template <int dim>
@@ -85,6 +106,10 @@ namespace Keyblock
    * equilibrium leaves out. */
   template <int dim>
   bool has_initial_stress(const Scene<dim> &scene);
+
+  /** Whether limit equilibrium knows all that acts on blocks. */
+  template <int dim>
+  bool is_known_to_statics(const Scene<dim> &scene);
 
   /**
    * The table for people: of each block with a free face its factor, mode and

@@ -20,6 +20,12 @@ namespace Keyblock
    * of equal ones. Null: none asks for a factor. */
   const SafetyFactor *largest_demand(const std::vector<SafetyFactor> &factors,
                                      const unsigned int block);
+
+  /** The same of support by trials; what is out of reach is most. Null: none
+   * was looked for. */
+  const SafetyFactor *
+  largest_tried_demand(const std::vector<SafetyFactor> &factors,
+                       const unsigned int block);
 } // namespace Keyblock
 
 #endif

@@ -5,6 +5,7 @@
 #include <keyblock/safety/once_gone.h>
 #include <keyblock/safety/strength_trial.h>
 #include <keyblock/safety/support_demand.h>
+#include <keyblock/safety/tried_demand.h>
 
 namespace Keyblock
 {
@@ -51,6 +52,8 @@ namespace Keyblock
 
     std::vector<Trial> trials;
 
+    TriedDemand tried_demand; ///< of SafetySettings::wanted
+
     // the two cheap answers
     std::string limit_mode, limit_remark;
     double limit_factor = 0.;     ///< infinite: stable
@@ -93,6 +96,19 @@ namespace Keyblock
   std::vector<unsigned int>
   share_last_group(const Blocks<dim> &blocks,
                    std::vector<SafetyFactor> &factors);
+
+  /** A block on whose free faces support presses. */
+  template <int dim>
+  struct PressedBlock
+  {
+    Vector<dim> place{}; ///< displacement where it has its place [m]
+    Tensor<1, dim> area; ///< sum of the faces' areas, outwards [m^(dim-1)]
+    double area_of_force = 0.; ///< its size for limit equilibrium, which takes
+                               ///< that of the exact block [m^(dim-1)]
+    double unit        = 0.; ///< the block's load over it [Pa]; 0: no such face
+    double by_statics  = 0.; ///< what limit equilibrium asks for; 0: not [Pa]
+    double first_guess = 0.; ///< [Pa]
+  };
 
   /** How far the search for the factor of a block is. */
   struct SearchAdvance
@@ -143,6 +159,26 @@ namespace Keyblock
                            const unsigned int number,
                            const Known &known);
 
+    /**
+     * Find the support by which the block of @p result, which find() or
+     * find_with() has given for the same state, holds at the wanted factor,
+     * with its group if that is what fails at it. Nothing if none is wanted.
+     */
+    void add_demand(const unsigned int number,
+                    const Known &known,
+                    SafetyFactor &result);
+
+    /** The same of a block that the pressure on it has held in the present
+     * state, and that nothing else would have. */
+    void add_demand_of_pressed(const PressedBlock<dim> &pressed,
+                               const unsigned int number,
+                               const Known &known,
+                               SafetyFactor &result);
+
+    /** Let Conditions::trial_pressure, zero so far, act on the block of
+     * @p result as it is free now. */
+    PressedBlock<dim> press_on_block(const SafetyFactor &result);
+
     /** Limit equilibrium and stress ratio of @p block in the present state. */
     void add_cheap_answers(const unsigned int block,
                            SafetyFactor &result) const;
@@ -160,7 +196,24 @@ namespace Keyblock
     std::function<void(const SearchAdvance &)> watcher;
 
   private:
+    class Origin;
     class Search;
+    class PressureSearch;
+
+    /** What is known of a block before trials change the pressure on it. */
+    struct PressureState
+    {
+      bool is_at_rest    = true; ///< under the present pressure
+      bool fails_without = true; ///< without any, at the wanted factor
+    };
+
+    /** Find the pressure on one of the blocks that are @p tried. */
+    void search_pressure(const TriedBlocks &tried,
+                         const PressedBlock<dim> &pressed,
+                         const unsigned int number,
+                         const double start,
+                         const PressureState &now,
+                         TriedDemand &demand);
 
     /** Tell the watcher. */
     void

@@ -13,6 +13,7 @@ namespace Keyblock
   struct Trial
   {
     double factor         = 0.;
+    double pressure       = 0.; ///< on the block's free faces [Pa]
     double start          = 0.; ///< factor of the equilibrium it started from
     bool is_of_group      = false; ///< of all blocks that move together
     bool is_stable        = false;
@@ -67,12 +68,14 @@ namespace Keyblock
      * the present state of stage @p number is an equilibrium, to @p factor
      * (collective).
      * @param first mean slip of the block at the end of the stage [m]
+     * @param pressure what Conditions::trial_pressure changes to with it [Pa]
      */
     Trial try_factor(const TriedBlocks &tried,
                      const unsigned int number,
                      const double start,
                      const double factor,
-                     const Vector<dim> &first);
+                     const Vector<dim> &first,
+                     const double pressure = 0.);
 
     const TrialMeasures<dim> measures;
 
@@ -125,7 +128,8 @@ namespace Keyblock
     /** Of the second. */
     Stage moving_stage() const;
 
-    /** Gradually, in steps of the first phase. */
+    /** Gradually, in steps of the first phase, and with it the pressure to that
+     * of the trial. */
     void change_strength(const TriedBlocks &tried,
                          const double from,
                          const double to,

@@ -46,6 +46,13 @@ namespace Keyblock
       return last_mode;
     }
 
+    /** Mean way of the block that failed; zero: none has [m]. */
+    const Vector<dim> &
+    way() const
+    {
+      return last_way;
+    }
+
     /** Other finite blocks that moved along: by at least half of its way in
      * its direction. */
     const std::vector<unsigned int> &
@@ -75,6 +82,7 @@ namespace Keyblock
     Vector<dim> slip_before{};       ///< mean, on contacts, of that phase [m]
     std::vector<double> joint_force; ///< at its windows' ends, added up [N]
     std::string last_mode;
+    Vector<dim> last_way{}; ///< [m]
     std::vector<unsigned int> along, moving;
   };
 } // namespace Keyblock

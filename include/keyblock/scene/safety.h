@@ -43,6 +43,19 @@ namespace Keyblock
       {"bisection", "sweep", "limit equilibrium"}};
   };
 
+  /** What tells the support that a wanted factor asks for. */
+  enum class DemandSearch
+  {
+    limit_equilibrium,
+    strength_reduction ///< trials too, with a pressure on the free faces
+  };
+  template <>
+  struct ChoiceNames<DemandSearch>
+  {
+    static constexpr std::array<const char *, 2> names = {
+      {"limit equilibrium", "strength reduction"}};
+  };
+
   /** How the forces of bolts enter a factor. */
   enum class BoltConvention
   {
@@ -83,6 +96,7 @@ namespace Keyblock
     double removal_slip            = 0.05;
     BoltConvention bolt_convention = BoltConvention::active;
     double wanted                  = 0.; ///< factor [-]
+    DemandSearch wanted_by         = DemandSearch::limit_equilibrium;
     double critical_factor         = 2.; ///< by limit equilibrium [-]
     unsigned int rank_groups       = 1;
 
@@ -98,6 +112,14 @@ namespace Keyblock
     is_by_statics() const
     {
       return method == FactorSearch::limit_equilibrium;
+    }
+
+    /** Whether trials look for the support that the wanted factor asks for. */
+    bool
+    is_demand_tried() const
+    {
+      return wanted > 0. && wanted_by == DemandSearch::strength_reduction &&
+             is_wanted() && !is_by_statics();
     }
 
     /** Whether only blocks with a free face are asked for. */

@@ -11,6 +11,7 @@
 #include <keyblock/step/stage_clock.h>
 #include <keyblock/step/structural_liner.h>
 #include <keyblock/step/supports.h>
+#include <keyblock/step/trial_pressure.h>
 
 #include <algorithm>
 
@@ -23,6 +24,7 @@ namespace Keyblock
     LoadState loads;
     std::vector<double> stage_begins; ///< StageClock::state [s]
     std::vector<ForceElementState> elements;
+    double trial_pressure = 0.; ///< zero but in trials: not in files [Pa]
   };
 
   /**
@@ -152,6 +154,7 @@ namespace Keyblock
     Supports<dim> supports;
     Loads<dim> loads;
     ForceElements<dim> elements;
+    TrialPressure<dim> trial_pressure;
 
     StableStep<dim> stable_step; ///< of the masses in use and all elements
 

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The search for the pressure on a block's free faces with which it holds at
+// the wanted factor.
+#include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/pressure_bracket.h>
+
+#include <cmath>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Resultant over the load of the block of @p result in the trial that
+     * failed at the factor that is nearest to @p wanted; 0: none has [-]. */
+    double
+    unbalanced_in_failure(const SafetyFactor &result, const double wanted)
+    {
+      const Trial *nearest = nullptr;
+      for (const Trial &trial : result.trials)
+        if (!trial.is_stable && !trial.is_undecided &&
+            (nearest == nullptr || std::abs(trial.factor - wanted) <
+                                     std::abs(nearest->factor - wanted)))
+          nearest = &trial;
+      return nearest == nullptr ? 0. : nearest->unbalanced;
+    }
+  } // namespace
+
+
+
+  std::string
+  describe_outcome(const TriedDemand &demand)
+  {
+    switch (demand.outcome)
+      {
+        case TriedDemand::Outcome::not_sought:
+          return "";
+        case TriedDemand::Outcome::met:
+          return "met";
+        case TriedDemand::Outcome::bracketed:
+          return "support";
+        case TriedDemand::Outcome::out_of_reach:
+          return "out of reach";
+        case TriedDemand::Outcome::undecided:
+          return "undecided";
+      }
+    return "";
+  }
+
+
+
+  template <int dim>
+  PressedBlock<dim>
+  StrengthReductionSearch<dim>::press_on_block(const SafetyFactor &result)
+  {
+    const Ground<dim> ground = run.conditions.active_cells.ground();
+    const FreeFaces<dim> free(ground);
+    const BlockStatics<dim> statics =
+      judge_block<dim>(ground,
+                       free,
+                       blocks,
+                       result.block,
+                       run.step.time,
+                       run.conditions.broken_segments());
+    Tensor<1, dim> way = statics.limit.direction;
+    if (way.norm() == 0.)
+      for (unsigned int d = 0; d < dim; ++d)
+        way[d] = trials.failure.way()[d];
+    const std::vector<CellFace> faces =
+      list_supported_faces(ground, free, result.block, way);
+    run.conditions.trial_pressure.press_on(faces);
+
+    PressedBlock<dim> pressed;
+    double sum = 0.;
+    for (const CellFace &f : faces)
+      {
+        const Tensor<1, dim> area = split.mesh.face_area_vector(f.cell, f.face);
+        pressed.area += area;
+        sum += area.norm();
+      }
+    // those on both ends cancel each other
+    if (pressed.area.norm() <= 1e-6 * sum)
+      return pressed;
+    TriedBlocks alone;
+    alone.block = result.block;
+    pressed.area_of_force =
+      statics.around.free_area_ratio * pressed.area.norm();
+    pressed.unit = trials.measures.motion(alone).load / pressed.area.norm();
+    if (std::isfinite(statics.demand.pressure))
+      pressed.by_statics = statics.demand.pressure;
+    const double unbalanced =
+      unbalanced_in_failure(result, scene.safety.wanted);
+    pressed.first_guess =
+      pressed.by_statics > 0.
+        ? pressed.by_statics
+        : pressed.unit * (unbalanced > 0. ? unbalanced : 1.);
+    return pressed;
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthReductionSearch<dim>::search_pressure(
+    const TriedBlocks &tried,
+    const PressedBlock<dim> &pressed,
+    const unsigned int number,
+    const double start,
+    const PressureState &now,
+    TriedDemand &demand)
+  {
+    PressureSearch search(
+      *this, tried, pressed, number, start, now.is_at_rest, demand);
+    demand.outcome = search.find(now.fails_without);
+    search.finish();
+    demand.area = pressed.area_of_force;
+    if (demand.outcome == TriedDemand::Outcome::bracketed)
+      demand.numbers = list_new_bolts(
+        run.conditions.active_cells.ground(),
+        find_support_of_block(run.conditions.active_cells.ground(),
+                              tried.block,
+                              run.step.time,
+                              run.conditions.broken_segments()),
+        demand.force());
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthReductionSearch<dim>::add_demand(const unsigned int number,
+                                           const Known &known,
+                                           SafetyFactor &result)
+  {
+    using Outcome       = SafetyFactor::Outcome;
+    const double wanted = scene.safety.wanted;
+    if (!scene.safety.is_demand_tried())
+      return;
+    const bool is_carried = result.outcome == Outcome::carried;
+    const bool group_fails =
+      !result.group.empty() && result.group_lower < wanted;
+    if (!group_fails && (is_carried || result.lower >= wanted))
+      {
+        result.tried_demand.outcome = TriedDemand::Outcome::met;
+        return;
+      }
+    TriedBlocks tried;
+    tried.block      = result.block;
+    tried.is_carried = is_carried;
+    if (group_fails)
+      for (const unsigned int id : result.group)
+        if (id != blocks.blocks[result.block].id)
+          tried.companions.push_back(id - 1);
+    const double unstable = group_fails ? result.group_upper : result.upper;
+    PressureState now;
+    now.is_at_rest    = result.outcome != Outcome::falls_freely;
+    now.fails_without = unstable > 0. && unstable <= wanted;
+    search_pressure(tried,
+                    press_on_block(result),
+                    number,
+                    known.start,
+                    now,
+                    result.tried_demand);
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthReductionSearch<dim>::add_demand_of_pressed(
+    const PressedBlock<dim> &pressed,
+    const unsigned int number,
+    const Known &known,
+    SafetyFactor &result)
+  {
+    TriedBlocks alone;
+    alone.block = result.block;
+    search_pressure(alone,
+                    pressed,
+                    number,
+                    known.start,
+                    PressureState(),
+                    result.tried_demand);
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template PressedBlock<dim> StrengthReductionSearch<dim>::press_on_block(     \
+    const SafetyFactor &);                                                     \
+  template void StrengthReductionSearch<dim>::add_demand(const unsigned int,   \
+                                                         const Known &,        \
+                                                         SafetyFactor &);      \
+  template void StrengthReductionSearch<dim>::add_demand_of_pressed(           \
+    const PressedBlock<dim> &,                                                 \
+    const unsigned int,                                                        \
+    const Known &,                                                             \
+    SafetyFactor &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Keyblock
