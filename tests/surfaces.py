@@ -276,11 +276,8 @@ def physical_groups(dim):
         results.append(blocks(scene, f"{name}_{dim}", [])[0])
     for found in results[1:]:
         same(found, results[0])
-    # what used.prm says is the same scene
-    again = FOLDER / f"again_{dim}.prm"
-    again.write_text((FOLDER / f"number_{dim}" / "used.prm").read_text(encoding="utf-8"),
-                     encoding="utf-8")
-    same(blocks(again, f"again_{dim}", [])[0], results[0])
+    # what used.prm says is the same scene, whose file it finds from its own folder
+    same(blocks(FOLDER / f"number_{dim}" / "used.prm", f"again_{dim}", [])[0], results[0])
 
 
 def physical_groups_2d():
