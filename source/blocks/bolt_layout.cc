@@ -6,6 +6,7 @@
 #include <keyblock/blocks/bolt_pattern.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace Keyblock
@@ -24,6 +25,34 @@ namespace Keyblock
           text += p == &bolt.head ? ") to (" : ")";
         }
       return text;
+    }
+
+    /** Distance of a head before the free face, over the size of the cell
+     * there, up to which it is taken as on that face [-]. */
+    constexpr double head_tolerance = 0.1;
+
+    /** trace_bolt(), with a head that lies a little in the air moved onto the
+     * free face. */
+    template <int dim>
+    void
+    trace_from_face(const CellLocator<dim> &rock,
+                    const SplitMesh<dim> &split,
+                    const BoltSet<dim> &set,
+                    Bolt<dim> &bolt)
+    {
+      const Bolt<dim> as_given = bolt;
+      trace_bolt(rock, split, set, bolt);
+      const unsigned int first = first_piece_in_rock(bolt);
+      if (first == 0 || first == bolt.pieces.size())
+        return;
+      const CellPiece piece = bolt.pieces[first];
+      if (piece.begin >
+          head_tolerance *
+            std::pow(split.mesh.cell_volume(piece.cell), 1. / dim))
+        return;
+      bolt      = as_given;
+      bolt.head = as_given.at(piece.begin);
+      trace_bolt(rock, split, set, bolt);
     }
 
     /** Throw InputError if a bolt does not end in rock, or has no grout there.
@@ -168,7 +197,7 @@ namespace Keyblock
         });
         for (Bolt<dim> &bolt : of_set)
           {
-            trace_bolt(rock, split, set, bolt);
+            trace_from_face(rock, split, set, bolt);
             check_place(bolt, set);
             check_pretension(bolt, set, ground);
             bolts.push_back(bolt);

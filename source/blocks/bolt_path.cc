@@ -212,8 +212,23 @@ namespace Keyblock
         rock.find_in(bolt.pieces[bolt.piece_at(place)].cell, bolt.at(place)));
   }
 
+
+
+  template <int dim>
+  unsigned int
+  first_piece_in_rock(const Bolt<dim> &bolt)
+  {
+    return std::find_if(bolt.pieces.begin(),
+                        bolt.pieces.end(),
+                        [](const CellPiece &piece) {
+                          return piece.cell != none;
+                        }) -
+           bolt.pieces.begin();
+  }
+
 #define INSTANTIATE(dim)                                                       \
   template double decay_length(const BoltSet<dim> &);                          \
+  template unsigned int first_piece_in_rock(const Bolt<dim> &);                \
   template void trace_bolt(const CellLocator<dim> &,                           \
                            const SplitMesh<dim> &,                             \
                            const BoltSet<dim> &,                               \

@@ -2,12 +2,14 @@
 #include <keyblock/blocks/mesh_fidelity.h>
 
 #include <keyblock/base/number_text.h>
+#include <keyblock/blocks/ground.h>
 #include <keyblock/mesh/excavation_region.h>
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/mesh/size_remedy.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Keyblock
 {
@@ -269,6 +271,26 @@ namespace Keyblock
       return most;
     }
 
+    /** The excavation (index) whose surface a face of a cell leaves least. */
+    template <int dim>
+    unsigned int
+    nearest_excavation(const Mesh<dim> &mesh,
+                       const CellFace &face,
+                       const Scene<dim> &scene)
+    {
+      unsigned int nearest = none;
+      double least         = std::numeric_limits<double>::max();
+      for (unsigned int e = 0; e < scene.excavations.size(); ++e)
+        if (const double distance =
+              shift_from_solids(mesh, face, *scene.excavations[e]).distance;
+            distance < least)
+          {
+            least   = distance;
+            nearest = e;
+          }
+      return nearest;
+    }
+
     /** Excavations of a file whose surface cells leave: curved ones, which they
      * follow by chords. */
     template <int dim>
@@ -294,18 +316,18 @@ namespace Keyblock
             if (mesh.excavation[c] != none ||
                 (!is_bare && (other == none || mesh.excavation[other] == none)))
               continue;
-            for (unsigned int e = 0; e < shifts.size(); ++e)
-              if (scene.excavations[e]->shape == ExcavationShape::file &&
-                  (is_bare || mesh.excavation[other] == e))
-                {
-                  const Shift<dim> shift =
-                    shift_from_solids(mesh,
-                                      CellFace{c, f},
-                                      *scene.excavations[e]);
-                  if (shift.in_cells > shifts[e].in_cells &&
-                      (!is_bare || shift.in_cells < largest_shift))
-                    shifts[e] = shift;
-                }
+            const CellFace face{c, f};
+            const unsigned int e = is_bare
+                                     ? nearest_excavation(mesh, face, scene)
+                                     : mesh.excavation[other];
+            if (e == none ||
+                scene.excavations[e]->shape != ExcavationShape::file)
+              continue;
+            const Shift<dim> shift =
+              shift_from_solids(mesh, face, *scene.excavations[e]);
+            if (shift.in_cells > shifts[e].in_cells &&
+                (!is_bare || shift.in_cells < largest_shift))
+              shifts[e] = shift;
           }
       Shift<dim> most;
       std::vector<std::string> names;

@@ -2,6 +2,7 @@
 #include <keyblock/blocks/block_measures.h>
 #include <keyblock/python/any_blocks.h>
 #include <keyblock/safety/block_cascade.h>
+#include <keyblock/safety/hanging_group.h>
 #include <keyblock/scene/entries.h>
 
 #include <algorithm>
@@ -100,7 +101,8 @@ namespace Keyblock::Python
              const FreeFaces<dim> &free,
              const Blocks<dim> &blocks,
              const JudgedBlock<dim> &judged,
-             const double wanted)
+             const double wanted,
+             const double time)
     {
       const unsigned int block           = judged.block;
       const BlockStatics<dim> &statics   = judged.statics;
@@ -123,7 +125,13 @@ namespace Keyblock::Python
       if (wanted > 0.)
         {
           const SupportDemand demand = find_demand(
-            ground, free, block, statics.around, statics.support, wanted);
+            ground,
+            free,
+            block,
+            statics.around,
+            without_shared_shotcrete(
+              ground, free, blocks, block, time, wanted, statics.support),
+            wanted);
           result.support_force    = demand.force;
           result.support_pressure = demand.pressure;
           for (const auto &[set, number] : demand.numbers)
@@ -274,7 +282,7 @@ namespace Keyblock::Python
       [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
         for (const JudgedBlock<dim> &one :
              judge_exposed_blocks(ground, free, blocks, time))
-          list.push_back(describe(ground, free, blocks, one, wanted));
+          list.push_back(describe(ground, free, blocks, one, wanted, time));
       });
     return list;
   }

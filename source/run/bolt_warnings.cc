@@ -165,6 +165,39 @@ namespace Keyblock
 
 
 
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_heads_in_air(const Scene<dim> &scene, const SplitMesh<dim> &split)
+  {
+    std::vector<unsigned int> n_heads(scene.bolts.size(), 0);
+    std::vector<double> farthest(scene.bolts.size(), 0.);
+    for (const Bolt<dim> &bolt : split.bolts)
+      if (bolt.rock.front().cell == none)
+        {
+          const double gap = bolt.pieces[first_piece_in_rock(bolt)].begin;
+          ++n_heads[bolt.set];
+          farthest[bolt.set] = std::max(farthest[bolt.set], gap);
+        }
+    std::vector<std::string> warnings;
+    for (unsigned int s = 0; s < scene.bolts.size(); ++s)
+      if (n_heads[s] > 0)
+        {
+          const bool is_one = n_heads[s] == 1;
+          warnings.push_back(
+            (is_one ? "The head of a bolt"
+                    : "The heads of " + std::to_string(n_heads[s]) + " bolts") +
+            " of '" + scene.bolts[s]->name + "' " + (is_one ? "lies" : "lie") +
+            " in the air, " + (is_one ? "" : "up to ") +
+            text_of(farthest[s], 3) +
+            " m before the rock: " + (is_one ? "it has" : "they have") +
+            " no plate there, and bond alone holds the rock next to it; move " +
+            (is_one ? "it" : "them") + " onto the face.");
+        }
+    return warnings;
+  }
+
+
+
   namespace
   {
     /** What a set of bolts lacks in the ground into which it is put. */
@@ -232,6 +265,8 @@ namespace Keyblock
   template std::vector<std::string> warnings_of_brittle_bolts(                 \
     const Scene<dim> &, const SplitMesh<dim> &);                               \
   template std::vector<std::string> warnings_of_idle_bolts(                    \
+    const Scene<dim> &, const SplitMesh<dim> &);                               \
+  template std::vector<std::string> warnings_of_heads_in_air(                  \
     const Scene<dim> &, const SplitMesh<dim> &);                               \
   template std::vector<std::string> warnings_of_cut_bolts(                     \
     const Scene<dim> &, const SplitMesh<dim> &);                               \

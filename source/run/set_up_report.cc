@@ -250,6 +250,7 @@ namespace Keyblock
           warnings_of_brittle_bolts(model.scene, model.split),
           warnings_of_cut_bolts(model.scene, model.split),
           warnings_of_idle_bolts(model.scene, model.split),
+          warnings_of_heads_in_air(model.scene, model.split),
           warnings_of_attached_blocks(model.scene, model.split, model.blocks),
           warnings_of_coarse_mesh(model.scene, model.split, model.blocks)})
       warnings.insert(warnings.end(), more.begin(), more.end());

@@ -1,11 +1,45 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/safety/block_remarks.h>
+#include <keyblock/safety/hanging_group.h>
 #include <keyblock/safety/kinetic_friction.h>
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Let a block be judged with others on the same shotcrete where they go at
+     * less than it would by itself, and say so. */
+    template <int dim>
+    void
+    add_group(const HangingGroup<dim> &group,
+              const Blocks<dim> &blocks,
+              BlockStatics<dim> &statics,
+              std::string &remark)
+    {
+      if (group.others.empty())
+        return;
+      std::ostringstream out;
+      out.precision(4);
+      out << "with block" << (group.others.size() == 1 ? " " : "s ");
+      for (const unsigned int b : group.others)
+        out << (b == group.others.front() ? "" : ", ") << blocks.blocks[b].id;
+      out << ", which " << (group.others.size() == 1 ? "hangs" : "hang")
+          << " on the same shotcrete; ";
+      if (std::isfinite(statics.limit.factor))
+        out << statics.limit.factor << " by itself";
+      else
+        out << "stable by itself";
+      remark        = out.str();
+      statics.limit = group.limit;
+    }
+  } // namespace
+
+
+
   template <int dim>
   BlockStatics<dim>
   judge_block(const Ground<dim> &ground,
@@ -23,13 +57,21 @@ namespace Keyblock
     const SupportedMotion<dim> motion =
       find_motion<dim>(statics.around, statics.support, is_passive);
     statics.limit = motion.limit;
-    if (ground.scene.safety.wanted > 0.)
-      statics.demand = find_demand(ground,
-                                   free,
-                                   block,
-                                   statics.around,
-                                   statics.support,
-                                   ground.scene.safety.wanted);
+    if (const double wanted = ground.scene.safety.wanted; wanted > 0.)
+      statics.demand = find_demand(
+        ground,
+        free,
+        block,
+        statics.around,
+        without_shared_shotcrete(
+          ground, free, blocks, block, time, wanted, statics.support),
+        wanted);
+    std::string group_remark;
+    add_group(
+      find_hanging_group(ground, free, blocks, block, time, broken, statics),
+      blocks,
+      statics,
+      group_remark);
     const auto is_lost = [](const auto &face) { return face.is_lost; };
     const auto &all    = statics.around.faces;
     std::optional<SupportedMotion<dim>> without_lost_faces;
@@ -44,6 +86,8 @@ namespace Keyblock
       }
     add_remarks<dim>(
       ground, free, blocks, block, time, motion, without_lost_faces, statics);
+    if (!group_remark.empty())
+      statics.remarks.insert(statics.remarks.begin(), group_remark);
     return statics;
   }
 

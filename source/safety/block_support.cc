@@ -80,7 +80,10 @@ namespace Keyblock
     std::map<std::string, unsigned int> limits;
     for (const auto &[bolt, pull] : strongest)
       {
-        ++limits[Keyblock::describe(pull->limit)];
+        ++limits[!pull->has_plate &&
+                     pull->limit == BoltChain::Capacity::Limit::head
+                   ? "bond inside"
+                   : Keyblock::describe(pull->limit)];
         sum += pull->force;
       }
     out << strongest.size() << (strongest.size() == 1 ? " bolt" : " bolts")
@@ -247,9 +250,11 @@ namespace Keyblock
             pull.dowel_strength =
               crossing.is_void() ? 0. : set.share() * set.dowel_strength;
             pull.limit      = capacity.limit;
+            pull.has_plate  = remains.is_held.front();
             pull.is_reduced = has_reduced(reduced, crossing.joint);
             pull.set        = bolt.set;
             pull.bolt       = b;
+            pull.other      = crossing.block[is_near];
             result.pulls.push_back(pull);
           }
       }

@@ -95,17 +95,15 @@ namespace Keyblock
       });
     }
 
+    /** The passive convention for a block that would take the @p way. */
     template <int dim>
     LimitEquilibrium<dim>
-    solve_with_passive(std::vector<BlockFace<dim>> &faces,
-                       const Tensor<1, dim> &load,
-                       const BlockSupport<dim> &support)
+    resist_along(const Tensor<1, dim> &way,
+                 std::vector<BlockFace<dim>> &faces,
+                 const Tensor<1, dim> &load,
+                 const BlockSupport<dim> &support)
     {
-      LimitEquilibrium<dim> bare = solve_with_laws<dim>(faces, load);
-      if (!support.holds() || bare.direction.norm() == 0.)
-        return bare;
-      const Tensor<1, dim> way = bare.direction;
-      const auto forces        = support.forces_against(way);
+      const auto forces      = support.forces_against(way);
       double share_of_dowels = 0., share_of_sections = 0.;
       const auto solve = [&]() {
         Tensor<1, dim> loading = load;
@@ -137,6 +135,49 @@ namespace Keyblock
                         is_of_bolt,
                         is_of_bolt ? share_of_dowels : share_of_sections);
       return solve();
+    }
+
+    /** Let shotcrete hold all of a block that slides, off its planes, where it
+     * is strong enough to give a greater factor than with them. */
+    template <int dim>
+    void
+    hang_on_sections(const std::vector<BlockFace<dim>> &faces,
+                     const Tensor<1, dim> &load,
+                     const BlockSupport<dim> &support,
+                     LimitEquilibrium<dim> &sliding)
+    {
+      Tensor<1, dim> resultant = load;
+      for (const BlockFace<dim> &face : faces)
+        resultant += face.water_force * face.inward;
+      if (support.sections.empty() || sliding.n_pressed == 0 ||
+          resultant.norm() == 0.)
+        return;
+      std::vector<BlockFace<dim>> none_pressed;
+      const LimitEquilibrium<dim> hanging = resist_along<dim>(
+        resultant / resultant.norm(), none_pressed, resultant, support);
+      if (!(hanging.factor > sliding.factor))
+        return;
+      sliding.factor             = hanging.factor;
+      sliding.driving_force      = hanging.driving_force;
+      sliding.reduced_resistance = hanging.reduced_resistance;
+      sliding.fixed_resistance   = hanging.fixed_resistance;
+      for (double &force : sliding.normal_forces)
+        force = 0.;
+    }
+
+    template <int dim>
+    LimitEquilibrium<dim>
+    solve_with_passive(std::vector<BlockFace<dim>> &faces,
+                       const Tensor<1, dim> &load,
+                       const BlockSupport<dim> &support)
+    {
+      LimitEquilibrium<dim> bare = solve_with_laws<dim>(faces, load);
+      if (!support.holds() || bare.direction.norm() == 0.)
+        return bare;
+      LimitEquilibrium<dim> held =
+        resist_along<dim>(bare.direction, faces, load, support);
+      hang_on_sections<dim>(faces, load, support, held);
+      return held;
     }
   } // namespace
 

@@ -96,6 +96,12 @@ namespace Keyblock
                         text_of(set->length) +
                         " m, but 'Heads' and 'Ends' say how long the bolts "
                         "are, so that it has no effect; leave it out.");
+    if (scene.safety.is_by_statics() && scene.stages.empty())
+      found.push_back("The entry 'Safety factor/Method' is limit equilibrium, "
+                      "which judges blocks after stages, but there is none, so "
+                      "that no factor is found; name a stage in "
+                      "'Stages/Names', or run with --validate, which tells "
+                      "the factors at the start.");
     look_at_water(scene, found);
     look_at_dilation(scene, found);
     return found;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/errors.h>
 #include <keyblock/scene/polygon.h>
 
 // no rescaling to integers: coordinates are metres, and small
@@ -6,6 +7,8 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/ring.hpp>
+
+#include <algorithm>
 
 namespace Keyblock
 {
@@ -35,4 +38,33 @@ namespace Keyblock
           return "crosses or touches itself";
       }
   }
+
+
+
+  template <int dim>
+  void
+  tidy_corners(std::vector<dealii::Point<dim>> &corners,
+               const std::string &entry)
+  {
+    /** Distance over the largest one up to which corners are the same [-]. */
+    constexpr double closeness = 1e-9;
+    double size                = 0.;
+    for (const auto &corner : corners)
+      size = std::max(size, corner.distance(corners.front()));
+    const auto are_same = [&](const unsigned int i, const unsigned int j) {
+      return corners[i].distance(corners[j]) <= closeness * size;
+    };
+    if (corners.size() > 3 && are_same(0, corners.size() - 1))
+      corners.pop_back();
+    for (unsigned int i = 1; i < corners.size(); ++i)
+      AssertThrow(!are_same(i - 1, i),
+                  InputError("In the entry '" + entry + "' corner " +
+                             std::to_string(i + 1) + " repeats corner " +
+                             std::to_string(i) + "; leave one of them out."));
+  }
+
+  template void tidy_corners(std::vector<dealii::Point<2>> &,
+                             const std::string &);
+  template void tidy_corners(std::vector<dealii::Point<3>> &,
+                             const std::string &);
 } // namespace Keyblock

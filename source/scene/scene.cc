@@ -4,7 +4,6 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/parameter_handler.h>
 
-#include <keyblock/base/digest.h>
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check_parts.h>
@@ -13,6 +12,7 @@
 #include <keyblock/scene/joint_sets.h>
 #include <keyblock/scene/joint_table.h>
 #include <keyblock/scene/joints.h>
+#include <keyblock/scene/polygon.h>
 #include <keyblock/scene/shape_files.h>
 #include <keyblock/scene/stage_defaults.h>
 #include <keyblock/scene/study_entries.h>
@@ -21,8 +21,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -30,17 +28,6 @@ namespace Keyblock
 {
   namespace
   {
-    /** Digest of the bytes of @p name, found from the folder of @p scene. */
-    std::string
-    digest_of_file(const std::string &scene, const std::string &name)
-    {
-      std::ifstream in(std::filesystem::path(scene).parent_path() / name,
-                       std::ios::binary);
-      std::ostringstream text;
-      text << in.rdbuf();
-      return digest_of(text.str());
-    }
-
     const std::vector<std::string> list_sections = {"Excavations",
                                                     "Joints",
                                                     "Joint sets",
@@ -261,11 +248,17 @@ namespace Keyblock
     if (network.is_resolved)
       refuse_idle_overrides(text, ground.depth > 0.);
     refuse_idle_entries(*prm, *this, text);
+    tidy_corners(domain.polygon, "Domain/Polygon");
+    for (const auto &one : excavations)
+      tidy_corners(one->vertices, "Excavations/" + one->name + "/Vertices");
     make_profiles();
     complete_ground(text);
     check_domain(*this);
     read_shape_files(communicator, *this);
     joints = make_joints(*this, read_names(names, "Joints"), text);
+    for (const auto &joint : joints)
+      if (dim == 3 && joint->extent == JointShape::polygon)
+        tidy_corners(joint->vertices, "Joints/" + joint->name + "/Vertices");
     for (const auto &warnings : {warnings_of_table(*this),
                                  warnings_of_sets(*this),
                                  warnings_of_drawings(*this),
@@ -283,63 +276,6 @@ namespace Keyblock
     leave_steps_out(*this);
     read_histories();
     cross_check();
-  }
-
-
-
-  template <int dim>
-  std::string
-  Scene<dim>::print_entries(const bool has_descriptions) const
-  {
-    std::ostringstream out;
-    prm->print_parameters(out,
-                          (has_descriptions ? ParameterHandler::Text
-                                            : ParameterHandler::ShortPRM) |
-                            ParameterHandler::KeepDeclarationOrder);
-    std::string text         = out.str();
-    const std::string header = "subsection Joints\n";
-    const auto section       = text.compare(0, header.size(), header) == 0
-                                 ? 0
-                                 : text.find("\n" + header);
-    text.insert(text.find("\nend", section) + 1, print_joints(joints));
-    return text;
-  }
-
-
-
-  template <int dim>
-  void
-  Scene<dim>::write_used(const std::string &file_name) const
-  {
-    std::ofstream out(file_name);
-    out << print_entries(true);
-    AssertThrow(out.flush(),
-                InputError("The file '" + file_name +
-                           "' cannot be written; check free space and "
-                           "permissions."));
-  }
-
-
-
-  template <int dim>
-  std::string
-  Scene<dim>::used_entries() const
-  {
-    std::string text = print_entries(false);
-    for (const auto &excavation : excavations)
-      if (!excavation->file_digest.empty())
-        text += "subsection Excavations\n  subsection " + excavation->name +
-                "\n    set Digest of File = " + excavation->file_digest +
-                "\n  end\nend\n";
-    for (const auto &support : supports)
-      if (!support->history_file.empty())
-        text += "subsection Supports\n  subsection " + support->name +
-                "\n    set Digest of History file = " +
-                digest_of_file(file, support->history_file) + "\n  end\nend\n";
-    if (!initial_state.measured_points.empty())
-      text += "subsection Initial state\n  set Digest of Measured points = " +
-              digest_of_file(file, initial_state.measured_points) + "\nend\n";
-    return text;
   }
 
 

@@ -355,7 +355,10 @@ namespace Keyblock
           continue;
         const auto capacity = chain.capacity(crossing.middle());
         if (capacity.force < least)
-          result.limit = describe(capacity.limit);
+          result.limit = !bindings.front().is_held &&
+                             capacity.limit == BoltChain::Capacity::Limit::head
+                           ? "bond inside"
+                           : describe(capacity.limit);
         least = std::min(least, capacity.force);
       }
     result.is_broken = chain.is_broken();

@@ -30,6 +30,11 @@ namespace Keyblock
                   const SplitMesh<dim> &split,
                   const BoltSet<dim> &set,
                   Bolt<dim> &bolt);
+
+  /** The first of the pieces of a @p bolt (index) that is in rock; their
+   * number: none is. */
+  template <int dim>
+  unsigned int first_piece_in_rock(const Bolt<dim> &bolt);
 } // namespace Keyblock
 
 #endif

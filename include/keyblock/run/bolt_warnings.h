@@ -34,6 +34,13 @@ namespace Keyblock
   std::vector<std::string> warnings_of_idle_bolts(const Scene<dim> &scene,
                                                   const SplitMesh<dim> &split);
 
+  /** Sets of bolts with heads in the air, farther before the free face than a
+   * head is moved onto it, as sentences. */
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_heads_in_air(const Scene<dim> &scene,
+                           const SplitMesh<dim> &split);
+
   /** Sets of bolts that the stage of @p ground installs partly where blocks
    * have been taken away before, as sentences. */
   template <int dim>

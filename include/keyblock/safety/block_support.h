@@ -22,9 +22,11 @@ namespace Keyblock
       double force                     = 0.; ///< its capacity there [N]
       double dowel_strength            = 0.; ///< across it [N]
       BoltChain::Capacity::Limit limit = BoltChain::Capacity::Limit::yield;
-      bool is_reduced   = true; ///< BlockFace::is_reduced of the joint
-      unsigned int set  = 0;    ///< index of its set of bolts
-      unsigned int bolt = 0;    ///< index into SplitMesh::bolts
+      bool has_plate                   = true; ///< held by rock, at its head
+      bool is_reduced    = true; ///< BlockFace::is_reduced of the joint
+      unsigned int set   = 0;    ///< index of its set of bolts
+      unsigned int bolt  = 0;    ///< index into SplitMesh::bolts
+      unsigned int other = none; ///< block that it pulls to, by index
     };
     std::vector<Pull> pulls;
 
@@ -98,7 +100,9 @@ namespace Keyblock
    * the way that the block would take without them is added to what resists
    * (Hoek and Bray 1981); the rest of it is load. What dowels and shotcrete do
    * there is, each by one share of the strength of all, as little as drives the
-   * block least, or less if the factor is greater then.
+   * block least, or less if the factor is greater then. Shotcrete that holds
+   * all that acts on the block, off its planes, counts so where this gives a
+   * greater factor.
    */
   template <int dim>
   LimitEquilibrium<dim> solve_with_support(std::vector<BlockFace<dim>> &faces,

@@ -13,6 +13,12 @@ namespace Keyblock
    * touches itself, a spike, no area; empty if they do. The first corner need
    * not be repeated at the end. */
   std::string fault_of_polygon(const std::vector<dealii::Point<2>> &corners);
+
+  /** Leave out the last of the @p corners of an @p entry if it is the first one
+   * again. Throws InputError if others that follow each other are the same. */
+  template <int dim>
+  void tidy_corners(std::vector<dealii::Point<dim>> &corners,
+                    const std::string &entry);
 } // namespace Keyblock
 
 #endif

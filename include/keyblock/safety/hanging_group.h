@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_safety_hanging_group_h
+#define keyblock_safety_hanging_group_h
+
+#include <keyblock/safety/block_statics.h>
+
+namespace Keyblock
+{
+  /** A block that moves as one body with others, across shotcrete that holds
+   * none of them against the rest. */
+  template <int dim>
+  struct HangingGroup
+  {
+    std::vector<unsigned int> others; ///< by index, without the block itself
+
+    /** Of all together; of the faces those of the block alone, by the indices
+     * of its own. Nothing (factor NaN) if it is no worse off with them. */
+    LimitEquilibrium<dim> limit;
+  };
+
+  /**
+   * The group in which @p block (index) has the least factor less than that of
+   * @p statics, which holds what is around it and its support: with one more
+   * block after the other that the same shotcrete is sprayed on and that would
+   * move without support at less than that factor. Rotation is left out.
+   */
+  template <int dim>
+  HangingGroup<dim> find_hanging_group(const Ground<dim> &ground,
+                                       const FreeFaces<dim> &free,
+                                       const Blocks<dim> &blocks,
+                                       const unsigned int block,
+                                       const double time,
+                                       const BrokenSegments &broken,
+                                       const BlockStatics<dim> &statics);
+
+  /** @p support of @p block (index) without the shotcrete on traces whose other
+   * side is a block that moves without support at less than @p factor, and has
+   * to be held, too. */
+  template <int dim>
+  BlockSupport<dim> without_shared_shotcrete(const Ground<dim> &ground,
+                                             const FreeFaces<dim> &free,
+                                             const Blocks<dim> &blocks,
+                                             const unsigned int block,
+                                             const double time,
+                                             const double factor,
+                                             BlockSupport<dim> support);
+} // namespace Keyblock
+
+#endif

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Blocks that hang on the same shotcrete.
+#include <keyblock/safety/hanging_group.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace Keyblock
+{
+  namespace
+  {
+    /** Blocks of a group; more of them cost more than they tell. */
+    constexpr unsigned int most_blocks = 32;
+
+    /** Factors that differ by less are the same [-]. */
+    constexpr double same_factor = 1e-9;
+
+    /** The block on the other side of a trace. */
+    template <int dim>
+    unsigned int
+    other_side(const LinerTrace<dim> &trace, const unsigned int block)
+    {
+      return trace.block[trace.block[0] == block];
+    }
+
+    /** Factor of a block with @p around without any support. */
+    template <int dim>
+    double
+    bare_factor(BlockSurroundings<dim> around)
+    {
+      return solve_with_laws<dim>(around.faces, around.loads.without_water())
+        .factor;
+    }
+
+    template <int dim>
+    bool
+    can_hang(const Blocks<dim> &blocks, const unsigned int b)
+    {
+      return b != none && !blocks.blocks[b].is_infinite &&
+             !blocks.blocks[b].is_rigid;
+    }
+
+    /** One block of a group. */
+    template <int dim>
+    struct Member
+    {
+      unsigned int block; ///< index
+      BlockSurroundings<dim> around;
+      BlockSupport<dim> support;
+    };
+
+    /** Keep of the faces of @p limit those that are the first one's, by its
+     * @p own indices; without any it falls with the others. */
+    template <int dim>
+    void
+    keep_first(const std::vector<unsigned int> &own,
+               LimitEquilibrium<dim> &limit)
+    {
+      const std::vector<unsigned int> faces = limit.faces;
+      const std::vector<double> forces      = limit.normal_forces;
+      const unsigned int n_pressed          = limit.n_pressed;
+      limit.faces.clear();
+      limit.normal_forces.clear();
+      limit.n_pressed = 0;
+      for (unsigned int i = 0; i < faces.size(); ++i)
+        if (faces[i] < own.size())
+          {
+            limit.faces.push_back(own[faces[i]]);
+            limit.normal_forces.push_back(forces[i]);
+            limit.n_pressed += i < n_pressed;
+          }
+      if (n_pressed > 0 && limit.n_pressed == 0)
+        limit.mode = LimitEquilibrium<dim>::Mode::falling;
+    }
+
+    /** Limit equilibrium of @p members as one body: of their faces, bolts and
+     * shotcrete those towards rock and other blocks, under all of their loads;
+     * the first one's faces by the indices of its own. */
+    template <int dim>
+    LimitEquilibrium<dim>
+    solve_as_one(const std::vector<Member<dim>> &members, const bool is_passive)
+    {
+      std::set<unsigned int> blocks;
+      for (const Member<dim> &member : members)
+        blocks.insert(member.block);
+      const auto is_inside = [&](const unsigned int b) {
+        return blocks.count(b) > 0;
+      };
+      std::vector<BlockFace<dim>> faces;
+      std::vector<unsigned int> own; // indices of the first one's
+      BlockSupport<dim> support;
+      Tensor<1, dim> load, weight;
+      for (const Member<dim> &member : members)
+        {
+          const auto &around = member.around;
+          for (unsigned int i = 0; i < around.faces.size(); ++i)
+            if (const auto &others = around.others[i];
+                others.empty() ||
+                !std::all_of(others.begin(), others.end(), is_inside))
+              {
+                faces.push_back(around.faces[i]);
+                if (&member == &members.front())
+                  own.push_back(i);
+              }
+          for (const auto &pull : member.support.pulls)
+            if (!is_inside(pull.other))
+              support.pulls.push_back(pull);
+          for (const auto &section : member.support.sections)
+            if (!is_inside(other_side(section.trace, member.block)))
+              {
+                support.sections.push_back(section);
+                support.shotcrete_strength += section.strength;
+              }
+          support.shotcrete_load += member.support.shotcrete_load;
+          load += around.loads.without_water();
+          weight += around.loads.weight;
+        }
+      LimitEquilibrium<dim> limit =
+        solve_with_support<dim>(faces, load, support, is_passive);
+      limit.orient(weight);
+      keep_first(own, limit);
+      return limit;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  HangingGroup<dim>
+  find_hanging_group(const Ground<dim> &ground,
+                     const FreeFaces<dim> &free,
+                     const Blocks<dim> &blocks,
+                     const unsigned int block,
+                     const double time,
+                     const BrokenSegments &broken,
+                     const BlockStatics<dim> &statics)
+  {
+    HangingGroup<dim> least;
+    double factor      = statics.limit.factor;
+    least.limit.factor = std::numeric_limits<double>::quiet_NaN();
+    const bool is_passive =
+      ground.scene.safety.bolt_convention == BoltConvention::passive;
+    std::vector<Member<dim>> members{{block, statics.around, statics.support}};
+    std::set<unsigned int> seen{block};
+    for (unsigned int m = 0; m < members.size(); ++m)
+      {
+        const auto sections      = members[m].support.sections;
+        const unsigned int on_it = members[m].block;
+        for (const auto &section : sections)
+          if (const unsigned int b = other_side(section.trace, on_it);
+              can_hang(blocks, b) && members.size() < most_blocks &&
+              seen.insert(b).second)
+            {
+              const auto around =
+                look_around(ground, free, blocks.blocks[b], time);
+              if (!(bare_factor(around) < factor))
+                continue;
+              members.push_back(
+                {b, around, find_support_of_block(ground, b, time, broken)});
+              const auto limit = solve_as_one(members, is_passive);
+              if (!(limit.factor < (1. - same_factor) * factor))
+                continue;
+              factor      = limit.factor;
+              least.limit = limit;
+              least.others.clear();
+              for (unsigned int i = 1; i < members.size(); ++i)
+                least.others.push_back(members[i].block);
+            }
+      }
+    return least;
+  }
+
+
+
+  template <int dim>
+  BlockSupport<dim>
+  without_shared_shotcrete(const Ground<dim> &ground,
+                           const FreeFaces<dim> &free,
+                           const Blocks<dim> &blocks,
+                           const unsigned int block,
+                           const double time,
+                           const double factor,
+                           BlockSupport<dim> support)
+  {
+    std::map<unsigned int, bool> is_loose;
+    const auto is_shared = [&](const auto &section) {
+      const unsigned int b = other_side(section.trace, block);
+      if (!can_hang(blocks, b))
+        return false;
+      const auto [found, is_new] = is_loose.emplace(b, false);
+      if (is_new)
+        found->second =
+          bare_factor(look_around(ground, free, blocks.blocks[b], time)) <
+          factor;
+      return found->second;
+    };
+    std::vector<typename BlockSupport<dim>::Section> kept;
+    for (const auto &section : support.sections)
+      if (is_shared(section))
+        {
+          support.shotcrete_strength -= section.strength;
+          support.shotcrete_length -= section.trace.length;
+        }
+      else
+        kept.push_back(section);
+    support.sections = kept;
+    if (kept.empty())
+      support.shotcrete_strength = support.shotcrete_length = 0.;
+    return support;
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template HangingGroup<dim> find_hanging_group(const Ground<dim> &,           \
+                                                const FreeFaces<dim> &,        \
+                                                const Blocks<dim> &,           \
+                                                const unsigned int,            \
+                                                const double,                  \
+                                                const BrokenSegments &,        \
+                                                const BlockStatics<dim> &);    \
+  template BlockSupport<dim> without_shared_shotcrete(const Ground<dim> &,     \
+                                                      const FreeFaces<dim> &,  \
+                                                      const Blocks<dim> &,     \
+                                                      const unsigned int,      \
+                                                      const double,            \
+                                                      const double,            \
+                                                      BlockSupport<dim>);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Keyblock
