@@ -7,6 +7,7 @@ usage: report_altered.py KEYBLOCK REPORT PRM FOLDER
 The summary.json of a run is changed: open brackets, blocks that move, support
 beyond its strength, parts that cannot be made, ...; the report has to say so.
 """
+import csv
 import html
 import json
 import pathlib
@@ -214,6 +215,34 @@ def check_taken_away():
         assert page.count('src="data:image/png;base64,') == 2
 
 
+def check_where():
+    """Roof, wall or floor as in blocks.csv, and the same where that is not there.
+
+    Of a slope in a polygon, whose bare sides are no truncated boundaries."""
+    folder, path = FOLDER / "slope", FOLDER / "slope.html"
+    settings = ("Output/Write VTU=true", "Mesh/Size=20",
+                "Safety factor/Method=limit equilibrium")
+    subprocess.run([KEYBLOCK, f"{PRM}/verification/slope_crack.prm",
+                    "--output", folder]
+                   + [word for s in settings for word in ("--set", s)],
+                   check=True, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    table = folder / "blocks.csv"
+    (place,) = (row["place"] for row in csv.DictReader(
+        table.read_text().splitlines()))
+    assert place == "floor", place
+    for there in "as it is", "another", "":
+        if there == "another":
+            table.write_text(table.read_text().replace(",floor,", ",roof,"))
+        elif not there:
+            table.unlink()
+        subprocess.run([REPORT, folder, "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
+        row = row_of(path.read_text(encoding="utf-8"), 1)
+        wanted = "roof" if there == "another" else "floor"
+        assert f"<td>{wanted}</td>" in row, (there, row)
+
+
 def check_pipe():
     """A reader that has gone away is no error."""
     done = subprocess.run(
@@ -232,7 +261,7 @@ def main():
                    check=True, stdout=subprocess.DEVNULL)
     for case in (check_open, check_support, check_moving, check_held,
                  check_demand, check_tie, check_lost, check_unjudged,
-                 check_taken_away, check_pipe):
+                 check_taken_away, check_where, check_pipe):
         case()
         print(f"{case.__name__}: as it should be")
 

@@ -123,8 +123,9 @@ class Geometry:
     def is_on_hull(self, vertices):
         """Whether faces lie on the outer boundary where the rock goes on.
 
-        The sides of a box or parallelepiped that Truncated boundaries names;
-        otherwise those of the box around the cells."""
+        The sides that Truncated boundaries names, of a box or parallelepiped
+        or else of the box around the cells; all where it names groups of a
+        mesh file, which are not known here."""
         entries, n = self.run.entries, 2 if self.run.is_plane else 3
         names = (["left", "right", "bottom", "top"] if n == 2 else
                  ["left", "right", "front", "back", "bottom", "top"])
@@ -141,6 +142,7 @@ class Geometry:
             corner = low
             edges = numpy.diag(numpy.maximum(
                 self.places.max(axis=0)[:n] - low, 1e-30))
+        if not {"all", "none", *names} >= set(wanted):
             wanted = ["all"]
         share = (self.places[vertices][:, :, :n] - corner[:n]) @ numpy.linalg.inv(
             edges.reshape(n, n))
@@ -237,19 +239,19 @@ class Geometry:
         return 0.5 * numpy.cross(points[:, 2] - points[:, 0],
                                  points[:, 3] - points[:, 1])
 
-    def free_normal(self, number):
+    def free_normal(self, number, since=-1):
         """Mean outward normal of the free faces of a block, and their area.
 
-        Where rock beside it is dug, in the first state in which some is; a
-        block that fell before that state was written had these faces as well.
-        None if it has none; the normal is None if they cancel."""
+        In the first state from stage `since` (-1: the start) on; a block that
+        fell before that state was written had these faces as well. None if it
+        has none; the normal is None if they cancel."""
         mine = numpy.flatnonzero((self.block[self.face_cell] == number)
                                  & (self.face_kind == FREE))
         other = self.face_other[mine]
         alone = other < 0
-        for there in self.is_there:
+        for (_, stage, *_), there in zip(self.run.states, self.is_there):
             free = alone | (~there[other] & ~self.is_finite[other])
-            if free.any():
+            if stage >= since and free.any():
                 normals = self.normals(mine[free])
                 total = normals.sum(axis=0)
                 size = numpy.linalg.norm(total)

@@ -156,6 +156,21 @@ def where_is(normal, down):
             "floor" if along < -math.sqrt(0.5) else "wall")
 
 
+def exposure_of(run, geometry, n, exposed):
+    """Where a block is exposed, and the area of its free faces.
+
+    As blocks.csv has them; of older runs, and of older tables, by the cells of
+    the state in which it is exposed."""
+    row = run.block_rows.get(str(n), {})
+    if exposed is None:
+        return None, None
+    if "place" in row and row.get("free area"):
+        return row["place"] or None, float(row["free area"])
+    free = geometry.free_normal(n, exposed - 2) if geometry else None
+    return (where_is(free[0], run.down()), float(free[1])) if free else (
+        None, None)
+
+
 def largest_demand(limits):
     """The largest support that a stage asks for, with its name; or None."""
     demands = [{**demand_of(limit), "stage": limit.get("stage")}
@@ -197,13 +212,10 @@ def row_of(run, geometry, n, moved_off, moving):
            "moved_off": moved_off.get(n), "moving": moving.get(n),
            "removable": block.get("removable"),
            "centroid": block.get("centroid"),
-           "where": None, "free_area": None, "displacement": None}
+           "displacement": None}
+    row["where"], row["free_area"] = exposure_of(run, geometry, n, exposed)
     row["state"] = state_of(row, row["moving"] in run.stages[-1:])
     if geometry is not None:
-        free = geometry.free_normal(n)
-        if exposed is not None and free:
-            row["where"] = where_is(free[0], run.down())
-            row["free_area"] = float(free[1])
         moved = [d for d, state in zip(geometry.displacement(n), run.states)
                  if d is not None and state[1] >= 0 and run.takes_steps()]
         row["displacement"] = max(moved, default=None)
