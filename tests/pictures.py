@@ -297,6 +297,16 @@ def check_curves():
                             text)
         assert all(0. < float(x) < wide and 0. < float(y) < high
                    for x, y in places), path
+    # what shows steps is left out where none was taken
+    still = FOLDER / "still"
+    shutil.copytree(folder, still)
+    (still / "used.prm").write_text(re.sub(
+        "(?m)(^ *set Method *= )bisection.*", r"\1limit equilibrium",
+        (still / "used.prm").read_text()))
+    said = call(CONTRIB / "figures.py", still, "--to", FOLDER / "still_figures")
+    for name in ("joint_states", "joint_stresses"):
+        assert f"{name}: no step was taken" in said, said
+        assert not (FOLDER / "still_figures" / f"{name}.png").exists()
     path = folder / "solution.pvd"
     done = subprocess.run([CONTRIB / "render.py", path, FOLDER / "none.png", "--field",
                            "nosuch"], capture_output=True, text=True)

@@ -114,22 +114,37 @@ def blocks_of(page):
 
 
 def check_held():
-    """A block below 1 by limit equilibrium that strength reduction holds."""
-    for held, words in (("clamping", "stress"), ("bolts and clamping", "")):
+    """A block below 1 by limit equilibrium that strength reduction holds.
+
+    By what the run says, or else by nothing that is named."""
+    for held, remark, words, clamped in (
+            ("clamping", "", "is held by clamping: without", "yes"),
+            ("bolts and clamping", "", "is held by bolts and", "yes"),
+            ("bolts", "", "is held by bolts: without", "no"),
+            ("", "held by the support sym, left out; meets the rock",
+             "is held by the support sym: without", "no"),
+            ("", "", "holds by strength reduction, but without", "yes")):
         def change(_, block):
             limit = block["limit_equilibrium"][-1]
-            limit.update(outcome="factor", value=0., mode="falling")
-            set_factor(block, outcome=f"above 100, held by {held}", lower=100.)
+            limit.update(outcome="factor", value=0., mode="falling",
+                         remark=remark)
+            set_factor(block, **({
+                "outcome": f"above 100, held by {held}", "lower": 100.}
+                if held else {"value": 1.2, "lower": 1.19, "upper": 1.21}))
 
         page = altered(change)[1]
-        assert f"Block 1 is held by {words or held} alone" in page
+        assert f"Block 1 {words}" in page, words
+        assert f"<td>{clamped}</td>" in row_of(page, 1), (held, remark)
+        assert "alone: without" not in page
 
         def three(summary, block):
             change(summary, block)
             summary["blocks"] += [{**block, "id": 98}, {**block, "id": 99}]
 
         page = altered(three)[1]
-        assert f"Blocks 1, 98 and 99 are held by {words or held}" in page
+        verb = f"are held by {held}" if "is held" in words and held else (
+            "are held by the support sym" if remark else "hold by strength")
+        assert f"Blocks 1, 98 and 99 {verb}" in page, verb
 
 
 def check_demand():

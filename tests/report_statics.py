@@ -81,6 +81,25 @@ def check_not_critical():
     assert "The run was asked for no factors" not in page
 
 
+def check_stable():
+    """A block that is stable by limit equilibrium is said to be no more."""
+    folder, path = FOLDER / "output_20", FOLDER / "stable.html"
+    before = (folder / "summary.json").read_text()
+    summary = json.loads(before)
+    limit = summary["blocks"][0]["limit_equilibrium"][-1]
+    limit.update(outcome="stable", mode="stable")
+    del limit["value"]
+    (folder / "summary.json").write_text(json.dumps(summary))
+    subprocess.run([REPORT, folder, "-o", path], check=True,
+                   stdout=subprocess.DEVNULL)
+    (folder / "summary.json").write_text(before)
+    page = path.read_text(encoding="utf-8")
+    assert blocks_of(page)["1"]["state"] == "stable", blocks_of(page)["1"]
+    assert "<span>stable by limit equilibrium</span>" in re.sub(
+        "<i.*?</i>", "", page)
+    assert "</i>immovable, or above" not in page
+
+
 def check_no_steps():
     """What no step has computed is not shown."""
     page = report_of(20)
@@ -96,6 +115,6 @@ def check_no_steps():
 
 shutil.rmtree(FOLDER, ignore_errors=True)
 FOLDER.mkdir(parents=True)
-for case in (check_followers, check_not_critical, check_no_steps):
+for case in (check_followers, check_not_critical, check_stable, check_no_steps):
     case()
     print(f"{case.__name__}: as it should be")

@@ -39,13 +39,16 @@ def further_verdict(rows):
                  f"{named(moving)}.")
     held = {}
     for row in rows:
-        if row["held_by"]:
+        if row["held_by"] is not None:
             held.setdefault(row["held_by"], []).append(row["block"])
     for what, numbers in held.items():
+        several = len(numbers) > 1
         text += (f" {named(numbers).capitalize()} "
-                 f"{'are' if len(numbers) > 1 else 'is'} held by {what} alone: "
-                 "without in-situ stress, as rigid blocks, factors are below "
-                 "1.")
+                 + (f"{'are' if several else 'is'} held by {what}: " if what else
+                    f"hold{'' if several else 's'} by strength reduction, but ")
+                 + "without in-situ stress, as "
+                 + ("rigid blocks, factors are" if several else
+                    "a rigid block, its factor is") + " below 1.")
     return text
 
 

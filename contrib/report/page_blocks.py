@@ -131,7 +131,8 @@ def blocks_section(run, rows, has_view, files):
                  "it, or that of the blocks that move together, is least; "
                  "limit equilibrium: the rigid block without in-situ stress, "
                  "after the same stage. Held by clamping: strength reduction "
-                 "holds at full strength, limit equilibrium alone is below 1."
+                 "holds at full strength, limit equilibrium alone is below 1, "
+                 "and the run names nothing else that holds the block."
                  ) if "strength reduction" not in empty else None
     if "moved [mm]" not in empty:
         notes.append("Moved: the largest displacement in the states that were "

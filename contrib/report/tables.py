@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+import re
 
 from .statics import (factor_by_statics, follows_others, force_of,
                       last_factor, least_limit, passed_factor)
@@ -18,6 +19,7 @@ STATES = {
     "holds": ("#56b4e9", "factor above 1.5, or 1.5 and more as wanted"),
     "passed": ("#0072b2", "not critical by limit equilibrium"),
     "firm": ("#009e73", "immovable, or above the highest factor tried"),
+    "stable": ("#009e73", "stable by limit equilibrium"),
     "undecided": ("#cc79a7", "undecided"),
     "unknown": ("#999999", "no factor looked for")}
 
@@ -99,18 +101,27 @@ def of_stage(results, stage):
 
 
 def is_held_by_clamping(factor, limit):
-    """Stable by strength reduction, but not as a rigid block without stress."""
+    """Stable by strength reduction, but not as a rigid block without stress.
+
+    And the run names nothing else that holds it."""
     if not factor or not limit or factor.get("outcome") == "undecided":
         return None
-    return size_of(limit) < 1. <= factor.get("lower", size_of(factor))
+    what = held_by(factor, limit)
+    return what == "" or what is not None and "clamping" in what
 
 
 def held_by(factor, limit):
-    """What holds a block that would fail as a rigid block without stress."""
-    if not is_held_by_clamping(factor, limit):
+    """What the run says holds a block that fails as a rigid one without stress.
+
+    Empty if it does not say, None if the block does not hold, or is stable by
+    limit equilibrium, too."""
+    if not factor or not limit or factor.get("outcome") == "undecided" or not (
+            size_of(limit) < 1. <= factor.get("lower", size_of(factor))):
         return None
-    what = factor.get("outcome", "").partition("held by ")[2]
-    return "stress" if what in ("", "clamping") else what
+    support = re.search(r"held by (the support [^,;]*), left out",
+                        limit.get("remark") or "")
+    return factor.get("outcome", "").partition("held by ")[2] or (
+        support[1] if support else "")
 
 
 def state_of(row, is_moving):
@@ -133,8 +144,8 @@ def state_by_factor(has_failed, factor):
     if factor is None:
         return "unknown"
     outcome = factor.get("outcome", "value")
-    if outcome == "undecided":
-        return "undecided"
+    if outcome in ("undecided", "stable"):
+        return outcome
     size = size_of(factor)
     if factor.get("group"):
         pass
@@ -207,7 +218,7 @@ def row_of(run, geometry, n, moved_off, moving):
            "clamped": is_held_by_clamping(worst, limit),
            "held_by": next((what for what in (
                held_by(f, of_stage(limits, f.get("stage"))) for f in factors)
-               if what), None),
+               if what is not None), None),
            "removed": block.get("removed_in_stage"),
            "moved_off": moved_off.get(n), "moving": moving.get(n),
            "removable": block.get("removable"),
