@@ -39,6 +39,7 @@ import tempfile
 from pathlib import Path
 
 from report.run_files import entries_of
+from report.words import count
 from script_tools import make_parser, split_arguments
 
 LEAST_RATIO, GOOD_RATIO = 1.2, 1.7  # of cell sizes: to tell an error, without a warning
@@ -106,7 +107,8 @@ class Runner:
             for factor in block.get("safety_factor", []):
                 found.append((int(block["id"]), place, size, volumes, cell, factor))
         print(f"{name}: {summary['scene']['cells']} cells, "
-              f"{summary['run']['steps']} steps, {len(found)} factors", flush=True)
+              f"{summary['run']['steps']} steps, {count(len(found), 'factor')}",
+              flush=True)
         is_moved = any("has moved faces" in str(warning)
                        for warning in summary.get("warnings") or [])
         return output, found, is_moved

@@ -7,7 +7,7 @@ import re
 
 from .statics import (factor_by_statics, follows_others, force_of,
                       last_factor, least_limit, passed_factor)
-from .words import demand_of, number
+from .words import count, demand_of, number
 
 # What a block is like, for colours: name, colour (of Okabe and Ito, which
 # colour-blind people tell apart), what the legend says
@@ -350,9 +350,11 @@ def warnings_of(run):
     if mesh.get("lost_blocks"):
         place = ", ".join(number(x) for x in mesh.get("largest_lost_place",
                                                       []))
-        found.append(f"{mesh['lost_blocks']} blocks too small for the mesh "
-                     "went to their neighbours, the largest of "
-                     f"{number(mesh['largest_lost_volume'])} "
+        lost = mesh["lost_blocks"]
+        found.append(f"{count(lost, 'block')} too small for the mesh went to "
+                     + ("its neighbour, of " if lost == 1 else
+                        "their neighbours, the largest of ")
+                     + f"{number(mesh['largest_lost_volume'])} "
                      + ("m²" if run.is_plane else "m³")
                      + (f" at ({place})." if place else "."))
     for key, text in (("joints_lost", "Joints too small for the mesh"),
