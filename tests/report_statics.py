@@ -19,6 +19,45 @@ import sys
 
 KEYBLOCK, REPORT, PRM, FOLDER = sys.argv[1:5]
 FOLDER = pathlib.Path(FOLDER)
+SHAFT = """set Dimension = 3
+subsection Domain
+  set Corner = -3, -3, -10
+  set Size = 6, 6, 10
+  set Truncated boundaries = left, right, front, back, bottom
+end
+subsection Mesh
+  set Generator = structured
+  set Cells = 6, 6, 10
+end
+subsection Excavations
+  set Names = shaft
+  subsection shaft
+    set Shape = box
+    set Corner = -1, -1, -8
+    set Size = 2, 2, 8
+    set Stage = sink
+  end
+end
+subsection Materials
+  set Names = rock
+end
+subsection Initial state
+  set Gravity = 0; 0; -9.81
+end
+subsection Supports
+  set Names = base
+  subsection base
+    set Boundaries = bottom
+  end
+end
+subsection Stages
+  set Names = sink
+  subsection sink
+    set Kind = quasi-static
+    set Maximum steps = 1
+  end
+end
+"""
 
 
 def report_of(friction):
@@ -115,6 +154,33 @@ def check_stable():
     (folder / "summary.json").write_text(before)
 
 
+def check_ground():
+    """In 3D what is dug is seen without the ground around it."""
+    folder, path = FOLDER / "shaft", FOLDER / "shaft.html"
+    (FOLDER / "shaft.prm").write_text(SHAFT)
+    subprocess.run([KEYBLOCK, FOLDER / "shaft.prm", "--output", folder],
+                   check=True, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    used = folder / "used.prm"
+    for names, side, surface in (
+            ("shaft", "the excavation's", 4 * 16 + 4),
+            # as if nothing were dug: all that is free, the ground with it
+            ("", "its free", 4 * 16 + 4 + 36)):
+        used.write_text(re.sub("(subsection Excavations.*?set Names *=)[^\n]*",
+                               rf"\1 {names}", used.read_text(),
+                               count=1, flags=re.DOTALL))
+        subprocess.run([REPORT, folder, "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
+        page = path.read_text(encoding="utf-8")
+        assert f"is seen from {side} side only." in page
+        meta = json.loads(re.search(r'id="view-meta">(.*?)</script>', page)[1])
+        # two triangles of three corners for each face
+        assert meta["arrays"]["triangles"][2] == 6 * surface, (
+            names, meta["arrays"]["triangles"][2] / 6)
+        assert "This report has no" not in page
+    assert meta["inside"]["along"][2] == -1., meta["inside"]
+
+
 def check_no_steps():
     """What no step has computed is not shown."""
     page = report_of(20)
@@ -130,6 +196,6 @@ def check_no_steps():
 
 shutil.rmtree(FOLDER, ignore_errors=True)
 FOLDER.mkdir(parents=True)
-for case in (check_followers, check_not_critical, check_stable, check_no_steps):
+for case in (check_followers, check_not_critical, check_stable, check_ground, check_no_steps):
     case()
     print(f"{case.__name__}: as it should be")

@@ -149,6 +149,10 @@ class Run:
         """Whether the run moves anything, and not only judges blocks."""
         return self.entries.get("Safety factor/Method") != "limit equilibrium"
 
+    def digs(self):
+        """Whether the scene has excavations."""
+        return bool(self.entries.get("Excavations/Names", "").strip())
+
     def finite_blocks(self):
         """The numbers of the blocks that could move, in order."""
         return [number for number, block in sorted(self.blocks.items())
