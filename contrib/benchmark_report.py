@@ -70,7 +70,7 @@ n cells of a 3D mesh in Hilbert chunks has about 6 n^(2/3) rim nodes, each sent
 once as force and once as velocity: 48 B. At n = 4e6 that is 7 MB per step and
 rank; at 12 M cell-steps/s the step takes 0.33 s, at a link of 10 GB/s the
 exchange 0.7 ms, and an all-reduce over 250 ranks some 50 us (one per step with
-kinetic-energy stops, mobile contact or a far field). By this count 1e9 cells on
+kinetic-energy stops, surface contacts or a far field). By this count 1e9 cells on
 250 such ranks lose less than 1 % to communication. What does not scale is the
 set-up: every rank holds the whole mesh, so the memory of one machine (its peak
 per cell is in the table of growth) ends the size of a model, not its speed.
@@ -164,14 +164,23 @@ def draw_growth(rows, path):
     pyplot.close(figure)
 
 
+BY_HAND = "## Meshes of random joint networks\n"  # from there on
+
+
 def write(tables, folder):
-    """Write FOLDER/performance.md and the plots beside it."""
-    with open(folder / "performance.md", "w", encoding="utf-8") as out:
+    """Write FOLDER/performance.md and the plots beside it.
+
+    Sections that are written by hand follow the others, and are kept."""
+    page = folder / "performance.md"
+    before = page.read_text(encoding="utf-8") if page.exists() else ""
+    _, heading, by_hand = before.partition(BY_HAND)
+    with open(page, "w", encoding="utf-8") as out:
         out.write("# Performance\n\nWritten by `contrib/benchmark.sh` from "
                   "the tables in `doc/benchmark`; do not edit. Two cores of a "
                   "shared machine: rates drift by 20 to 30 %, so compare "
-                  "ratios, which are those of runs made in turn. Where each "
-                  "section was measured stands at the end.\n\n")
+                  "ratios, which are those of runs made in turn. Where and when "
+                  "each section was measured stands under *Machines*, and in "
+                  "the sections behind that, which are written by hand.\n\n")
         for name, text in TEXT.items():
             path = tables / f"{name}.csv"
             if not path.exists():
@@ -184,3 +193,5 @@ def write(tables, folder):
                 draw(rows, folder / picture)
                 out.write(f"![{name}]({picture})\n\n")
         out.write(CLOSING)
+        if heading:
+            out.write(f"\n{heading}{by_hand}")

@@ -22,7 +22,10 @@ difference counts. Of cells that are less than 1.7 times smaller the error is wa
 of, of less than 1.2 times none is told. The value is that
 of the finest mesh, not an extrapolated one (that is printed beside it), and its
 uncertainty the sum of mesh error, half the width of the bracket, and the changes
-with time step and damping, which are measured on the scene's own mesh.
+with time step and damping, which are measured on the scene's own mesh. None of these
+tells what a mesh does that gives the block another shape: where its volumes in the
+variants, or that between its planes, differ by more than 1 %, or a run warns of moved
+faces, that is said, and the interval holds the values of all variants.
 
 Exits with 1 if a run fails, no factor is found, some runs give a block a value and
 others do not, its cells are not 1.2 times smaller, the uncertainty of a block is
@@ -36,9 +39,11 @@ import tempfile
 from pathlib import Path
 
 from report.run_files import entries_of
+from report.words import count
 from script_tools import make_parser, split_arguments
 
 LEAST_RATIO, GOOD_RATIO = 1.2, 1.7  # of cell sizes: to tell an error, without a warning
+SAME_VOLUME = 0.01  # what volumes of a block may differ by
 FINER = ("smaller cells", "smallest cells")
 HALF_DAMPING = ("Safety factor/Mass damping", "Safety factor/Damping ratio")
 
@@ -79,8 +84,8 @@ class Runner:
         self.options, self.folder, self.rest = options, folder, rest
 
     def run(self, name, changes):
-        """Factors (block, its centroid, size and size of cells, stage entry) of
-        a variant."""
+        """Factors (block, its centroid, size, volumes, size of cells, stage entry)
+        of a variant, and whether it warns of moved faces."""
         output = self.folder / name.replace(" ", "_")
         command = [str(Path(self.options.keyblock).resolve()), self.options.scene,
                    "--output", str(output), "--set", "Output/Write VTU=false"] + self.rest
@@ -96,23 +101,28 @@ class Runner:
         for block in summary["blocks"]:
             place = [float(x) for x in block["centroid"]]
             size = float(block["volume"]) ** (1. / dim)
+            volumes = [float(block[name]) for name in ("volume", "exact_volume")
+                       if name in block]
             cell = size / int(block["cells"]) ** (1. / dim)
             for factor in block.get("safety_factor", []):
-                found.append((int(block["id"]), place, size, cell, factor))
+                found.append((int(block["id"]), place, size, volumes, cell, factor))
         print(f"{name}: {summary['scene']['cells']} cells, "
-              f"{summary['run']['steps']} steps, {len(found)} factors", flush=True)
-        return output, found
+              f"{summary['run']['steps']} steps, {count(len(found), 'factor')}",
+              flush=True)
+        is_moved = any("has moved faces" in str(warning)
+                       for warning in summary.get("warnings") or [])
+        return output, found, is_moved
 
 
 def partner(one, others):
-    """The size of cells and the entry of the same block and stage in another run,
-    or None, None."""
-    _, place, size, _, factor = one
-    near = [other for other in others if other[4]["stage"] == factor["stage"]
+    """Volumes, size of cells and the entry of the same block and stage in another
+    run, or None, None, None."""
+    _, place, size, *_, factor = one
+    near = [other for other in others if other[5]["stage"] == factor["stage"]
             and math.dist(place, other[1]) < 0.25 * size
             and 0.5 < other[2] / size < 2.]
     return (min(near, key=lambda other: math.dist(place, other[1]))[3:] if near
-            else (None, None))
+            else (None, None, None))
 
 
 def describe(factor):
@@ -173,13 +183,26 @@ def are_smaller(ratios):
     return True
 
 
-def assess(one, runs):
+def shapes_differ(partners, moved):
+    """Print what the meshes of the runs make of a block; whether that matters."""
+    volumes = [v for found in partners.values() for v in found[0]]
+    spread = (max(volumes) - min(volumes)) / min(volumes)
+    if spread > SAME_VOLUME:
+        print(f"  Warning: the variants' blocks differ by {100. * spread:.2g} % in "
+              "volume: the estimate says little; set 'Mesh/Snap' to 0 or smaller cells")
+    elif moved:
+        print(f"  Warning: the mesh has moved faces of blocks ({', '.join(moved)}): the "
+              "estimate says little; set 'Mesh/Snap' to 0 or smaller cells")
+    return spread > SAME_VOLUME or bool(moved)
+
+
+def assess(one, runs, moved):
     """Print one block and stage. Returns value and uncertainty, or None and whether
     all runs say the same."""
     number, *_, factor = one
     print(f"\nBlock {number} after stage {factor['stage']}")
     partners = {name: partner(one, factors) for name, factors in runs.items()}
-    found = {name: other for name, (_, other) in partners.items()}
+    found = {name: other for name, (*_, other) in partners.items()}
     for name, other in found.items():
         print(f"  {name:20} {describe(other)}")
     meshes = [name for name in runs if name == "as it is" or name in FINER]
@@ -189,7 +212,7 @@ def assess(one, runs):
         is_same = len(outcomes) == 1
         print(f"  {'the same in all runs' if is_same else 'not the same in all runs'}")
         return None, is_same
-    sizes = [partners[name][0] for name in meshes]
+    sizes = [partners[name][1] for name in meshes]
     ratios = [a / b for a, b in zip(sizes, sizes[1:])]
     if not are_smaller(ratios):
         return None, False
@@ -200,6 +223,9 @@ def assess(one, runs):
                                                                    "half damping")]
     value = values[-1]
     whole = abs(error) + bracket + sum(changes)
+    if shapes_differ(partners, moved):
+        whole = max(whole, *(abs(value_of(other) - value) + bracket
+                             for other in found.values()))
     print(f"  mesh error           {error:+.5f} ({way}); extrapolated {value + error:.5f}")
     print(f"  half the bracket     {bracket:.5f}; time step {changes[0]:.5f}; "
           f"damping {changes[1]:.5f}")
@@ -219,7 +245,7 @@ def main():
     folder = Path(options.keep or tempfile.mkdtemp()).resolve()
     folder.mkdir(parents=True, exist_ok=True)
     runner = Runner(options, folder, rest)
-    output, base = runner.run("as it is", {})
+    output, base, is_moved = runner.run("as it is", {})
     if not base:
         sys.exit("No safety factor was found; see the entry 'Safety factor/Blocks'.")
     entries = read_entries(output / "used.prm")
@@ -229,12 +255,13 @@ def main():
         "Time stepping/Safety": f"{0.5 * float(entries['Time stepping/Safety']):.9g}"}
     variants["half damping"] = {name: f"{0.5 * float(entries[name]):.9g}"
                                 for name in HALF_DAMPING}
-    runs = {"as it is": base}
+    runs, moved = {"as it is": base}, ["as it is"] if is_moved else []
     for name, changes in variants.items():
-        runs[name] = runner.run(name, changes)[1]
+        _, runs[name], is_moved = runner.run(name, changes)
+        moved += [name] if is_moved else []
     is_good = True
     for one in base:
-        value, whole = assess(one, runs)
+        value, whole = assess(one, runs, moved)
         if value is None:
             is_good = is_good and whole and options.exact is None
             continue

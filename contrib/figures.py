@@ -21,7 +21,8 @@ RUN and OTHER are output folders. Writes, as far as the run has what they show,
   joint_stresses.png mean stresses on the faces of the finite blocks (2D only)
   energy.png         terms of the energy ledger, and how well it closes
 
-In 3D blocks.png is of the finite blocks, what is dug and the joints, the maps are
+Where limit equilibrium alone was asked for, no step is taken: what would show
+one is left out. In 3D blocks.png is of the finite blocks, what is dug and the joints, the maps are
 of the rock cut open, inside.png is seen from what is dug. Joints have the colour
 of their set; of more than 12 finite blocks those that are exposed have numbers.
 
@@ -39,8 +40,8 @@ import figures_factors as factors
 from figures_fields import draw_joint_states, draw_plastic, draw_stress
 from figures_maps import draw_block_map, draw_deformed
 from figures_run import Run, fail
-from figures_style import (ROCK_COLOURS, block_colour, pale, reduce_colours,
-                           save, to_rgb)
+from figures_style import (NO_STEPS, ROCK_COLOURS, block_colour, pale,
+                           reduce_colours, save, to_rgb)
 from render import View, draw
 from render_options import numbers
 from vtkmodules.vtkCommonCore import vtkLogger
@@ -145,6 +146,9 @@ def draw_solids(run, folder, arguments):
     for name, view in views_of_solids(run, arguments):
         if name == "plastic_strain" and not has_plastic:
             print("plastic_strain: no plastic material")
+            continue
+        if not run.takes_steps() and name.startswith(("deformed", "joint_states")):
+            print(f"{name}: {NO_STEPS}")
             continue
         if name == "inside" and not is_dug:
             print("inside: nothing is dug")

@@ -6,8 +6,8 @@ and returns a figure, or a sentence that says what it has not got."""
 import numpy
 
 from figures_joints import block_face_stresses
-from figures_style import (DASHES, NOTHING, block_colour, block_label,
-                           block_line, fitting_unit, joint_style,
+from figures_style import (DASHES, NO_STEPS, NOTHING, block_colour,
+                           block_label, block_line, fitting_unit, joint_style,
                            key_of_joints, key_of_runs, new_figure,
                            put_legend, put_stages)
 
@@ -126,6 +126,8 @@ def draw_joint_forces(runs):
 def draw_joint_stresses(runs):
     """Mean stresses on the faces of each finite block by stage."""
     first = runs[0]
+    if not all(run.takes_steps() for run in runs):
+        return NO_STEPS
     found = [(run, block_face_stresses(run)) for run in runs]
     order = first.exposed_blocks()
     order += [n for n in first.finite_blocks() if n not in order]

@@ -205,7 +205,7 @@ def key_of_factors(axes, run, runs, curves):
             fill = "0.3" if marker == "o" else "white"
             axes.plot([], [], color="0.3", linestyle=dashes, marker=marker,
                       markersize=5, markerfacecolor=fill, label=name)
-    for marker, label in (("^", "immovable or above the highest"),
+    for marker, label in (("^", "immovable, stable or above the highest"),
                           ("v", "falls freely"), (r"$\uparrow$", "or more")):
         axes.plot([], [], marker=marker, linestyle="none", color="0.3",
                   markersize=8, label=label)

@@ -7,7 +7,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from figures_joints import cells_of
 from figures_maps import (block_of_cells, choose_box, number_places, outlines,
                           set_up, sheet_size, stage_of_cells)
-from figures_style import (ROCK_COLOURS, block_colour, fitting_unit,
+from figures_style import (NO_STEPS, ROCK_COLOURS, block_colour, fitting_unit,
                            new_figure, put_legend, put_text, pyplot)
 from render_data import magnitudes_of, values_of
 from render_parts import JOINT_STATES, STATE_COLOURS, joint_faces
@@ -22,7 +22,9 @@ def state_of(run, name):
     """The grid of the state after a stage, or the last, and a title."""
     stage = run.stages.index(name) if name else len(run.stages) - 1
     index = run.state_of_stage(stage)
-    return run.rock(index), index, f"after {run.stages[stage]}"
+    return run.rock(index), index, (
+        f"after {run.stages[stage]}" if run.takes_steps() else
+        f"at first, in the rock after {run.stages[stage]}")
 
 
 def inside_of(corners, box):
@@ -145,6 +147,8 @@ def draw_plastic(run, name=None, box=()):
 
 def draw_joint_states(run, name=None, box=()):
     """Where joints are bonded, stick, slide or are open."""
+    if not run.takes_steps():
+        return NO_STEPS
     if not (run.states and run.stages):
         return "no states (solution.pvd)"
     grid, index, title = state_of(run, name)

@@ -124,6 +124,10 @@ class Run:
         except ValueError:
             return []
 
+    def takes_steps(self):
+        """Whether the run moves anything, and not only judges blocks."""
+        return self.entries.get("Safety factor/Method") != "limit equilibrium"
+
     def finite_blocks(self):
         """The numbers of the blocks that could move, in order."""
         return [number for number, block in sorted(self.blocks.items())

@@ -29,6 +29,7 @@ JOINT_COLOURS = ["#222222", "#1565c0", "#2e7d32", "#00909e", "#827717",
 DASHES = ["-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))]
 HIDDEN = "#9a9a92"  # of many blocks those that are hidden
 LARGEST = 250000  # bytes of a picture; larger ones get fewer colours
+NO_STEPS = "no step was taken, limit equilibrium alone judged the blocks"
 NOTHING = 1e-12  # displacements below are rounding errors [m]
 UNITS = {"m": (("m", 1.), ("mm", 1e-3), ("\N{MICRO SIGN}m", 1e-6)),
          "N": (("GN", 1e9), ("MN", 1e6), ("kN", 1e3), ("N", 1.)),

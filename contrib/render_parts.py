@@ -16,7 +16,7 @@ from vtkmodules.vtkFiltersGeneral import vtkTableBasedClipDataSet
 from render_data import (corners_of_cells, fail, find_joints, find_rock,
                          make_grid, merge_points, outline_of, read_classes,
                          read_grid, values_of)
-from report.geometry import FACES
+from report.geometry import DOWN, FACES, is_shaft
 from report.polygons import clip_polygon
 from report.reading import ReportError
 from report.run_files import groups_of
@@ -170,7 +170,9 @@ def exposed_blocks(collection, grid):
 
 
 def place_inside(collection, grid):
-    """A place near one end of what is dug, and the direction of its length."""
+    """A place near one end of what is dug, and the direction of its length.
+
+    Near the top of a shaft, which is higher than long by half, and down."""
     dug = dug_cells(collection, grid)
     if not len(dug):
         fail("nothing is dug at this time, so there is no tunnel to look "
@@ -181,6 +183,8 @@ def place_inside(collection, grid):
     level[:, 2] = 0.
     along = numpy.linalg.svd(level, full_matrices=False)[2][0]
     along *= numpy.sign(along[abs(along).argmax()])
+    if is_shaft(dug.reshape(-1, 3), along):
+        along = DOWN
     ends = dug.reshape(-1, 3) @ along
     return middle + (ends.min() - middle @ along
                      + 0.03 * numpy.ptp(ends)) * along, along

@@ -9,6 +9,7 @@ smaller as the case says: order and error are known, whatever the ratios.
 """
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -30,8 +31,10 @@ factor = {"stage": "dig", "outcome": "value", "value": value,
 if case.get("open"):
     del factor["upper"]
 (output / "summary.json").write_text(json.dumps({
+    "warnings": ["The mesh has moved faces of blocks off ..."] if
+        case.get("moved") and not asked else [],
     "scene": {"dimension": 3, "cells": round(h ** -3)}, "run": {"steps": 1},
-    "blocks": [{"id": 1, "centroid": [0., 0., 0.], "volume": 1.,
+    "blocks": [{"id": 1, "centroid": [0., 0., 0.], "volume": case.get("volume", 1.) if asked else 1.,
                 "cells": round(h ** -3), "safety_factor": [factor]}]}))
 (output / "used.prm").write_text("subsection Mesh\\n" + "\\n".join(
     f"set {k} = {v}" for k, v in case["mesh"].items()) + """
@@ -50,11 +53,11 @@ GMSH = {"Generator": "gmsh", "Size": "2", "Size at excavation": "0",
         "Refinement levels": ""}
 
 
-def assess(order, mesh, *finer, is_open=False):
+def assess(order, mesh, *finer, **case):
     """Exit code and output for a case; finer: entry, value, size of cells."""
     scene = FOLDER / "scene.prm"
     scene.write_text(json.dumps({"order": order, "mesh": mesh, "finer": finer,
-                                 "open": is_open}))
+                                 **case}))
     done = subprocess.run(
         [sys.executable, ROOT / "contrib/factor_uncertainty.py", scene,
          "--keyblock", FOLDER / "program", "--keep", FOLDER / "runs",
@@ -86,8 +89,25 @@ def main():
     code, text = assess(1, {**GMSH, "Size": "0"},
                         ("Mesh/Refinement levels", "(0) + 1", 0.05))
     assert code == 0 and "2.00 times smaller" in text, text
-    code, text = assess(1, GMSH, ("Mesh/Size", "1", 0.05), is_open=True)
+    code, text = assess(1, GMSH, ("Mesh/Size", "1", 0.05), open=True)
     assert "open bracket, from" in text, text
+    # another shape of the block in the finer mesh: all values are within
+    for case, words in (({"volume": 1.05}, "blocks differ by 5 % in volume"),
+                        ({"moved": True}, "moved faces of blocks (as it is, half "),
+                        ({"volume": 1.005}, "")):
+        code, text = assess(2, GMSH, ("Mesh/Size", "1", 0.05), **case)
+        assert code == 0 and ("says little" in text) == (words != ""), text
+        assert words in text, text
+        value, _, width = re.search(r"factor  +(\S+) (\+-) (\S+) ",
+                                    text).groups()
+        assert float(value) + float(width) >= 1.01 - 1e-6, text
+    code, text = assess(1, GMSH, ("Mesh/Size", "1", 0.03125), volume=0.9)
+    value, width = map(float, re.search(r"factor  +(\S+) \+- (\S+) ",
+                                        text).groups())
+    assert "blocks differ by 11 %" in text and (
+        abs(value - 1.03125) < 1e-5 and value + width >= 1.1), text
+    code, text = assess(1, GMSH, ("Mesh/Size", "1", 0.03125))
+    assert "says little" not in text and "+- 0.031" in text, text
     print("ratios are measured, errors told by them")
 
 

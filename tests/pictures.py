@@ -256,6 +256,10 @@ looks = {(figures_style.block_colour(run, n), bool(figures_style.block_line(
 assert len(looks) == 12, looks
 assert figures_style.fitting_unit("m", [[0.9997e-3]]) == ("mm", 1e-3)
 assert figures_style.fitting_unit("m", [[0.9e-3]])[1] == 1e-6
+from report import geometry
+tall = numpy.array([[x, y, z] for x in (0., 6.) for y in (0., 6.) for z in (0., 20.)])
+assert geometry.is_shaft(tall, numpy.array([1., 0., 0.]))
+assert not geometry.is_shaft(tall[:, [2, 0, 1]], numpy.array([1., 0., 0.]))
 import figures_maps
 uneven = grid(1., 1.05e-3)
 render_data.vtk_to_numpy(uneven.GetPointData().GetArray("displacement"))[1:] = 0.
@@ -297,6 +301,16 @@ def check_curves():
                             text)
         assert all(0. < float(x) < wide and 0. < float(y) < high
                    for x, y in places), path
+    # what shows steps is left out where none was taken
+    still = FOLDER / "still"
+    shutil.copytree(folder, still)
+    (still / "used.prm").write_text(re.sub(
+        "(?m)(^ *set Method *= )bisection.*", r"\1limit equilibrium",
+        (still / "used.prm").read_text()))
+    said = call(CONTRIB / "figures.py", still, "--to", FOLDER / "still_figures")
+    for name in ("joint_states", "joint_stresses"):
+        assert f"{name}: no step was taken" in said, said
+        assert not (FOLDER / "still_figures" / f"{name}.png").exists()
     path = folder / "solution.pvd"
     done = subprocess.run([CONTRIB / "render.py", path, FOLDER / "none.png", "--field",
                            "nosuch"], capture_output=True, text=True)

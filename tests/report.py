@@ -292,7 +292,11 @@ def check_study():
                                      .format(p["lower"], p["upper"])))
     # some block, block 1, and the last point of the convergence
     assert page.count(f"<td class=n>{band}</td>") == 3, band
-    assert page.count("<svg") == 4
+    # the failed area is that of the one block: no histogram of rounding errors
+    assert page.count("<svg") == 3
+    volume = results["failed_volume"]
+    assert volume["greatest"] - volume["least"] < 1e-12, volume
+    assert f"is the same in all: {volume['mean']:.4g}.</p>" in page
     for name in ("probability", "factors", "convergence", "variables",
                  "settings"):
         assert f"<h2 id={name}>" in page and f'href="#{name}"' in page

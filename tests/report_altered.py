@@ -7,6 +7,7 @@ usage: report_altered.py KEYBLOCK REPORT PRM FOLDER
 The summary.json of a run is changed: open brackets, blocks that move, support
 beyond its strength, parts that cannot be made, ...; the report has to say so.
 """
+import csv
 import html
 import json
 import pathlib
@@ -113,22 +114,37 @@ def blocks_of(page):
 
 
 def check_held():
-    """A block below 1 by limit equilibrium that strength reduction holds."""
-    for held, words in (("clamping", "stress"), ("bolts and clamping", "")):
+    """A block below 1 by limit equilibrium that strength reduction holds.
+
+    By what the run says, or else by nothing that is named."""
+    for held, remark, words, clamped in (
+            ("clamping", "", "is held by clamping: without", "yes"),
+            ("bolts and clamping", "", "is held by bolts and", "yes"),
+            ("bolts", "", "is held by bolts: without", "no"),
+            ("", "held by the support sym, left out; meets the rock",
+             "is held by the support sym: without", "no"),
+            ("", "", "holds by strength reduction, but without", "yes")):
         def change(_, block):
             limit = block["limit_equilibrium"][-1]
-            limit.update(outcome="factor", value=0., mode="falling")
-            set_factor(block, outcome=f"above 100, held by {held}", lower=100.)
+            limit.update(outcome="factor", value=0., mode="falling",
+                         remark=remark)
+            set_factor(block, **({
+                "outcome": f"above 100, held by {held}", "lower": 100.}
+                if held else {"value": 1.2, "lower": 1.19, "upper": 1.21}))
 
         page = altered(change)[1]
-        assert f"Block 1 is held by {words or held} alone" in page
+        assert f"Block 1 {words}" in page, words
+        assert f"<td>{clamped}</td>" in row_of(page, 1), (held, remark)
+        assert "alone: without" not in page
 
         def three(summary, block):
             change(summary, block)
             summary["blocks"] += [{**block, "id": 98}, {**block, "id": 99}]
 
         page = altered(three)[1]
-        assert f"Blocks 1, 98 and 99 are held by {words or held}" in page
+        verb = f"are held by {held}" if "is held" in words and held else (
+            "are held by the support sym" if remark else "hold by strength")
+        assert f"Blocks 1, 98 and 99 {verb}" in page, verb
 
 
 def check_demand():
@@ -238,6 +254,34 @@ def check_taken_away():
         assert page.count('src="data:image/png;base64,') == 2
 
 
+def check_where():
+    """Roof, wall or floor as in blocks.csv, and the same where that is not there.
+
+    Of a slope in a polygon, whose bare sides are no truncated boundaries."""
+    folder, path = FOLDER / "slope", FOLDER / "slope.html"
+    settings = ("Output/Write VTU=true", "Mesh/Size=20",
+                "Safety factor/Method=limit equilibrium")
+    subprocess.run([KEYBLOCK, f"{PRM}/verification/slope_crack.prm",
+                    "--output", folder]
+                   + [word for s in settings for word in ("--set", s)],
+                   check=True, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    table = folder / "blocks.csv"
+    (place,) = (row["place"] for row in csv.DictReader(
+        table.read_text().splitlines()))
+    assert place == "floor", place
+    for there in "as it is", "another", "":
+        if there == "another":
+            table.write_text(table.read_text().replace(",floor,", ",roof,"))
+        elif not there:
+            table.unlink()
+        subprocess.run([REPORT, folder, "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
+        row = row_of(path.read_text(encoding="utf-8"), 1)
+        wanted = "roof" if there == "another" else "floor"
+        assert f"<td>{wanted}</td>" in row, (there, row)
+
+
 def check_pipe():
     """A reader that has gone away is no error."""
     done = subprocess.run(
@@ -256,7 +300,7 @@ def main():
                    check=True, stdout=subprocess.DEVNULL)
     for case in (check_open, check_support, check_moving, check_held,
                  check_demand, check_tried_demand, check_tie, check_lost,
-                 check_unjudged, check_taken_away, check_pipe):
+                 check_unjudged, check_taken_away, check_where, check_pipe):
         case()
         print(f"{case.__name__}: as it should be")
 

@@ -19,6 +19,45 @@ import sys
 
 KEYBLOCK, REPORT, PRM, FOLDER = sys.argv[1:5]
 FOLDER = pathlib.Path(FOLDER)
+SHAFT = """set Dimension = 3
+subsection Domain
+  set Corner = -3, -3, -10
+  set Size = 6, 6, 10
+  set Truncated boundaries = left, right, front, back, bottom
+end
+subsection Mesh
+  set Generator = structured
+  set Cells = 6, 6, 10
+end
+subsection Excavations
+  set Names = shaft
+  subsection shaft
+    set Shape = box
+    set Corner = -1, -1, -8
+    set Size = 2, 2, 8
+    set Stage = sink
+  end
+end
+subsection Materials
+  set Names = rock
+end
+subsection Initial state
+  set Gravity = 0; 0; -9.81
+end
+subsection Supports
+  set Names = base
+  subsection base
+    set Boundaries = bottom
+  end
+end
+subsection Stages
+  set Names = sink
+  subsection sink
+    set Kind = quasi-static
+    set Maximum steps = 1
+  end
+end
+"""
 
 
 def report_of(friction):
@@ -81,6 +120,67 @@ def check_not_critical():
     assert "The run was asked for no factors" not in page
 
 
+def check_stable():
+    """A block that is stable by limit equilibrium is said to be no more."""
+    folder, path = FOLDER / "output_20", FOLDER / "stable.html"
+    before = (folder / "summary.json").read_text()
+    summary = json.loads(before)
+    limit = summary["blocks"][0]["limit_equilibrium"][-1]
+    limit.update(outcome="stable", mode="stable")
+    del limit["value"]
+    (folder / "summary.json").write_text(json.dumps(summary))
+    subprocess.run([REPORT, folder, "-o", path], check=True,
+                   stdout=subprocess.DEVNULL)
+    (folder / "summary.json").write_text(before)
+    page = path.read_text(encoding="utf-8")
+    assert blocks_of(page)["1"]["state"] == "stable", blocks_of(page)["1"]
+    assert "<span>stable by limit equilibrium</span>" in re.sub(
+        "<i.*?</i>", "", page)
+    assert "</i>immovable, or above" not in page
+    # of none and one is spoken as people do
+    for n, words in ((0, "The scene has no finite blocks. "),
+                     (1, "1 finite block, exposed at some stage. ")):
+        kept = [b for b in summary["blocks"] if "infinite" in b["class"]
+                or b["id"] <= n]
+        (folder / "summary.json").write_text(json.dumps(
+            {**summary, "blocks": kept,
+             "mesh": {**summary.get("mesh", {}), "lost_blocks": 1,
+                      "largest_lost_volume": 0.5}}))
+        subprocess.run([REPORT, folder, "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
+        page = path.read_text(encoding="utf-8")
+        assert words in page and not re.search(r"\b1 blocks|\b0 of 0", page)
+        assert "1 block too small for the mesh went to its neighbour" in page
+    (folder / "summary.json").write_text(before)
+
+
+def check_ground():
+    """In 3D what is dug is seen without the ground around it."""
+    folder, path = FOLDER / "shaft", FOLDER / "shaft.html"
+    (FOLDER / "shaft.prm").write_text(SHAFT)
+    subprocess.run([KEYBLOCK, FOLDER / "shaft.prm", "--output", folder],
+                   check=True, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    used = folder / "used.prm"
+    for names, side, surface in (
+            ("shaft", "the excavation's", 4 * 16 + 4),
+            # as if nothing were dug: all that is free, the ground with it
+            ("", "its free", 4 * 16 + 4 + 36)):
+        used.write_text(re.sub("(subsection Excavations.*?set Names *=)[^\n]*",
+                               rf"\1 {names}", used.read_text(),
+                               count=1, flags=re.DOTALL))
+        subprocess.run([REPORT, folder, "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
+        page = path.read_text(encoding="utf-8")
+        assert f"is seen from {side} side only." in page
+        meta = json.loads(re.search(r'id="view-meta">(.*?)</script>', page)[1])
+        # two triangles of three corners for each face
+        assert meta["arrays"]["triangles"][2] == 6 * surface, (
+            names, meta["arrays"]["triangles"][2] / 6)
+        assert "This report has no" not in page
+    assert meta["inside"]["along"][2] == -1., meta["inside"]
+
+
 def check_no_steps():
     """What no step has computed is not shown."""
     page = report_of(20)
@@ -96,6 +196,6 @@ def check_no_steps():
 
 shutil.rmtree(FOLDER, ignore_errors=True)
 FOLDER.mkdir(parents=True)
-for case in (check_followers, check_not_critical, check_no_steps):
+for case in (check_followers, check_not_critical, check_stable, check_ground, check_no_steps):
     case()
     print(f"{case.__name__}: as it should be")

@@ -34,6 +34,14 @@ def unique_rows(rows):
     return first, number.ravel()
 
 
+DOWN = numpy.array([0., 1e-3, -1.])  # not quite, so that north is upwards
+
+
+def is_shaft(places, along):
+    """Whether what is dug is higher by half than it is long."""
+    return numpy.ptp(places[:, 2]) > 1.5 * numpy.ptp(places @ along)
+
+
 class Geometry:
     """Cells, half-faces and displacements of a run."""
 
@@ -123,13 +131,23 @@ class Geometry:
     def is_on_hull(self, vertices):
         """Whether faces lie on the outer boundary where the rock goes on.
 
-        The sides of a box or parallelepiped that Truncated boundaries names;
-        otherwise those of the box around the cells."""
+        The sides that Truncated boundaries names, of a box or parallelepiped
+        or else of the box around the cells; all where it names groups of a
+        mesh file, which are not known here."""
+        wanted = self.run.entries.get("Domain/Truncated boundaries", "all")
+        wanted = {word.strip() for word in wanted.split(",")}
+        sides = self.sides_of_box(vertices)
+        if not wanted <= {"all", "none", *sides}:
+            wanted = {"all"}
+        return sum((on_side for name, on_side in sides.items()
+                    if wanted & {"all", name}), numpy.zeros(len(vertices), bool))
+
+    def sides_of_box(self, vertices):
+        """Which faces lie on each side, by its name, of the domain or of the box
+        around the cells."""
         entries, n = self.run.entries, 2 if self.run.is_plane else 3
         names = (["left", "right", "bottom", "top"] if n == 2 else
                  ["left", "right", "front", "back", "bottom", "top"])
-        wanted = entries.get("Domain/Truncated boundaries", "all")
-        wanted = [word.strip() for word in wanted.split(",")]
         corner = numpy.array(self.run.numbers("Domain/Corner"))
         edges = numpy.array(self.run.numbers("Domain/Edges"))
         size = self.run.numbers("Domain/Size")
@@ -141,14 +159,10 @@ class Geometry:
             corner = low
             edges = numpy.diag(numpy.maximum(
                 self.places.max(axis=0)[:n] - low, 1e-30))
-            wanted = ["all"]
         share = (self.places[vertices][:, :, :n] - corner[:n]) @ numpy.linalg.inv(
             edges.reshape(n, n))
-        found = numpy.zeros(len(vertices), bool)
-        for k, name in enumerate(names):
-            if "all" in wanted or name in wanted:
-                found |= (abs(share[:, :, k // 2] - k % 2) < 1e-5).all(axis=1)
-        return found
+        return {name: (abs(share[:, :, k // 2] - k % 2) < 1e-5).all(axis=1)
+                for k, name in enumerate(names)}
 
     def leave_hanging(self, alone):
         """Faces between cells of different size are no free faces."""
@@ -213,14 +227,22 @@ class Geometry:
     def find_seen(self):
         """States in which half-faces are free, and those to be drawn.
 
-        Of finite blocks all outer faces are drawn, of other rock the free."""
+        Of finite blocks all outer faces are drawn, of other rock the free; in
+        3D not the bare sides of the domain, as the ground around a shaft,
+        where something is dug."""
         there, cell, other = self.is_there, self.face_cell, self.face_other
+        is_dug = numpy.ones(len(cell), bool)
+        alone = numpy.flatnonzero(~self.is_finite[cell] & (other < 0)
+                                  & (self.face_kind == FREE))
+        if not self.run.is_plane and self.run.digs():
+            is_dug[alone] = ~numpy.any([*self.sides_of_box(
+                self.face_vertices[alone]).values()], axis=0)
         self.free_in = numpy.zeros(len(cell), numpy.uint32)
         self.seen_in = numpy.zeros(len(cell), numpy.uint32)
         finite = self.is_finite[cell]
         for k, present in enumerate(there):
             beside = (other >= 0) & present[other]
-            free = present[cell] & ~beside & (self.face_kind == FREE)
+            free = present[cell] & ~beside & is_dug & (self.face_kind == FREE)
             outer = present[cell] & finite & (
                 ~beside | self.face_differs) & (self.face_kind != JOINT)
             bit = numpy.uint32(1 << k)
@@ -237,19 +259,19 @@ class Geometry:
         return 0.5 * numpy.cross(points[:, 2] - points[:, 0],
                                  points[:, 3] - points[:, 1])
 
-    def free_normal(self, number):
+    def free_normal(self, number, since=-1):
         """Mean outward normal of the free faces of a block, and their area.
 
-        Where rock beside it is dug, in the first state in which some is; a
-        block that fell before that state was written had these faces as well.
-        None if it has none; the normal is None if they cancel."""
+        In the first state from stage `since` (-1: the start) on; a block that
+        fell before that state was written had these faces as well. None if it
+        has none; the normal is None if they cancel."""
         mine = numpy.flatnonzero((self.block[self.face_cell] == number)
                                  & (self.face_kind == FREE))
         other = self.face_other[mine]
         alone = other < 0
-        for there in self.is_there:
+        for (_, stage, *_), there in zip(self.run.states, self.is_there):
             free = alone | (~there[other] & ~self.is_finite[other])
-            if free.any():
+            if stage >= since and free.any():
                 normals = self.normals(mine[free])
                 total = normals.sum(axis=0)
                 size = numpy.linalg.norm(total)
@@ -294,7 +316,9 @@ class Geometry:
         return polygons, [int(j) for j in fields["joint"]]
 
     def place_inside(self):
-        """A place in what is dug, and the direction in which it is longest."""
+        """A place in what is dug, and the direction in which it is longest.
+
+        Of a shaft, higher than long by half, that is down from its top."""
         dug = self.is_there[0] & ~self.is_there[-1] & ~self.is_finite
         if not dug.any():
             return None
@@ -304,6 +328,8 @@ class Geometry:
         around[:, 2] = 0.
         along = numpy.linalg.svd(around[::max(1, len(around) // 5000)],
                                  full_matrices=False)[2][0]
+        if is_shaft(centres, along):
+            along, around = DOWN, centres - middle
         back = centres[(around @ along).argmin()]
         nearest = middle + (around @ along).min() * 0.85 * along
         place = centres[numpy.linalg.norm(centres - nearest, axis=1).argmin()]

@@ -9,7 +9,7 @@ from .page_stages import energy_section, joints_section, stages_section
 from .page_support import bolts_section, shotcrete_section
 from .page_view import view_section
 from .tables import warnings_of
-from .words import number
+from .words import count, number
 
 
 def title_of(run):
@@ -39,13 +39,16 @@ def further_verdict(rows):
                  f"{named(moving)}.")
     held = {}
     for row in rows:
-        if row["held_by"]:
+        if row["held_by"] is not None:
             held.setdefault(row["held_by"], []).append(row["block"])
     for what, numbers in held.items():
+        several = len(numbers) > 1
         text += (f" {named(numbers).capitalize()} "
-                 f"{'are' if len(numbers) > 1 else 'is'} held by {what} alone: "
-                 "without in-situ stress, as rigid blocks, factors are below "
-                 "1.")
+                 + (f"{'are' if several else 'is'} held by {what}: " if what else
+                    f"hold{'' if several else 's'} by strength reduction, but ")
+                 + "without in-situ stress, as "
+                 + ("rigid blocks, factors are" if several else
+                    "a rigid block, its factor is") + " below 1.")
     return text
 
 
@@ -55,8 +58,10 @@ def head(run, rows):
     program, facts_of_run = summary.get("program", {}), summary.get("run", {})
     exposed = sum(row["exposed"] for row in rows)
     failed = [row["block"] for row in rows if row["state"] == "fails"]
-    verdict = (f"{len(rows)} finite block{'s' if len(rows) != 1 else ''}, "
-               f"{exposed} of them exposed at some stage. ")
+    verdict = (f"{count(len(rows), 'finite block')}, {exposed} of them exposed "
+               "at some stage. " if len(rows) > 1 else
+               f"1 finite block, {'exposed at some stage' if exposed else 'never exposed'}"
+               ". " if rows else "The scene has no finite blocks. ")
     if failed:
         verdict += ("Failed in a stage, fall freely, or have a factor below "
                     "1: "
@@ -75,9 +80,10 @@ def head(run, rows):
         f"deal.II {program['deal_ii_version']}" if program.get(
             "deal_ii_version") else "", program.get("compiler", "")) if text)
     n = run.scene("dimension")
-    size = (f"{n}D, {run.scene('cells')} cells, {run.scene('nodes')} nodes, "
-            f"{run.scene('joints')} joints, {run.scene('pairs')} pairs of "
-            "joint faces")
+    size = (f"{n}D, {count(run.scene('cells'), 'cell')}, "
+            f"{count(run.scene('nodes'), 'node')}, "
+            f"{count(run.scene('joints'), 'joint')}, "
+            f"{run.scene('pairs')} pairs of joint faces")
     way = summary.get("mesh", {})
     mesh = None
     if way.get("way"):
@@ -103,7 +109,7 @@ def head(run, rows):
                 ("seeds of joint sets", escape(seeds)),
                 ("model", escape(size)), ("mesh", mesh),
                 ("run", ", ".join(t for t in (
-                    f"{facts_of_run.get('steps')} steps" if run.takes_steps()
+                    count(facts_of_run.get("steps"), "step") if run.takes_steps()
                     else "no step, limit equilibrium alone",
                     f"{program.get('ranks', 1)} rank"
                     + ("s" if program.get("ranks", 1) != 1 else ""),
@@ -138,8 +144,10 @@ def settings_section(run):
             for path, value, default in run.changed)
         elsewhere = (" (joints are in joints.csv)" if (
             run.folder / "joints.csv").exists() else "")
-        text.append(f"<details><summary>{len(run.changed)} entries of used.prm "
-                    f"that differ from their defaults{elsewhere}"
+        n = len(run.changed)
+        differ = ("1 entry of used.prm that differs from its default" if n == 1 else
+                  f"{n} entries of used.prm that differ from their defaults")
+        text.append(f"<details><summary>{differ}{elsewhere}"
                     '</summary><div class="wide tall"><table><thead><tr><th>'
                     "entry</th><th>value</th><th>default</th></tr></thead>"
                     f"<tbody>{rows}</tbody></table></div></details>")
@@ -153,8 +161,8 @@ def settings_section(run):
         rows = "".join(f"<tr><td>{escape(k)}</td><td class=n>"
                        f"{number(v, 6) if isinstance(v, (int, float)) else escape(v)}"
                        "</td></tr>" for k, v in checks.items())
-        text.append(f"<details><summary>{len(checks)} checks of the scene"
-                    f"</summary><table>{rows}</table></details>")
+        text.append(f"<details><summary>{count(len(checks), 'check')} of the "
+                    f"scene</summary><table>{rows}</table></details>")
     return "\n".join(text)
 
 

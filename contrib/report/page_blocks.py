@@ -6,7 +6,7 @@ from .html import clamped_text, escape, group_text
 from .statics import (follows_others, limit_in_words, mode_by_statics,
                       own_factor, statics_in_words)
 from .tables import STATES, few, in_words, is_held_by_clamping, of_stage
-from .words import mode_in_words, number, support_in_words
+from .words import count, mode_in_words, number, support_in_words
 
 MOST_ROWS = 60  # rows of blocks before the rest is folded away
 
@@ -121,8 +121,8 @@ def blocks_section(run, rows, has_view, files):
     if rest:
         judged = ("none of them was seen to fail by itself" if any(
             r["factor"] for r in rest) else "no factor was looked for")
-        text += [f"<details><summary>{len(rest)} more blocks that are never "
-                 f"exposed; {judged}</summary>",
+        text += [f"<details><summary>{count(len(rest), 'more block')} that "
+                 f"{'is' if len(rest) == 1 else 'are'} never exposed; {judged}</summary>",
                  '<div class="wide tall">',
                  table(columns, rest, has_view, empty), "</div></details>"]
     notes = []
@@ -131,7 +131,8 @@ def blocks_section(run, rows, has_view, files):
                  "it, or that of the blocks that move together, is least; "
                  "limit equilibrium: the rigid block without in-situ stress, "
                  "after the same stage. Held by clamping: strength reduction "
-                 "holds at full strength, limit equilibrium alone is below 1."
+                 "holds at full strength, limit equilibrium alone is below 1, "
+                 "and the run names nothing else that holds the block."
                  ) if "strength reduction" not in empty else None
     if "moved [mm]" not in empty:
         notes.append("Moved: the largest displacement in the states that were "
@@ -181,8 +182,12 @@ def why_no_factors(run, rows):
         judged = sum(bool(row["limit"] or row["passed"]) for row in rows)
         falling = sum(own_factor(row["limit"]) < 1. for row in rows)
         later = sum(follows_others(row["limit"]) for row in rows)
+        if not judged:
+            return ("By limit equilibrium, which alone was asked for, no block "
+                    "was judged.")
         return (f"By limit equilibrium, which alone was asked for, {falling} of "
-                f"{judged} blocks {'has' if falling == 1 else 'have'} a factor below 1"
+                f"{count(judged, 'block')} {'has' if 1 in (falling, judged) else 'have'} "
+                "a factor below 1"
                 + (f", and {later} more fail{'s' if later == 1 else ''} once "
                    "others have gone." if later else "."))
     asked = run.entries.get("Safety factor/Blocks", "none")

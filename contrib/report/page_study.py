@@ -77,13 +77,20 @@ def probability_section(study):
             f"</thead><tbody>{text}</tbody></table></div>{means}")
 
 
+def are_equal(statistics):
+    """Whether all values are one, but for rounding."""
+    least, greatest = statistics["least"], statistics["greatest"]
+    return greatest - least <= 1e-9 * max(abs(least), abs(greatest))
+
+
 def statistics_table(rows):
     """Mean, deviation and percentiles of quantities."""
     percents = ("1", "5", "50", "95", "99")
     text = "".join(
         f"<tr><td>{escape(name)}</td>" + "".join(
             f"<td class=n>{number(value)}</td>" for value in (
-                s["samples"], s["mean"], s["deviation"], s["least"],
+                s["samples"], s["mean"], 0. if are_equal(s) else s["deviation"],
+                s["least"],
                 *(s["percentiles"][p] for p in percents), s["greatest"]))
         + "</tr>" for name, s in rows)
     return ('<div class="wide"><table><thead><tr><th></th>' + "".join(
@@ -113,6 +120,9 @@ def distributions_section(study, figures):
                    "In no sample a block can move.") + "</p>")
     return ("<h2 id=factors>Factors and sizes of failures</h2>"
             + figures_in(figures.get("factors"), figures.get("volumes"))
+            + "".join(f"<p>The {escape(name.replace(' [-]', ''))} is the same in "
+                      f"all: {number(s['mean'])}.</p>"
+                      for name, s in rows if are_equal(s))
             + statistics_table(rows))
 
 
@@ -153,17 +163,19 @@ def make_figures(study, attempt):
         return {}
     results = study.results
     size = ("failed area [m²]" if study.is_plane else "failed volume [m³]")
+    spread = {key: results[key] for key in ("least_factor", "failed_volume")
+              if key in results and not are_equal(results[key])}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of Matplotlib's layout
         return {
             "factors": attempt("histogram of factors", None,
                                study_plots.histogram,
-                               results.get("least_factor"),
+                               spread.get("least_factor"),
                                "least factor of a sample [-]",
                                results["threshold"]),
             "volumes": attempt("histogram of sizes", None,
                                study_plots.histogram,
-                               results.get("failed_volume"), size),
+                               spread.get("failed_volume"), size),
             "convergence": attempt("figure of convergence", None,
                                    study_plots.convergence,
                                    results["convergence"]),

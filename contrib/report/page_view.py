@@ -28,7 +28,7 @@ def three_script():
             f"const OrbitControls=(()=>{{{body}\nreturn OrbitControls;}})();\n")
 
 
-def view_controls(is_plane, is_moved):
+def view_controls(is_plane, is_moved, digs):
     """What stands beside the view."""
     def box(name, label):
         return (f'<label><input type="checkbox" id="show-{name}"> {label}'
@@ -53,7 +53,8 @@ def view_controls(is_plane, is_moved):
         f'<button id="look-{key}">{text}</button>'
         for key, text in buttons.items())}</fieldset>
 {cut}<fieldset><legend>Show</legend>
-{box("rock", "rock" if is_plane else "excavation surface")}
+{box("rock", "rock" if is_plane else "excavation surface" if digs else
+     "surface of the rock")}
 {box("exposed", "exposed blocks")}{box("hidden", "hidden blocks")}
 {box("edges", "outlines")}{box("labels", "numbers of exposed blocks")}</fieldset>
 <fieldset><legend>Colours</legend><select id="colouring">
@@ -72,7 +73,8 @@ def view_section(run, packed):
     meta, data = packed
     hint = ("Drag to move, wheel to zoom." if run.is_plane else
             "Drag to turn, right button or shift to move, wheel to zoom. Rock "
-            "is seen from the cavern's side only.")
+            "is seen from " + ("the excavation's" if run.digs() else "its free")
+            + " side only.")
     meta_text = json.dumps(meta).replace("<", "\\u003c")
     script = (three_script() + source("view.js")).replace("</script",
                                                           "<\\/script")
@@ -80,7 +82,7 @@ def view_section(run, packed):
 <p class=faint>{hint} Click on a block for its row in the table.</p>
 <div id="view"><div id="canvas"><div id="labels"></div><div id="scale"></div>
 <div id="chosen" hidden></div></div>
-<div id="controls">{view_controls(run.is_plane, run.takes_steps())}</div></div>
+<div id="controls">{view_controls(run.is_plane, run.takes_steps(), run.digs())}</div></div>
 <script type="application/json" id="view-meta">{meta_text}</script>
 <script type="text/plain" id="view-data">{data}</script>
 <script type="module">

@@ -14,6 +14,7 @@ if pyplot:
 
 DPI = 110
 WIDTH, HEIGHT = 7.2, 5.2  # at most [inch]
+ARROWS = 0.85  # of the axes [inch]
 CAVERN = "#d8d3c8"
 
 
@@ -227,6 +228,12 @@ def edges_of(owner, normals):
 
 def show_image(image, owner, exposed, axes3):
     """A figure with a picture of pixels, numbers of blocks and axes."""
+    # the arrows stand on the left of what would be behind them
+    side = round(ARROWS * DPI)
+    if (owner[-2 * side:, :2 * side] >= 0).any():
+        image = numpy.pad(image, ((0, 0), (side, 0), (0, 0)),
+                          constant_values=1.)
+        owner = numpy.pad(owner, ((0, 0), (2 * side, 0)), constant_values=-1)
     height, width = image.shape[:2]
     figure = pyplot.figure(figsize=(width / DPI, height / DPI))
     axes = figure.add_axes((0., 0., 1., 1.))
@@ -240,14 +247,14 @@ def show_image(image, owner, exposed, axes3):
             k = numpy.hypot(x - x.mean(), y - y.mean()).argmin()
             labels[n] = numpy.array((0.5 * x[k], 0.5 * y[k]))
     put_labels(axes, labels, 1. / DPI)
-    put_axes(axes, axes3)
+    put_axes(axes, axes3, (side / width, side / height))
     return figure
 
 
-def put_axes(axes, axes3):
-    """Small arrows to the east, north and up."""
-    inset = axes.inset_axes((0., 0., 0.13, 0.13))
-    inset.set(aspect="equal", xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
+def put_axes(axes, axes3, share):
+    """Small arrows to the east, north and up, in a share of the picture."""
+    inset = axes.inset_axes((0., 0., *share))
+    inset.set(aspect="equal", xlim=(-1.7, 1.7), ylim=(-1.7, 1.7))
     inset.axis("off")
     for name, direction in zip(("x E", "y N", "z"), numpy.eye(3)):
         x, y = (axes3 @ direction)[:2]
@@ -284,7 +291,7 @@ def legend(geometry, rows):
         found.append(("", "", "hidden blocks are paler"))
     if not run.is_plane:
         return found + [(CAVERN, "area", "what is dug, seen through from "
-                         "behind")]
+                         "behind" if run.digs() else "surface of the rock")]
     names, group = run.joint_groups()
     group = numpy.array([*group, -1])
     used = set(group[geometry.face_joint[geometry.face_joint < len(group)]])

@@ -7,6 +7,7 @@ import numpy
 from .style import (DASHES, GROUP_COLOURS, MARKERS, as_svg, beside,
                     new_figure, plain, pyplot)
 from .tables import STATES, is_least, size_alone
+from .words import count
 
 
 def project(trend, plunge):
@@ -213,7 +214,8 @@ def factors(run, rows):
         sentence += (" Arrows: the factor is at least that, as no trial above "
                      "it was made or failed.")
     if left:
-        sentence += f" {left} more blocks are in factors.csv."
+        sentence += (f" {count(left, 'more block')} {'is' if left == 1 else 'are'} "
+                     "in factors.csv.")
     return as_svg(figure, "Safety factors by stage"), sentence
 
 

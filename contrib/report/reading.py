@@ -75,14 +75,19 @@ def read_history(folder):
     return dict(zip(names, values.T))
 
 
-def read_joints(folder):
-    """The rows of joints.csv, names of columns without units."""
+def read_rows(path):
+    """The rows of a CSV file, names of columns without units; [] without it."""
     try:
-        with open(folder / "joints.csv", encoding="utf-8") as file:
+        with open(path, encoding="utf-8", newline="") as file:
             return [{name.split(" (")[0]: value for name, value in
                      row.items() if name} for row in csv.DictReader(file)]
     except (OSError, csv.Error, UnicodeDecodeError):
         return []
+
+
+def read_joints(folder):
+    """The rows of joints.csv, names of columns without units."""
+    return read_rows(folder / "joints.csv")
 
 
 def read_states(folder):
@@ -105,6 +110,8 @@ class Run:
         self.entries, self.changed = read_entries(self.folder)
         self.history = read_history(self.folder)
         self.joints = read_joints(self.folder)
+        self.block_rows = {row.get("block"): row for row in
+                           read_rows(self.folder / "blocks.csv")}
         self.stages = [s["name"] for s in self.summary["stages"]]
         self.blocks = {b["id"]: b for b in self.summary["blocks"]}
         self.is_plane = self.summary["scene"].get("dimension") == 2
@@ -141,6 +148,10 @@ class Run:
     def takes_steps(self):
         """Whether the run moves anything, and not only judges blocks."""
         return self.entries.get("Safety factor/Method") != "limit equilibrium"
+
+    def digs(self):
+        """Whether the scene has excavations."""
+        return bool(self.entries.get("Excavations/Names", "").strip())
 
     def finite_blocks(self):
         """The numbers of the blocks that could move, in order."""

@@ -56,7 +56,7 @@ def factor_by_statics(limit):
         return None
     value = last_factor(limit)
     return ({"outcome": "value", "value": value} if math.isfinite(value) else
-            {"outcome": "immovable"})
+            {"outcome": "stable"})
 
 
 def limit_in_words(limit):

@@ -11,9 +11,6 @@ def draw_histogram(axes, statistics, threshold=None):
     """Bars of the bins; those that lie below a threshold in another colour."""
     bins, counts = statistics["histogram"], statistics["histogram"]["counts"]
     left, width = bins["from"], bins["width"]
-    if len(counts) * width < 1e-9 * max(abs(left), 1e-9):  # all are the same
-        width, counts = 0.02 * (abs(left) or 1.), [sum(counts)]
-        left -= 0.5 * width
     left = left + width * numpy.arange(len(counts))
     if threshold is None:
         colours = HELD

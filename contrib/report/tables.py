@@ -3,10 +3,11 @@
 import csv
 import io
 import math
+import re
 
 from .statics import (factor_by_statics, follows_others, force_of,
                       last_factor, least_limit, passed_factor)
-from .words import demand_of, number, tried_demand_of
+from .words import count, demand_of, number, tried_demand_of
 
 # What a block is like, for colours: name, colour (of Okabe and Ito, which
 # colour-blind people tell apart), what the legend says
@@ -18,6 +19,7 @@ STATES = {
     "holds": ("#56b4e9", "factor above 1.5, or 1.5 and more as wanted"),
     "passed": ("#0072b2", "not critical by limit equilibrium"),
     "firm": ("#009e73", "immovable, or above the highest factor tried"),
+    "stable": ("#009e73", "stable by limit equilibrium"),
     "undecided": ("#cc79a7", "undecided"),
     "unknown": ("#999999", "no factor looked for")}
 
@@ -99,18 +101,27 @@ def of_stage(results, stage):
 
 
 def is_held_by_clamping(factor, limit):
-    """Stable by strength reduction, but not as a rigid block without stress."""
+    """Stable by strength reduction, but not as a rigid block without stress.
+
+    And the run names nothing else that holds it."""
     if not factor or not limit or factor.get("outcome") == "undecided":
         return None
-    return size_of(limit) < 1. <= factor.get("lower", size_of(factor))
+    what = held_by(factor, limit)
+    return what == "" or what is not None and "clamping" in what
 
 
 def held_by(factor, limit):
-    """What holds a block that would fail as a rigid block without stress."""
-    if not is_held_by_clamping(factor, limit):
+    """What the run says holds a block that fails as a rigid one without stress.
+
+    Empty if it does not say, None if the block does not hold, or is stable by
+    limit equilibrium, too."""
+    if not factor or not limit or factor.get("outcome") == "undecided" or not (
+            size_of(limit) < 1. <= factor.get("lower", size_of(factor))):
         return None
-    what = factor.get("outcome", "").partition("held by ")[2]
-    return "stress" if what in ("", "clamping") else what
+    support = re.search(r"held by (the support [^,;]*), left out",
+                        limit.get("remark") or "")
+    return factor.get("outcome", "").partition("held by ")[2] or (
+        support[1] if support else "")
 
 
 def state_of(row, is_moving):
@@ -133,8 +144,8 @@ def state_by_factor(has_failed, factor):
     if factor is None:
         return "unknown"
     outcome = factor.get("outcome", "value")
-    if outcome == "undecided":
-        return "undecided"
+    if outcome in ("undecided", "stable"):
+        return outcome
     size = size_of(factor)
     if factor.get("group"):
         pass
@@ -154,6 +165,21 @@ def where_is(normal, down):
     along = float(normal @ down)
     return ("roof" if along > math.sqrt(0.5) else
             "floor" if along < -math.sqrt(0.5) else "wall")
+
+
+def exposure_of(run, geometry, n, exposed):
+    """Where a block is exposed, and the area of its free faces.
+
+    As blocks.csv has them; of older runs, and of older tables, by the cells of
+    the state in which it is exposed."""
+    row = run.block_rows.get(str(n), {})
+    if exposed is None:
+        return None, None
+    if "place" in row and row.get("free area"):
+        return row["place"] or None, float(row["free area"])
+    free = geometry.free_normal(n, exposed - 2) if geometry else None
+    return (where_is(free[0], run.down()), float(free[1])) if free else (
+        None, None)
 
 
 def largest_demand(results, demand_in=demand_of):
@@ -193,18 +219,15 @@ def row_of(run, geometry, n, moved_off, moving):
            "clamped": is_held_by_clamping(worst, limit),
            "held_by": next((what for what in (
                held_by(f, of_stage(limits, f.get("stage"))) for f in factors)
-               if what), None),
+               if what is not None), None),
            "removed": block.get("removed_in_stage"),
            "moved_off": moved_off.get(n), "moving": moving.get(n),
            "removable": block.get("removable"),
            "centroid": block.get("centroid"),
-           "where": None, "free_area": None, "displacement": None}
+           "displacement": None}
+    row["where"], row["free_area"] = exposure_of(run, geometry, n, exposed)
     row["state"] = state_of(row, row["moving"] in run.stages[-1:])
     if geometry is not None:
-        free = geometry.free_normal(n)
-        if exposed is not None and free:
-            row["where"] = where_is(free[0], run.down())
-            row["free_area"] = float(free[1])
         moved = [d for d, state in zip(geometry.displacement(n), run.states)
                  if d is not None and state[1] >= 0 and run.takes_steps()]
         row["displacement"] = max(moved, default=None)
@@ -328,9 +351,11 @@ def warnings_of(run):
     if mesh.get("lost_blocks"):
         place = ", ".join(number(x) for x in mesh.get("largest_lost_place",
                                                       []))
-        found.append(f"{mesh['lost_blocks']} blocks too small for the mesh "
-                     "went to their neighbours, the largest of "
-                     f"{number(mesh['largest_lost_volume'])} "
+        lost = mesh["lost_blocks"]
+        found.append(f"{count(lost, 'block')} too small for the mesh went to "
+                     + ("its neighbour, of " if lost == 1 else
+                        "their neighbours, the largest of ")
+                     + f"{number(mesh['largest_lost_volume'])} "
                      + ("m²" if run.is_plane else "m³")
                      + (f" at ({place})." if place else "."))
     for key, text in (("joints_lost", "Joints too small for the mesh"),

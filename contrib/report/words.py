@@ -15,6 +15,11 @@ def number(value, digits=4):
     return f"{float(text):g}" if "e" in text else text
 
 
+def count(n, name):
+    """How many there are of something: 1 block, 2 blocks."""
+    return f"{n} {name}{'' if n == 1 else 's'}"
+
+
 def mode_in_words(mode):
     """How a block fails, as people say it: falling, sliding on J1 and J2."""
     if not mode:

@@ -258,9 +258,12 @@ namespace Keyblock
     {
       if (sheets.sheets.size() > few_joints<dim>)
         return least_quality_of_many;
-      return std::all_of(sheets.sheets.begin(),
-                         sheets.sheets.end(),
-                         [](const auto &sheet) { return sheet->is_plane(); })
+      return sheets.sheets.size() <= few_joints<dim> / 2 &&
+                 std::all_of(sheets.sheets.begin(),
+                             sheets.sheets.end(),
+                             [](const auto &sheet) {
+                               return sheet->is_plane();
+                             })
                ? least_quality_of_few
                : least_quality_of_more;
     }
