@@ -239,6 +239,12 @@ keyblock_scene(verification/two_wedges REFERENCES two_wedges_upper RANKS 1
 keyblock_scene(verification/two_wedges REFERENCES two_wedges_wanted ALIKE RANKS 1 2
   SET "Safety factor/Wanted=2" "Safety factor/Blocks=2"
   "Joints/plane/Friction angle=30")
+# blocks whose faces the mesh must not bend, nor lead onto a corner
+keyblock_scene(verification/daylight_wedge RANKS 1)
+foreach(size 0.4 0.6)
+  keyblock_scene(verification/bent_roof REFERENCES bent_roof_${size} RANKS 1
+    SET "Mesh/Size at excavation=${size}" "Safety factor/Blocks=3")
+endforeach()
 # blocks that others push, which reach farther or move more slowly
 keyblock_scene(verification/toe_block RANKS 1 SET "Safety factor/Blocks=2")
 keyblock_scene(verification/column_on_block RANKS 1 SET "Safety factor/Blocks=2")
