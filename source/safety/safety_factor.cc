@@ -56,6 +56,8 @@ namespace Keyblock
     if (result.limit_moves && std::isfinite(result.limit_factor) &&
         is_known_to_statics(scene))
       tried.limit = result.limit_factor;
+    if (result.limit_moves && std::isfinite(result.limit_factor))
+      tried.limit_without_stress = result.limit_factor;
     {
       Search search(*this, tried, number, known, result.trials);
       result.outcome = scene.safety.method == FactorSearch::sweep

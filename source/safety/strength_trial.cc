@@ -38,6 +38,10 @@ namespace Keyblock
      * beginning of its motion, though it may be caught further on [-]. */
     constexpr double plain_unbalanced = 0.02;
 
+    /** How often a block that moves off below its limit equilibrium is damped
+     * once more: stress that pushes it is spent as it makes way. */
+    constexpr unsigned int n_doubts = 3;
+
     /** Times that a block which neither rests nor speeds up is looked at. */
     constexpr unsigned int n_rounds = 5;
   } // namespace
@@ -252,6 +256,20 @@ namespace Keyblock
 
 
   template <int dim>
+  bool
+  StrengthTrials<dim>::is_failure(const TriedBlocks &tried,
+                                  const unsigned int n_failures,
+                                  const Trial &trial) const
+  {
+    if (tried.may_come_to_rest(trial.factor))
+      return n_failures > n_doubts;
+    return tried.companions.empty() || n_failures > 1 ||
+           trial.unbalanced > plain_unbalanced;
+  }
+
+
+
+  template <int dim>
   typename StrengthTrials<dim>::Verdict
   StrengthTrials<dim>::decide(const TriedBlocks &tried,
                               const unsigned int number,
@@ -280,9 +298,7 @@ namespace Keyblock
           watch(tried, (round + 1) * watch_periods, first, trial);
         if (verdict == Verdict::holds)
           return verdict;
-        if (verdict == Verdict::fails &&
-            (tried.companions.empty() || ++n_failures > 1 ||
-             trial.unbalanced > plain_unbalanced))
+        if (verdict == Verdict::fails && is_failure(tried, ++n_failures, trial))
           return verdict;
       }
     return Verdict::open;

@@ -122,6 +122,11 @@ namespace Keyblock
                    const Vector<dim> &first,
                    Trial &trial);
 
+    /** Whether the blocks fail that have moved off @p n_failures times. */
+    bool is_failure(const TriedBlocks &tried,
+                    const unsigned int n_failures,
+                    const Trial &trial) const;
+
     /** Settings of the first phase. */
     Stage quiet_stage(const TriedBlocks &tried) const;
 

@@ -22,6 +22,10 @@ namespace Keyblock
      * block; 0: where it does not. */
     double limit = 0.;
 
+    /** The same without in-situ stress, which pushes a block only until it has
+     * made way: below it one that moves off may come to rest; 0: not known. */
+    double limit_without_stress = 0.;
+
     /** Others that lean on these, on those, and so on: they push, and take what
      * room they get. */
     std::vector<unsigned int> row;
@@ -32,6 +36,14 @@ namespace Keyblock
     is_above_limit(const double factor) const
     {
       return companions.empty() && limit > 0. && factor > limit;
+    }
+
+    /** Whether the block alone moves off at a @p factor at which it should not
+     * go on. */
+    bool
+    may_come_to_rest(const double factor) const
+    {
+      return companions.empty() && factor < limit_without_stress;
     }
 
     std::vector<unsigned int>
