@@ -575,9 +575,7 @@ subsection Domain
 end
 subsection Mesh
   set Generator = gmsh
-  set Size = 6
-  set Size at excavation = 1
-  set Grading distance = 12
+  set Size = 2.3
 end
 subsection Excavations
   set Names = tunnel
@@ -692,11 +690,11 @@ end
 """
 
 
-def lost_ledge():
+def small_ledge():
     """A strip between two joints would slide into the room, but for a ledge of
-    0.0879 m by the planes, which the mesh has lost."""
+    0.0879 m by the planes, a fortieth of an edge of the triangles, which the
+    mesh must not lose."""
     pathlib.Path("s.prm").write_text(LEDGE, encoding="utf-8")
-    length = 0.1 * math.sin(math.radians(60)) / math.sin(math.radians(100))
     for more, is_there in ((["Joints/ledge/Point=0.9, 3"], True),
                            (["Joints/Names=a, b, top"], False)):
         done = validate("s.prm", more)
@@ -705,12 +703,9 @@ def lost_ledge():
         row = next(line for line in text.splitlines() if "the start" in line)
         print(row)
         assert ("stable" in row) == is_there, row
-        assert ("which the mesh has lost" in row) == is_there, row
-        if is_there:
-            found = re.search("; ([0-9.]+) without its ([0-9.]+) m on ledge", row)
-            assert abs(float(found[1]) - math.tan(math.radians(35))
-                       / math.tan(math.radians(60))) < 1e-3, row
-            assert abs(float(found[2]) / length - 1.) < 1e-3, row
+        assert "which the mesh has lost" not in row, row
+        if not is_there:
+            assert "sliding on" in row, row
 
 
 def blocks_that_lean():

@@ -271,9 +271,12 @@ BOOST_AUTO_TEST_CASE(bent_joints_are_placed_in_their_planes)
 {
   std::mt19937 random(11);
   unsigned int n_moved = 0, n_free_moved = 0;
-  for (unsigned int i = 0; i < 6; ++i)
+  for (unsigned int i = 0; i < 12; ++i)
     {
-      const Set<3> set("bent", "4, 4, 4", bent_joints(random), 0.9);
+      const Set<3> set("bent",
+                       "4, 4, 4",
+                       bent_joints(random),
+                       i < 6 ? 0.9 : 1.4);
       const auto &surface = set.split.interface.surface;
       std::vector<std::vector<unsigned int>> faces_of_node(
         set.surface->n_nodes());
