@@ -124,14 +124,8 @@ namespace Keyblock::Python
       result.remarks = statics.remarks;
       if (wanted > 0.)
         {
-          const SupportDemand demand = find_demand(
-            ground,
-            free,
-            block,
-            statics.around,
-            without_shared_shotcrete(
-              ground, free, blocks, block, time, wanted, statics.support),
-            wanted);
+          const SupportDemand demand = find_unshared_demand(
+            ground, free, blocks, block, time, wanted, statics);
           result.support_force    = demand.force;
           result.support_pressure = demand.pressure;
           for (const auto &[set, number] : demand.numbers)

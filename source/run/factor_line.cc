@@ -68,7 +68,7 @@ namespace Keyblock
         text << "it moves until cohesion is lost on " << std::setprecision(5)
              << lost << (dim == 2 ? " m" : " m2");
       else
-        text << "that it begins to move counts, though it may come to rest";
+        text << "it moves off again after it was damped";
       return text.str();
     }
 

@@ -58,14 +58,8 @@ namespace Keyblock
       find_motion<dim>(statics.around, statics.support, is_passive);
     statics.limit = motion.limit;
     if (const double wanted = ground.scene.safety.wanted; wanted > 0.)
-      statics.demand = find_demand(
-        ground,
-        free,
-        block,
-        statics.around,
-        without_shared_shotcrete(
-          ground, free, blocks, block, time, wanted, statics.support),
-        wanted);
+      statics.demand = find_unshared_demand(
+        ground, free, blocks, block, time, wanted, statics);
     std::string group_remark;
     add_group(
       find_hanging_group(ground, free, blocks, block, time, broken, statics),

@@ -174,15 +174,16 @@ namespace Keyblock
 
 
   template <int dim>
-  BlockSupport<dim>
-  without_shared_shotcrete(const Ground<dim> &ground,
-                           const FreeFaces<dim> &free,
-                           const Blocks<dim> &blocks,
-                           const unsigned int block,
-                           const double time,
-                           const double factor,
-                           BlockSupport<dim> support)
+  SupportDemand
+  find_unshared_demand(const Ground<dim> &ground,
+                       const FreeFaces<dim> &free,
+                       const Blocks<dim> &blocks,
+                       const unsigned int block,
+                       const double time,
+                       const double factor,
+                       const BlockStatics<dim> &statics)
   {
+    BlockSupport<dim> support = statics.support;
     std::map<unsigned int, bool> is_loose;
     const auto is_shared = [&](const auto &section) {
       const unsigned int b = other_side(section.trace, block);
@@ -207,7 +208,7 @@ namespace Keyblock
     support.sections = kept;
     if (kept.empty())
       support.shotcrete_strength = support.shotcrete_length = 0.;
-    return support;
+    return find_demand(ground, free, block, statics.around, support, factor);
   }
 
 #define INSTANTIATE(dim)                                                       \
@@ -218,13 +219,13 @@ namespace Keyblock
                                                 const double,                  \
                                                 const BrokenSegments &,        \
                                                 const BlockStatics<dim> &);    \
-  template BlockSupport<dim> without_shared_shotcrete(const Ground<dim> &,     \
-                                                      const FreeFaces<dim> &,  \
-                                                      const Blocks<dim> &,     \
-                                                      const unsigned int,      \
-                                                      const double,            \
-                                                      const double,            \
-                                                      BlockSupport<dim>);
+  template SupportDemand find_unshared_demand(const Ground<dim> &,             \
+                                              const FreeFaces<dim> &,          \
+                                              const Blocks<dim> &,             \
+                                              const unsigned int,              \
+                                              const double,                    \
+                                              const double,                    \
+                                              const BlockStatics<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

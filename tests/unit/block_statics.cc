@@ -695,12 +695,24 @@ BOOST_AUTO_TEST_CASE(free_areas_between_planes)
              "\n  set Dip direction = " + std::to_string(dip_direction) +
              "\n end\n";
     };
+  // faces are put back into their planes unless there are many joints
+  std::string far_names, far;
+  for (unsigned int j = 0; j < 10; ++j)
+    {
+      const std::string name = "far" + std::to_string(j);
+      far_names += ", " + name;
+      far += " subsection " + name +
+             "\n  set Point = " + std::to_string(100 + j) +
+             ", 0, 0\n  set Dip = 0\n  set Extent = disc\n  set Radius = "
+             "0.1\n end\n";
+    }
   const Site<3> site(
     "subsection Domain\n set Corner = -3, -3, -2.5\n set Size = 6, 6, 2.5\n "
     "set Truncated boundaries = left, right, front, back, "
     "bottom\nend\nsubsection Mesh\n set Generator = gmsh\n set Size = "
-    "0.85\n set Snap = 0.3\nend\nsubsection Joints\n set Names = a, b, c\n" +
-    plane("a", 64.3, 53.3) + plane("b", 69.8, 209.3) + plane("c", 58.2, 336.) +
+    "0.8\nend\nsubsection Joints\n set Names = a, b, c" +
+    far_names + '\n' + far + plane("a", 64.3, 53.3) + plane("b", 69.8, 209.3) +
+    plane("c", 58.2, 336.) +
     "end\nsubsection Materials\n set Names = rock\n subsection rock\n  set "
     "Density = 2500\n end\nend\nsubsection Initial state\n set Gravity = 0; 0; "
     "-9.81\nend\nsubsection Safety factor\n set Wanted = 1.5\nend\n" +
@@ -717,7 +729,7 @@ BOOST_AUTO_TEST_CASE(free_areas_between_planes)
     0.5 *
     cross_product_3d(corners[1] - corners[0], corners[2] - corners[0]).norm();
   const auto statics = site.judge();
-  BOOST_TEST(std::abs(3. * site.blocks.blocks[0].volume / area - 1.) > 0.03);
+  BOOST_TEST(std::abs(3. * site.blocks.blocks[0].volume / area - 1.) > 0.05);
   BOOST_TEST(is_near(site.blocks.blocks[0].exact.volume, area / 3., 1e-9));
   const Tensor<1, 3> pulled({2000. * area, -5000. * area, 15000. * area});
   BOOST_TEST((sum_of(statics.around.loads.tractions) - pulled).norm() <

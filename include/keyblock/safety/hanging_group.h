@@ -33,17 +33,18 @@ namespace Keyblock
                                        const BrokenSegments &broken,
                                        const BlockStatics<dim> &statics);
 
-  /** @p support of @p block (index) without the shotcrete on traces whose other
-   * side is a block that moves without support at less than @p factor, and has
-   * to be held, too. */
+  /** What @p factor asks for of @p block (index) with what is around it and its
+   * support in @p statics, but for the shotcrete on traces whose other side is
+   * a block that moves without support at less than that factor, and has to be
+   * held, too. */
   template <int dim>
-  BlockSupport<dim> without_shared_shotcrete(const Ground<dim> &ground,
-                                             const FreeFaces<dim> &free,
-                                             const Blocks<dim> &blocks,
-                                             const unsigned int block,
-                                             const double time,
-                                             const double factor,
-                                             BlockSupport<dim> support);
+  SupportDemand find_unshared_demand(const Ground<dim> &ground,
+                                     const FreeFaces<dim> &free,
+                                     const Blocks<dim> &blocks,
+                                     const unsigned int block,
+                                     const double time,
+                                     const double factor,
+                                     const BlockStatics<dim> &statics);
 } // namespace Keyblock
 
 #endif
