@@ -5,6 +5,8 @@
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/safety/kinetic_friction.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -32,6 +34,59 @@ namespace Keyblock
 
 
 
+    /** The joints that a failing block presses beside those of its way by limit
+     * equilibrium, as in "J1/J2"; empty: none. */
+    std::string
+    pressed_beside(const SafetyFactor &factor)
+    {
+      const auto joints = [](const std::string &mode) {
+        const std::size_t on = mode.find(" on ");
+        return on == std::string::npos
+                 ? std::vector<std::string>()
+                 : dealii::Utilities::split_string_list(mode.substr(on + 4),
+                                                        '/');
+      };
+      const std::vector<std::string> known = joints(factor.limit_mode);
+      std::string pressed;
+      for (const std::string &name : joints(factor.failure_mode))
+        if (std::find(known.begin(), known.end(), name) == known.end())
+          pressed += (pressed.empty() ? "" : "/") + name;
+      return pressed;
+    }
+
+
+
+    /** Why strength reduction gives more than limit equilibrium, where that is
+     * known; else empty. */
+    template <int dim>
+    std::string
+    explain_more(const SafetyFactor &factor, const Scene<dim> &scene)
+    {
+      // shear across the way has held wedges at up to this times limit
+      // equilibrium
+      constexpr double most_by_shear = 1.25;
+      if (!factor.group.empty())
+        return "";
+      const std::string pressed = pressed_beside(factor);
+      const std::string advice  = ": rely on no more than limit equilibrium";
+      if (!pressed.empty())
+        return "; more than limit equilibrium, as " + pressed +
+               " is pressed, too, by turning or by stress" + advice;
+      if (!is_known_to_statics(scene))
+        return "";
+      const bool is_on_two_planes =
+        dim == 3 && factor.limit_mode.find('/') != std::string::npos;
+      if (factor.lower > most_by_shear * factor.limit_factor)
+        return "; far more than limit equilibrium, and nothing known holds it" +
+               advice;
+      return is_on_two_planes
+               ? "; shear across its way helps to hold the wedge, limit "
+                 "equilibrium is on the safe side"
+               : "";
+    }
+
+
+
     /** Why strength reduction differs from limit equilibrium, where that is
      * known and not a matter of the bracket; else empty. */
     template <int dim>
@@ -43,13 +98,8 @@ namespace Keyblock
       if (factor.outcome != SafetyFactor::Outcome::bracketed ||
           !std::isfinite(limit) || !(limit > 0.))
         return "";
-      const bool is_on_two_planes =
-        dim == 3 && factor.limit_mode.find('/') != std::string::npos;
-      if (factor.lower > more * limit && is_on_two_planes &&
-          !has_initial_stress(scene) && scene.bolts.empty() &&
-          scene.liners.empty())
-        return "; shear across its way helps to hold the wedge, limit "
-               "equilibrium is on the safe side";
+      if (factor.lower > more * limit)
+        return explain_more(factor, scene);
       if (factor.upper >= less * limit)
         return "";
       if (has_kinetic_friction(scene))
@@ -199,6 +249,9 @@ namespace Keyblock
           << (std::isfinite(factor.limit_factor)
                 ? ", counted by limit equilibrium"
                 : "");
+    if (!factor.trials.empty() && factor.trials.front().phase == 0)
+      out << "; by running the stage again: joints that are strong from the "
+             "first keep it clamped";
     out << explain_difference(factor, scene);
     if (factor.outcome == SafetyFactor::Outcome::immovable ||
         factor.outcome == SafetyFactor::Outcome::clamped)

@@ -17,6 +17,22 @@ namespace Keyblock
      * pushes it into a notch may wedge it there [-]. */
     constexpr std::array<double, 5> holding_parts = {{1., 1.25, 2.5, 5., 20.}};
 
+    /** Width over the value of a bracket found by running the stage again,
+     * which costs more than a trial [-]. */
+    constexpr double stage_bracket = 0.02;
+
+    /** No group: a stage took away at its own strength what holds at it in
+     * trials, as joints that were strong while the stage lasted keep it
+     * clamped.
+     */
+    void
+    drop_group(SafetyFactor &result)
+    {
+      result.group.clear();
+      result.group_lower = result.group_upper = 0.;
+      result.group_undecided_lower = result.group_undecided_upper = 0.;
+    }
+
     /** Looks for signals only: a stage that is run on trial leaves no trace. */
     template <int dim>
     class SignalWatch : public StageObserver<dim>
@@ -54,7 +70,7 @@ namespace Keyblock
     known.stable   = lowest;
     known.unstable = 1.;
     known.start    = lowest;
-    if (hold_when_strong({block}))
+    if (hold_in_stage({block}, lowest))
       {
         SafetyFactor cheap;
         search.add_cheap_answers(block, cheap);
@@ -62,18 +78,26 @@ namespace Keyblock
           known.limit = cheap.limit_factor;
         SafetyFactor result =
           search.find(block, record.present.number(), known);
-        search.add_demand(record.present.number(), known, result);
+        if (result.group_lower > 1.)
+          drop_group(result);
+        if (result.lower > 1.)
+          bracket_by_stage(alone, result);
+        else
+          search.add_demand(record.present.number(), known, result);
         return result;
       }
     // with those that failed beside it, it may hold: they carry it along
     TriedBlocks carried = alone;
     carried.companions  = list_failed_beside(block);
     carried.is_carried  = true;
-    if (!carried.companions.empty() && hold_when_strong(carried.all()))
+    if (!carried.companions.empty() && hold_in_stage(carried.all(), lowest))
       {
         SafetyFactor result =
           search.find_with(carried, record.present.number(), known);
-        search.add_demand(record.present.number(), known, result);
+        if (result.group_lower > 1.)
+          bracket_by_stage(carried, result);
+        else
+          search.add_demand(record.present.number(), known, result);
         return result;
       }
     SafetyFactor result;
@@ -96,6 +120,57 @@ namespace Keyblock
 
   template <int dim>
   void
+  SafetyStudy<dim>::bracket_by_stage(const TriedBlocks &tried,
+                                     SafetyFactor &result)
+  {
+    double holds = model.scene.safety.lowest, fails = 1.;
+    const double guess = result.limit_factor;
+    result.trials.clear();
+    while (fails > (1. + stage_bracket) * holds)
+      {
+        Trial trial;
+        trial.phase  = 0;
+        trial.factor = std::sqrt(holds * fails);
+        for (const double beside :
+             {guess / std::sqrt(1. + stage_bracket), // and above it
+              guess * std::sqrt(1. + stage_bracket)})
+          if (beside > holds && beside < fails)
+            trial.factor = beside;
+        trial.start        = trial.factor;
+        trial.is_of_group  = tried.is_carried;
+        const double begin = MPI_Wtime();
+        trial.is_stable    = hold_in_stage(tried.all(), trial.factor);
+        trial.seconds      = MPI_Wtime() - begin;
+        (trial.is_stable ? holds : fails) = trial.factor;
+        result.trials.push_back(trial);
+      }
+    drop_group(result);
+    result.undecided_lower = result.undecided_upper = 0.;
+    if (tried.is_carried)
+      {
+        result.outcome = SafetyFactor::Outcome::carried;
+        for (const unsigned int b : tried.all())
+          result.group.push_back(model.blocks.blocks[b].id);
+        std::sort(result.group.begin(), result.group.end());
+        result.group_lower = holds;
+        result.group_upper = fails;
+      }
+    else
+      {
+        result.outcome = SafetyFactor::Outcome::bracketed;
+        result.lower   = holds;
+        result.upper   = fails;
+      }
+    result.failure_mode = result.limit_mode;
+    result.held_by.clear();
+    if (model.scene.safety.is_demand_tried())
+      result.tried_demand.outcome = TriedDemand::Outcome::undecided;
+  }
+
+
+
+  template <int dim>
+  void
   SafetyStudy<dim>::add_demand_of_fallen_block(
     StrengthReductionSearch<dim> &search,
     SafetyFactor &result)
@@ -107,7 +182,9 @@ namespace Keyblock
     typename StrengthReductionSearch<dim>::Known known;
     known.start = model.scene.safety.lowest;
     for (const double part : holding_parts)
-      if (hold_when_strong({result.block}, part * pressed.first_guess))
+      if (hold_in_stage({result.block},
+                        model.scene.safety.lowest,
+                        part * pressed.first_guess))
         {
           search.add_demand_of_pressed(pressed,
                                        record.present.number(),
@@ -154,14 +231,15 @@ namespace Keyblock
 
   template <int dim>
   bool
-  SafetyStudy<dim>::hold_when_strong(const std::vector<unsigned int> &blocks,
-                                     const double pressure)
+  SafetyStudy<dim>::hold_in_stage(const std::vector<unsigned int> &blocks,
+                                  const double factor,
+                                  const double pressure)
   {
     recall(record.before, model.parts());
     model.conditions->trial_pressure.value = pressure;
     StrengthReduction strong;
     strong.blocks = blocks;
-    strong.share  = 1. / model.scene.safety.lowest;
+    strong.share  = 1. / factor;
     model.contact->reduce_strength(strong);
     model.conditions->reduce_strength(strong);
     if (model.scene.safety.reduces_rock)

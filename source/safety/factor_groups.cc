@@ -24,16 +24,18 @@ namespace Keyblock
                    std::vector<SafetyFactor> &factors)
   {
     // whether `member` takes over the group that was found for `finder`: not if
-    // it fails by itself before
+    // it fails by itself before. Of the same blocks, whichever fails first
+    // tells
     const auto shares = [&](const SafetyFactor &finder, SafetyFactor &member) {
-      if (!finder.has_own_group() || member.has_own_group() ||
+      const bool is_same = member.group == finder.group;
+      if (!finder.has_own_group() || (member.has_own_group() && !is_same) ||
           finder.stage != member.stage ||
           std::count(finder.group.begin(),
                      finder.group.end(),
                      blocks.blocks[member.block].id) == 0 ||
           (!member.group.empty() &&
            member.value_of_group() <= finder.value_of_group()) ||
-          (member.outcome == SafetyFactor::Outcome::bracketed &&
+          (!is_same && member.outcome == SafetyFactor::Outcome::bracketed &&
            member.upper < finder.group_lower))
         return false;
       member.group                 = finder.group;

@@ -126,7 +126,7 @@ namespace Keyblock
     fields.nodes_of_support.assign(scene.supports.size(), {});
     motions.clear();
     // nodes of rigid bodies first: nothing else may move them
-    hold_rigid_bodies(found);
+    hold_rigid_bodies(ground, found);
     for (unsigned int s = 0; s < scene.supports.size(); ++s)
       {
         const Support<dim> &support = *scene.supports[s];
@@ -231,7 +231,7 @@ namespace Keyblock
 
   template <int dim>
   void
-  Supports<dim>::hold_rigid_bodies(Found &found)
+  Supports<dim>::hold_rigid_bodies(const Ground<dim> &ground, Found &found)
   {
     const Mesh<dim> &mesh = split.mesh;
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
@@ -245,7 +245,8 @@ namespace Keyblock
                                           "Materials/*/Rigid velocity",
                                           false);
         for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-          if (mesh.material[c] == m)
+          if (mesh.material[c] == m && !ground.is_excavated(c) &&
+              !ground.is_filled(c))
             for (const unsigned int v : mesh.cells[c])
               {
                 const unsigned int node = numbering.local_node(v);

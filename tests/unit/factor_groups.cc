@@ -72,3 +72,19 @@ BOOST_AUTO_TEST_CASE(blocks_that_fail_before_their_group_do_not_have_its_factor)
   BOOST_TEST(share_last_group(blocks, factors).empty());
   BOOST_TEST(factors[1].group.empty());
 }
+
+BOOST_AUTO_TEST_CASE(a_group_has_one_factor)
+{
+  Blocks<2> blocks;
+  blocks.blocks.resize(2);
+  for (unsigned int b = 0; b < 2; ++b)
+    blocks.blocks[b].id = b + 1;
+  // found twice, from states of different history; one fails before, alone
+  std::vector<SafetyFactor> factors = {factor_of(0, {1, 2}, 1.8),
+                                       factor_of(1, {1, 2}, 1.7)};
+  factors[0].lower = factors[0].upper = 1.5;
+  BOOST_TEST(
+    (share_last_group(blocks, factors) == std::vector<unsigned int>{0}));
+  BOOST_TEST(factors[0].value_of_group() == 1.7);
+  BOOST_TEST(factors[1].value_of_group() == 1.7);
+}

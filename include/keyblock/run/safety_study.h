@@ -74,11 +74,18 @@ namespace Keyblock
     std::vector<unsigned int>
     list_failed_beside(const unsigned int block) const;
 
+    /** Find the factor of the blocks that are @p tried, which failed in the
+     * present stage, by running it again with their joints weaker and weaker:
+     * in the state that it leaves with strong ones they hold at their own
+     * strength, clamped by stress that the stage would have released. */
+    void bracket_by_stage(const TriedBlocks &tried, SafetyFactor &result);
+
     /** Whether @p blocks (indices), which failed in the present stage, all hold
-     * in it with the highest strength that is tried, and with @p pressure as
-     * Conditions::trial_pressure [Pa]. */
-    bool hold_when_strong(const std::vector<unsigned int> &blocks,
-                          const double pressure = 0.);
+     * in it with the strength of their joints divided by @p factor, and with
+     * @p pressure as Conditions::trial_pressure [Pa]. */
+    bool hold_in_stage(const std::vector<unsigned int> &blocks,
+                       const double factor,
+                       const double pressure = 0.);
 
     Model<dim> &model;
     FiniteCheck<dim> &finite_check;

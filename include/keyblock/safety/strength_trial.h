@@ -18,7 +18,7 @@ namespace Keyblock
     bool is_of_group      = false; ///< of all blocks that move together
     bool is_stable        = false;
     bool is_undecided     = false; ///< neither at rest nor failing
-    unsigned int phase    = 1;     ///< that decided
+    unsigned int phase    = 1;     ///< that decided; 0: a stage run again
     double slip           = 0.;    ///< mean, since the stage [m]
     double velocity       = 0.;    ///< of the slip, last window [m/s]
     double acceleration   = 0.;    ///< fitted to the last windows [m/s2]

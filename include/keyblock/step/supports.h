@@ -77,7 +77,7 @@ namespace Keyblock
     template <typename Value>
     Tensor<1, dim> prescribed(const NodeSupport<dim> &support,
                               const Value &value) const;
-    void hold_rigid_bodies(Found &found);
+    void hold_rigid_bodies(const Ground<dim> &ground, Found &found);
 
     /** Hold the nodes of a support, number @p s; returns how many vertices of
      * the whole mesh it holds. */
