@@ -18,6 +18,9 @@ namespace Keyblock
     /** Faces bent by less are not worth a remark [deg]. */
     constexpr double least_bend = 1.;
 
+    /** From which on it may lock a block between its faces [degrees]. */
+    constexpr double locking_bend = 5.;
+
     /** Adds what is to be said about one block. */
     template <int dim>
     class Remarks
@@ -158,19 +161,10 @@ namespace Keyblock
           last << ", which bears all that drives it";
       }
 
-      /** @param without: motion without the faces that the mesh has lost */
       void
-      add_lost_faces(const SupportedMotion<dim> &without)
+      add_text(const std::string &text)
       {
-        if (!(without.limit.factor < 0.999 * limit.factor))
-          return;
-        add() << without.limit.factor << " without its ";
-        const char *between = "";
-        for (const BlockFace<dim> &face : around.faces)
-          if (face.is_lost)
-            last << std::exchange(between, " and ") << face.area
-                 << (dim == 2 ? " m" : " m2") << " on " << face.name;
-        last << ", which the mesh has lost";
+        add() << text;
       }
 
       void
@@ -187,7 +181,11 @@ namespace Keyblock
           add() << "free faces that touch have the default friction angle";
         if (around.largest_bend > least_bend)
           add() << "faces on " << around.bent << ", bent by up to "
-                << around.largest_bend << " degrees, taken as plane";
+                << around.largest_bend << " degrees, taken as plane"
+                << (around.largest_bend > locking_bend
+                      ? "; they may lock it, so that strength reduction finds "
+                        "far too much"
+                      : "");
         // facets of bent joints, by their pieces
         std::map<std::string, std::map<unsigned int, unsigned int>> n_facets;
         for (const auto &joint : scene.joints)
@@ -363,7 +361,7 @@ namespace Keyblock
               const unsigned int block,
               const double time,
               const SupportedMotion<dim> &motion,
-              const std::optional<SupportedMotion<dim>> &without_lost_faces,
+              const std::string &lost_faces,
               BlockStatics<dim> &statics)
   {
     Remarks<dim> remarks(ground, free, blocks, block, statics);
@@ -371,8 +369,8 @@ namespace Keyblock
     remarks.add_support();
     remarks.add_fixed_joints();
     remarks.add_rotation(motion.rotation, motion.factor_of_sliding);
-    if (without_lost_faces)
-      remarks.add_lost_faces(*without_lost_faces);
+    if (!lost_faces.empty())
+      remarks.add_text(lost_faces);
     remarks.add_faces();
     remarks.add_neighbors();
     remarks.add_obstacle();
@@ -386,7 +384,7 @@ namespace Keyblock
                             const unsigned int,                                \
                             const double,                                      \
                             const SupportedMotion<dim> &,                      \
-                            const std::optional<SupportedMotion<dim>> &,       \
+                            const std::string &,                               \
                             BlockStatics<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

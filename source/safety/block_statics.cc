@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace Keyblock
 {
@@ -36,6 +37,49 @@ namespace Keyblock
       remark        = out.str();
       statics.limit = group.limit;
     }
+
+
+
+    /** Leave out the faces that the mesh has lost where they help to hold the
+     * block: nothing holds it there in a run, and they may be those of a crumb
+     * that went to it. Returns what is to be said of that, empty: nothing. */
+    template <int dim>
+    std::string
+    leave_out_lost_faces(BlockStatics<dim> &statics,
+                         const bool is_passive,
+                         SupportedMotion<dim> &motion)
+    {
+      constexpr double less = 0.999;
+      std::ostringstream out;
+      out.precision(4);
+      if (std::isfinite(motion.limit.factor))
+        out << motion.limit.factor;
+      else
+        out << "above all";
+      const char *between          = " with its ";
+      BlockSurroundings<dim> found = statics.around;
+      found.faces.clear();
+      found.others.clear();
+      for (unsigned int i = 0; i < statics.around.faces.size(); ++i)
+        if (const BlockFace<dim> &face = statics.around.faces[i]; face.is_lost)
+          out << std::exchange(between, " and ") << face.area
+              << (dim == 2 ? " m" : " m2") << " on " << face.name;
+        else
+          {
+            found.faces.push_back(face);
+            found.others.push_back(statics.around.others[i]);
+          }
+      if (found.faces.size() == statics.around.faces.size())
+        return "";
+      const SupportedMotion<dim> without =
+        find_motion<dim>(found, statics.support, is_passive);
+      if (!(without.limit.factor < less * motion.limit.factor))
+        return "";
+      statics.around = found;
+      motion         = without;
+      out << ", which the mesh has lost";
+      return out.str();
+    }
   } // namespace
 
 
@@ -54,8 +98,10 @@ namespace Keyblock
     statics.support = find_support_of_block(ground, block, time, broken);
     const bool is_passive =
       ground.scene.safety.bolt_convention == BoltConvention::passive;
-    const SupportedMotion<dim> motion =
+    SupportedMotion<dim> motion =
       find_motion<dim>(statics.around, statics.support, is_passive);
+    const std::string lost_remark =
+      leave_out_lost_faces(statics, is_passive, motion);
     statics.limit = motion.limit;
     if (const double wanted = ground.scene.safety.wanted; wanted > 0.)
       statics.demand = find_unshared_demand(
@@ -66,20 +112,8 @@ namespace Keyblock
       blocks,
       statics,
       group_remark);
-    const auto is_lost = [](const auto &face) { return face.is_lost; };
-    const auto &all    = statics.around.faces;
-    std::optional<SupportedMotion<dim>> without_lost_faces;
-    if (std::any_of(all.begin(), all.end(), is_lost))
-      {
-        BlockSurroundings<dim> in_mesh = statics.around;
-        auto &faces                    = in_mesh.faces;
-        faces.erase(std::remove_if(faces.begin(), faces.end(), is_lost),
-                    faces.end());
-        without_lost_faces =
-          find_motion<dim>(in_mesh, statics.support, is_passive);
-      }
     add_remarks<dim>(
-      ground, free, blocks, block, time, motion, without_lost_faces, statics);
+      ground, free, blocks, block, time, motion, lost_remark, statics);
     if (!group_remark.empty())
       statics.remarks.insert(statics.remarks.begin(), group_remark);
     return statics;

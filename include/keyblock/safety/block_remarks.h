@@ -4,24 +4,23 @@
 
 #include <keyblock/safety/block_statics.h>
 
-#include <optional>
+#include <string>
 
 namespace Keyblock
 {
   /** Add to @p statics of a block (index), which has all but them, the remarks:
    * what is special about its @p motion at @p time [s], and what was left out.
-   * @param without_lost_faces motion without the faces that the mesh has lost;
-   * nothing if it has lost none */
+   * @param lost_faces what is said of faces that the mesh has lost; empty:
+   * nothing */
   template <int dim>
-  void
-  add_remarks(const Ground<dim> &ground,
-              const FreeFaces<dim> &free,
-              const Blocks<dim> &blocks,
-              const unsigned int block,
-              const double time,
-              const SupportedMotion<dim> &motion,
-              const std::optional<SupportedMotion<dim>> &without_lost_faces,
-              BlockStatics<dim> &statics);
+  void add_remarks(const Ground<dim> &ground,
+                   const FreeFaces<dim> &free,
+                   const Blocks<dim> &blocks,
+                   const unsigned int block,
+                   const double time,
+                   const SupportedMotion<dim> &motion,
+                   const std::string &lost_faces,
+                   BlockStatics<dim> &statics);
 } // namespace Keyblock
 
 #endif
