@@ -708,6 +708,54 @@ def small_ledge():
             assert "sliding on" in row, row
 
 
+ROOF = PRM / "verification" / "roof_block_falls.prm"
+
+
+def warnings_of(done):
+    """What the screen warned of, each once."""
+    assert done.returncode == 0, done.stdout + done.stderr
+    text = (done.stdout + done.stderr).decode("utf-8")
+    found = re.findall("^Warning: (.*)$", text, re.MULTILINE)
+    assert len(set(found)) == len(found), found
+    return found
+
+
+def told_and_kept():
+    """Whatever the screen warns of stands in summary.json, in the same order,
+    once, after a restart, too."""
+    lying = ["Joints/Names=left, right, same, away, tiny",
+             "Joints/same/Extent=polygon", "Joints/same/Vertices=-2.5, 3; 0, 7",
+             "Joints/away/Extent=polygon", "Joints/away/Vertices=50, 50; 60, 60",
+             "Joints/tiny/Extent=polygon", "Joints/tiny/Vertices=5, 5; 5.001, 5"]
+    settings = ["Joints/left/Cohesion=0.5", "Time stepping/Least step=1e-2", "Stages/*/Maximum steps=40",
+                "Output/Checkpoint interval=1e-6", "Output/Write VTU=false",
+                *lying]
+    arguments = [word for entry in settings for word in ("--set", entry)]
+    told = warnings_of(run([ROOF, "--output", "o", *arguments]))
+    for kind in ("is 0.5 Pa: is it in", "lies wholly on the joint 'same'",
+                 "outside the model", "too small for the cells",
+                 "below 'Time stepping/Least step'"):
+        assert any(kind in text for text in told), f"no '{kind}' in {told}"
+    summary = json.loads(pathlib.Path("o/summary.json").read_text("utf-8"))
+    assert summary["warnings"] == told, summary["warnings"]
+    corner = run([PRM / "verification/corner.prm", "--output", "c", "--set",
+                  "Contact/Maximum iterations=1"])
+    summary = json.loads(pathlib.Path("c/summary.json").read_text("utf-8"))
+    assert summary["warnings"] == warnings_of(corner), summary["warnings"]
+    assert "left at 'Contact/Maximum iterations'" in summary["warnings"][-1]
+    # a folder stands where a checkpoint is to be written
+    pathlib.Path("full/checkpoint.h5.part").mkdir(parents=True)
+    told_full = warnings_of(run([ROOF, "--output", "full", *arguments]))
+    assert any("'full/checkpoint.h5' cannot be written" in text
+               for text in told_full), told_full
+    summary = json.loads(pathlib.Path("full/summary.json").read_text("utf-8"))
+    assert summary["warnings"] == told_full, summary["warnings"]
+    warnings_of(run([ROOF, "--restart", "o/checkpoint.h5", "--output", "again",
+                     *arguments]))
+    summary = json.loads(pathlib.Path("again/summary.json").read_text("utf-8"))
+    assert sorted(summary["warnings"]) == sorted(told), summary["warnings"]
+
+
 def blocks_that_lean():
     """A block is stable only while the one stays that holds it."""
     scene = PRM / "verification/factor_group.prm"
