@@ -224,6 +224,25 @@ namespace Keyblock
         }
     }
 
+    /** That finite joints have another size in the mesh than in the scene. */
+    template <int dim>
+    void
+    add_area_ratio(Sentences &found, const MeshReport<dim> &report)
+    {
+      constexpr double least = 0.8, largest = 1.25; // [-]
+      if (report.area_ratio >= least && report.area_ratio <= largest)
+        return;
+      std::ostringstream out = begin_sentence();
+      out << "Finite joints have " << report.area_ratio << " of their "
+          << (dim == 2 ? "length" : "area")
+          << " in the mean, as the mesh has their rims at edges of its cells, "
+             "too large for them, which "
+          << (report.area_ratio > 1. ? "cuts out blocks that are not there"
+                                     : "leaves blocks out")
+          << "; lower 'Mesh/Size at joints'.";
+      found.push_back(out.str());
+    }
+
     template <int dim>
     void
     add_lost_blocks(Sentences &found, const MeshReport<dim> &report)
@@ -254,6 +273,7 @@ namespace Keyblock
     Sentences found;
     if (scene.joints.empty())
       return found;
+    add_area_ratio(found, report);
     add_duplicates(found, report, scene);
     add_lost_blocks(found, report);
     add_thin_rock(found, report, scene);

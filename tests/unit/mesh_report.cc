@@ -37,6 +37,15 @@ BOOST_AUTO_TEST_CASE(one_block_that_went_to_its_neighbours)
     return all.find(part) != std::string::npos;
   };
   BOOST_TEST(has(text(1), "0.9 of their length in the mean"));
+  BOOST_TEST(!has(text(1), "Finite joints have"));
+  for (const double ratio : {1.92, 0.5})
+    {
+      report.area_ratio = ratio;
+      BOOST_TEST(has(text(1),
+                     ratio > 1. ? "Finite joints have 1.92 of their length"
+                                : "Finite joints have 0.5 of their length"));
+    }
+  report.area_ratio = 0.9;
   BOOST_TEST(has(text(1), "1 block smaller than a fifth"));
   BOOST_TEST(has(text(1), "to its neighbours, of 0 m2"));
   BOOST_TEST(has(text(1), "to keep it.\n"));
