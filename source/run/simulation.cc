@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/earlier_results.h>
 #include <keyblock/run/run_estimate.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/simulation.h>
@@ -295,7 +296,11 @@ namespace Keyblock
                   InputError("The output folder '" + folder +
                              "' cannot be made (" + error.message() +
                              "); choose another by --output."));
+      const auto earlier = checkpoint.empty()
+                             ? list_earlier_results(folder, model.scene)
+                             : std::vector<std::filesystem::path>();
       model.scene.write_used(folder + "used.prm");
+      model.out << remove_earlier_results(earlier, folder) << std::flush;
       if (!model.scene.joints.empty())
         {
           write_joint_table(folder + "joints.csv", model.scene);

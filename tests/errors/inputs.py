@@ -756,6 +756,46 @@ def told_and_kept():
     assert sorted(summary["warnings"]) == sorted(told), summary["warnings"]
 
 
+def used_folder():
+    """A new run leaves nothing of an earlier one in its folder, and everything
+    of its user; neither a refused scene nor a restart takes anything."""
+    folder = pathlib.Path("o")
+    short = [ROOF, "--output", folder, "--set", "Stages/*/Maximum steps=20"]
+    done = run([*short, "--set", "Output/Keep stages=true",
+                "--set", "Output/Checkpoint interval=1e-6"])
+    assert b"Folder" not in done.stdout and done.returncode == 0, done
+    of_run = {path.name for path in folder.iterdir()}
+    own = ["notes.csv", "rock_section.vtu", "my_checkpoint.h5", "rock_1.vtu"]
+    for name in own:
+        (folder / name).write_text("mine")
+    refused(run([*short, "--set", "Mesh/Size=-1"]), "Size")
+    done = run([*short, "--restart", folder / "checkpoint.h5",
+                "--set", "Output/Keep stages=true",
+                "--set", "Output/Checkpoint interval=1e-6"])
+    assert b"Folder" not in done.stdout and done.returncode == 0, done
+    assert {path.name for path in folder.iterdir()} == of_run | set(own)
+    # fewer states, no stages
+    done = run([*short, "--set", "Output/VTU count=1"])
+    assert b"of an earlier run removed from o/: blocks.csv to " in done.stdout, done
+    fresh = run([ROOF, "--output", "fresh", "--set", "Stages/*/Maximum steps=20",
+                 "--set", "Output/VTU count=1"])
+    assert fresh.returncode == 0 and b"Folder" not in fresh.stdout, fresh
+    left = {path.name for path in folder.iterdir()}
+    assert left == {path.name for path in pathlib.Path("fresh").iterdir()} | set(own)
+    assert left < of_run | set(own), left
+    # the checkpoint of a run that was broken off is not lost
+    (folder / "checkpoint.h5").write_text("hours")
+    (folder / "summary.json").unlink()
+    done = run(short)
+    assert b"its checkpoint is now o/earlier_checkpoint.h5" in done.stdout, done
+    assert (folder / "earlier_checkpoint.h5").read_text() == "hours"
+    # without the used.prm of a run nothing is known of the folder
+    (folder / "used.prm").write_text("set Dimension = 2\n")
+    (folder / "rock_0099.vtu").write_text("mine")
+    done = run(short)
+    assert b"Folder" not in done.stdout and (folder / "rock_0099.vtu").exists()
+
+
 def blocks_that_lean():
     """A block is stable only while the one stays that holds it."""
     scene = PRM / "verification/factor_group.prm"
