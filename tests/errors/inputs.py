@@ -796,6 +796,51 @@ def used_folder():
     assert b"Folder" not in done.stdout and (folder / "rock_0099.vtu").exists()
 
 
+def hardly_meant():
+    """Values that are allowed and hardly ever meant are warned of, others not."""
+    incline, cavern = INCLINE, PRM / "verification/cavern_at_depth.prm"
+    radians = "s.prm"
+    text = re.sub(r"Dip direction = \d+", "Dip direction = 4.7", COARSE_WEDGE)
+    pathlib.Path(radians).write_text(re.sub(r"Dip = \d+", "Dip = 1.13", text))
+    for scene, settings, sentences in (
+            (ROOF, ["Joints/left/Cohesion=5e9", "Materials/rock/Young modulus=1e14",
+                    "Materials/rock/Density=26487", "Initial state/Lateral ratios=80",
+                    "Initial state/Gravity=0; -981", "Stages/*/Seismic coefficient=2.5, 0",
+                    "Stages/*/Unbalanced ratio=0.5", "Water/Level=12",
+                    "Joints/right/Friction angle=1.55"],
+             ["'Joints/left/Cohesion' is 5e+09 Pa: no rock has as much",
+              "'Materials/rock/Young modulus' is 1e+14 Pa: no rock is so stiff",
+              "'Materials/rock/Density' is 26487 kg/m3: is it a unit weight",
+              "'Initial state/Lateral ratios' is 80 [-]: no ground has so much more "
+              "horizontal than vertical stress; is 0.8 meant?",
+              "'Initial state/Gravity' is '0; -981', 981 m/s2: is it in m/s2?",
+              "Seismic coefficient' is 2.5 [-]",
+              "is it in m/s2? It is acceleration over 9.81 m/s2: that would be 0.255.",
+              "Unbalanced ratio' is 0.5 [-]",
+              "'Water/Level' is up to 12 m, above the top of the ground at 10 m: water "
+              "presses in joints as deep as they lie below it, but not on faces",
+              "'Joints/right/Friction angle' is 1.55 degrees: is it in radians?"]),
+            (ROOF, ["Materials/rock/Density=80"], ["is it in t/m3 or kN/m3?"]),
+            (cavern, ["Ground/K0=80", "Excavations/cavern/Stage=bench",
+                      "Excavations/cavern/Bench stages=heading"],
+             ["'Ground/K0' is 80 [-]", "'cavern bench 1' is dug in 'heading', before "
+              "'cavern' above it in 'bench'"]),
+            (cavern, ["Ground/Depth=0", "Ground/K0=1", "Initial state/Gravity=9.81; 0",
+                      "Domain/Corner=-50, -50", "Domain/Size=100, 100"],
+             ["'Initial state/Gravity' is '9.81; 0', not down the axis y, along which "
+              "the excavation 'cavern' stands"]),
+            (radians, [], ["'Joints/J1/Dip' is 1.13 degrees, and no dip of the scene is "
+                           "above 1.6: are they in radians? That would be 64.7"]),
+            (ROOF, [], []),
+            (incline, ["Water/Level=-1"], [])):
+        told = warnings_of(validate(scene, settings))
+        print("\n".join(told))
+        for sentence in sentences:
+            assert any(sentence in text for text in told), sentence
+        if not sentences:
+            assert not told, told
+
+
 def blocks_that_lean():
     """A block is stable only while the one stays that holds it."""
     scene = PRM / "verification/factor_group.prm"
