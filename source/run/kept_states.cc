@@ -145,6 +145,9 @@ namespace Keyblock
     bool
     is_used_scene(const fs::path &file)
     {
+      std::error_code error;
+      if (!fs::is_regular_file(file, error)) // a device may have no end
+        return false;
       std::ifstream in(file);
       std::string line;
       for (unsigned int n = 0; n < 5 && std::getline(in, line); ++n)
