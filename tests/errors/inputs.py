@@ -796,6 +796,41 @@ def used_folder():
     assert b"Folder" not in done.stdout and (folder / "rock_0099.vtu").exists()
 
 
+def written_wrongly():
+    """File, line, entry and what is meant."""
+    text = ROOF.read_text("utf-8")
+    lines = text.splitlines()
+
+    def line_of(words, begin=0):
+        return 1 + next(i for i, line in enumerate(lines)
+                        if i >= begin and words in line)
+
+    def refuse(old, new, fragment, count=1):
+        assert old in text
+        pathlib.Path("s.prm").write_text(text.replace(old, new, count), "utf-8")
+        refused(validate("s.prm"), fragment)
+
+    refuse("Friction angle = 40", "Friction angle = 30,5",
+           f"In 's.prm', line {line_of('Friction')}, joint 'left': the entry "
+           "'Friction angle' is '30,5', which is not a number from 0 to 89.9; "
+           "numbers have a point: write 30.5.")
+    refuse("Friction angle", "Fricton angle", "is 'Friction angle' meant?")
+    refuse("Young modulus", "Youngs modulus", f"In 's.prm', line {line_of('Young')}: "
+           "there is no entry 'Materials/rock/Youngs modulus'; is 'Young modulus' meant?")
+    refuse("subsection Materials", "subsection Matreials",
+           f"line {line_of('Materials')}: there is no section 'Matreials'; is "
+           "'Materials' meant?")
+    refuse("set Density", "st Density", f"line {line_of('Density')}: 'st Density = "
+           "2700' begins with none of set")
+    refuse("  set Size = 0.8\nend", "  set Size = 0.8", "In 's.prm', line "
+           f"{line_of('subsection Mesh')}: the subsection 'Mesh' has no 'end'")
+    refuse("    set Density = 2700\n  end", "    set Density = 2700", "line "
+           f"{line_of('subsection rock')}: the subsection 'rock' has no 'end'")
+    refuse("set Title", "end\nset Title", f"line {line_of('Title')}: this 'end' closes no")
+    pathlib.Path("s.prm").write_text(text[:text.rindex("end")], "utf-8")
+    refused(validate("s.prm"), "has no 'end'")
+
+
 def hardly_meant():
     """Values that are allowed and hardly ever meant are warned of, others not."""
     incline, cavern = INCLINE, PRM / "verification/cavern_at_depth.prm"
