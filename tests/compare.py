@@ -8,10 +8,11 @@ The name is a key of `checks` in summary.json, a path such as
 energy/relative_residual or blocks/0/volume, or slope/STAGE/COLUMN/FROM/TO: the
 slope against time of the straight line that fits a column of history.csv best,
 least squares, between two times after the begin of a stage. The test passes if
-|found - value| <= abs_tolerance + rel_tolerance * |value| on every line, and if
-summary.json is as its schema says. In words an underscore stands for a blank.
+|found - value| <= abs_tolerance + rel_tolerance * |value| on every line, if
+summary.json is as its schema says, and if it has the warnings of the screen. In words an underscore stands for a blank.
 """
 import csv
+import re
 import subprocess
 import sys
 
@@ -66,6 +67,10 @@ def main():
         sys.exit(f"exit code {run.returncode}\n{run.stdout}\n{run.stderr}")
     summary = schema.read(f"{folder}/summary.json")
     faults = schema.faults_of(summary, "summary")
+    said = re.findall("^Warning: (.*)$", run.stdout + run.stderr, re.MULTILINE)
+    if said != summary["warnings"]:
+        faults.append(f"the screen warns of {said}, summary.json of "
+                      f"{summary['warnings']}")
     for fault in faults:
         print(f"FAIL {fault}")
     failures, n_lines = len(faults), 0

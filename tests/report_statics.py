@@ -143,14 +143,11 @@ def check_stable():
         kept = [b for b in summary["blocks"] if "infinite" in b["class"]
                 or b["id"] <= n]
         (folder / "summary.json").write_text(json.dumps(
-            {**summary, "blocks": kept,
-             "mesh": {**summary.get("mesh", {}), "lost_blocks": 1,
-                      "largest_lost_volume": 0.5}}))
+            {**summary, "blocks": kept}))
         subprocess.run([REPORT, folder, "-o", path], check=True,
                        stdout=subprocess.DEVNULL)
         page = path.read_text(encoding="utf-8")
         assert words in page and not re.search(r"\b1 blocks|\b0 of 0", page)
-        assert "1 block too small for the mesh went to its neighbour" in page
     (folder / "summary.json").write_text(before)
 
 

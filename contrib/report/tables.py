@@ -343,25 +343,7 @@ def warnings_of(run):
             found.append(f"Stage {stage['name']} did not converge: its "
                          "unbalanced ratio is "
                          f"{number(stage.get('unbalanced_ratio'))}.")
-        if stage.get("contacts_through_rock"):
-            found.append(f"Stage {stage['name']}: "
-                         f"{stage['contacts_through_rock']} contacts through "
-                         "rock.")
     mesh = summary.get("mesh", {})
-    if mesh.get("lost_blocks"):
-        place = ", ".join(number(x) for x in mesh.get("largest_lost_place",
-                                                      []))
-        lost = mesh["lost_blocks"]
-        found.append(f"{count(lost, 'block')} too small for the mesh went to "
-                     + ("its neighbour, of " if lost == 1 else
-                        "their neighbours, the largest of ")
-                     + f"{number(mesh['largest_lost_volume'])} "
-                     + ("m²" if run.is_plane else "m³")
-                     + (f" at ({place})." if place else "."))
-    for key, text in (("joints_lost", "Joints too small for the mesh"),
-                      ("joints_outside", "Joints outside of the domain")):
-        if mesh.get(key):
-            found.append(f"{text}: {few(mesh[key].split(', '))}.")
     if mesh.get("merged_areas"):
         shared = sorted(mesh["merged_areas"].items(), key=lambda m: -m[1])
         found.append("Joints share faces, which the weaker rules: "
@@ -371,10 +353,6 @@ def warnings_of(run):
     if mesh.get("open_ends"):
         found.append("Joints that end just before another: "
                      + few(mesh["open_ends"]) + ".")
-    capped = summary.get("run", {}).get("capped_contact_groups")
-    if capped:
-        found.append(f"Contact groups (in all {capped}) were left at Contact/Maximum "
-                     "iterations, not solved to Contact/Tolerance.")
     undecided = [n for n in run.finite_blocks() if any(
         r.get("outcome") == "undecided" or "undecided_upper" in r
         for r in run.blocks[n].get("safety_factor", []))]

@@ -2,32 +2,54 @@
 #include <deal.II/base/numbers.h>
 
 #include <keyblock/base/delimited_text.h>
-#include <keyblock/mesh/report.h>
+#include <keyblock/mesh/report_warnings.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <ostream>
+#include <sstream>
 
 namespace Keyblock
 {
   namespace
   {
+    using Sentences = std::vector<std::string>;
+
+    /** A text to write a sentence into. */
+    std::ostringstream
+    begin_sentence()
+    {
+      std::ostringstream text;
+      text << std::setprecision(3);
+      return text;
+    }
+
+    template <int dim>
+    std::ostream &
+    operator<<(std::ostream &out, const Point<dim> &place)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        out << (d ? ", " : "") << place[d];
+      return out;
+    }
+
     template <int dim>
     void
-    print_names(std::ostream &out,
-                const std::vector<unsigned int> &joints,
-                const Scene<dim> &scene,
-                const std::string &fate)
+    add_names(Sentences &found,
+              const std::vector<unsigned int> &joints,
+              const Scene<dim> &scene,
+              const std::string &fate)
     {
       if (joints.empty())
         return;
       constexpr unsigned int most_names = 8;
-      out << "Warning: " << joints.size() << " joint"
-          << (joints.size() == 1 ? " " : "s ") << fate << ": ";
+      std::ostringstream out            = begin_sentence();
+      out << joints.size() << " joint" << (joints.size() == 1 ? " " : "s ")
+          << fate << ": ";
       for (unsigned int i = 0; i < joints.size() && i < most_names; ++i)
         out << (i ? ", " : "") << scene.joints[joints[i]]->name;
-      out << (joints.size() > most_names ? ", ..." : "") << ".\n";
+      out << (joints.size() > most_names ? ", ..." : "") << '.';
+      found.push_back(out.str());
     }
 
     template <int dim>
@@ -82,13 +104,13 @@ namespace Keyblock
               std::abs(a.distance(place))};
     }
 
-    /** Warn of joints that lie wholly on others, in the scene or because the
-     * mesh has let them fall together. */
+    /** Joints that lie wholly on others, in the scene or because the mesh has
+     * let them fall together. */
     template <int dim>
     void
-    print_duplicates(std::ostream &out,
-                     const MeshReport<dim> &report,
-                     const Scene<dim> &scene)
+    add_duplicates(Sentences &found,
+                   const MeshReport<dim> &report,
+                   const Scene<dim> &scene)
     {
       constexpr unsigned int most_pairs = 5;
       unsigned int n                    = 0;
@@ -98,24 +120,26 @@ namespace Keyblock
             const Joint<dim> &ruler = *scene.joints[merged.joint];
             const Joint<dim> &other = *scene.joints[merged.other];
             const Parting parting   = parting_of(ruler, other);
+            std::ostringstream out  = begin_sentence();
             if (parting.is_nothing(std::pow(merged.area, 1. / (dim - 1))))
-              out << "Warning: The joint '" << other.name
+              out << "The joint '" << other.name
                   << "' lies wholly on the joint '" << ruler.name
                   << "', whose strength rules there; remove one of them, or "
-                     "move it.\n";
+                     "move it.";
             else
-              out << "Warning: The mesh has let the joint '" << other.name
+              out << "The mesh has let the joint '" << other.name
                   << "' fall together with the joint '" << ruler.name
                   << "', whose strength rules there: their planes are "
                   << parting.angle << " degrees and up to about "
                   << parting.distance
                   << " m apart; lower the size of cells there ('Mesh/Size at "
                      "joints') to keep them apart, or leave one of them "
-                     "out.\n";
+                     "out.";
+            found.push_back(out.str());
           }
       if (n > most_pairs)
-        out << "Warning: " << n - most_pairs
-            << " more joints lie or fell on others in this way.\n";
+        found.push_back(std::to_string(n - most_pairs) +
+                        " more joints lie or fell on others in this way.");
     }
 
     template <int dim>
@@ -141,13 +165,12 @@ namespace Keyblock
             << " more pairs of joints: summary.json lists them\n";
     }
 
-    /** Warn of rock between joints and outlines that the cells are too large
-     * for. */
+    /** Rock between joints and outlines that the cells are too large for. */
     template <int dim>
     void
-    print_thin_rock(std::ostream &out,
-                    const MeshReport<dim> &report,
-                    const Scene<dim> &scene)
+    add_thin_rock(Sentences &found,
+                  const MeshReport<dim> &report,
+                  const Scene<dim> &scene)
     {
       constexpr unsigned int most_joints = 5;
       auto thin                          = report.thin_rock;
@@ -158,13 +181,12 @@ namespace Keyblock
                        });
       for (unsigned int i = 0; i < thin.size() && i < most_joints; ++i)
         {
-          out << "Warning: The rock between the joint '"
+          std::ostringstream out = begin_sentence();
+          out << "The rock between the joint '"
               << scene.joints[thin[i].joint]->name
               << "' and an outline beside it is too thin for the cells, about "
-              << thin[i].thickness << " m at (";
-          for (unsigned int d = 0; d < dim; ++d)
-            out << (d ? ", " : "") << thin[i].place[d];
-          out << "), and lost there; ";
+              << thin[i].thickness << " m at (" << thin[i].place
+              << "), and lost there; ";
           const double cells_across = scene.meshing.cells_across;
           if (cells_across > 0.)
             out << "lower 'Mesh/Least size' to about "
@@ -172,30 +194,97 @@ namespace Keyblock
           else
             out << "lower the size there to about " << thin[i].thickness
                 << ", or set 'Mesh/Cells across blocks'";
-          out << " to keep it, or leave the joint out.\n";
+          out << " to keep it, or leave the joint out.";
+          found.push_back(out.str());
         }
       if (thin.size() > most_joints)
-        out << "Warning: So is it beside " << thin.size() - most_joints
-            << " more joints.\n";
+        found.push_back("So is it beside " +
+                        std::to_string(thin.size() - most_joints) +
+                        " more joints.");
     }
 
     template <int dim>
     void
-    print_lost_parts(std::ostream &out,
-                     const MeshReport<dim> &report,
-                     const Scene<dim> &scene)
+    add_lost_parts(Sentences &found,
+                   const MeshReport<dim> &report,
+                   const Scene<dim> &scene)
     {
       for (const auto &lost : report.lost_parts)
-        out << "Warning: " << lost.n_lost << " of the " << lost.n_parts
-            << " plane parts of the joint '"
-            << scene.joints[lost.joint]->surface
-            << "' are too small for the cells there, the largest about "
-            << lost.width
-            << " m wide: the joint is smoothed over them; set 'Mesh/Size at "
-               "joints' to about "
-            << lost.size << ", or give larger parts.\n";
+        {
+          std::ostringstream out = begin_sentence();
+          out << lost.n_lost << " of the " << lost.n_parts
+              << " plane parts of the joint '"
+              << scene.joints[lost.joint]->surface
+              << "' are too small for the cells there, the largest about "
+              << lost.width
+              << " m wide: the joint is smoothed over them; set 'Mesh/Size at "
+                 "joints' to about "
+              << lost.size << ", or give larger parts.";
+          found.push_back(out.str());
+        }
+    }
+
+    /** That finite joints have another size in the mesh than in the scene. */
+    template <int dim>
+    void
+    add_area_ratio(Sentences &found, const MeshReport<dim> &report)
+    {
+      constexpr double least = 0.8, largest = 1.25; // [-]
+      if (report.area_ratio >= least && report.area_ratio <= largest)
+        return;
+      std::ostringstream out = begin_sentence();
+      out << "Finite joints have " << report.area_ratio << " of their "
+          << (dim == 2 ? "length" : "area")
+          << " in the mean, as the mesh has their rims at edges of its cells, "
+             "too large for them, which "
+          << (report.area_ratio > 1. ? "cuts out blocks that are not there"
+                                     : "leaves blocks out")
+          << "; lower 'Mesh/Size at joints'.";
+      found.push_back(out.str());
+    }
+
+    template <int dim>
+    void
+    add_lost_blocks(Sentences &found, const MeshReport<dim> &report)
+    {
+      if (report.n_lost_blocks == 0)
+        return;
+      const bool is_one      = report.n_lost_blocks == 1;
+      std::ostringstream out = begin_sentence();
+      out << count_text(report.n_lost_blocks, "block")
+          << " smaller than a fifth of a triangle or tetrahedron went to "
+          << (is_one ? "its" : "their") << " neighbours, "
+          << (is_one ? "" : "the largest ") << "of "
+          << report.largest_lost_volume << (dim == 2 ? " m2" : " m3") << " at ("
+          << report.largest_lost_place
+          << ") m; lower 'Mesh/Size' there to keep "
+          << (is_one ? "it." : "them.");
+      found.push_back(out.str());
     }
   } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_mesh_report(const MeshReport<dim> &report,
+                          const Scene<dim> &scene)
+  {
+    Sentences found;
+    if (scene.joints.empty())
+      return found;
+    add_area_ratio(found, report);
+    add_duplicates(found, report, scene);
+    add_lost_blocks(found, report);
+    add_thin_rock(found, report, scene);
+    add_names(found,
+              report.lost,
+              scene,
+              "too small for the cells where they lie, and left out");
+    add_lost_parts(found, report, scene);
+    add_names(found, report.outside, scene, "outside the model, and left out");
+    return found;
+  }
 
 
 
@@ -210,23 +299,7 @@ namespace Keyblock
     out << std::setprecision(3);
     if (!report.way.empty())
       print_way(out, report);
-    print_duplicates(out, report, scene);
     print_merged(out, report, scene);
-    if (report.n_lost_blocks > 0)
-      {
-        const bool is_one = report.n_lost_blocks == 1;
-        out << "Warning: " << count_text(report.n_lost_blocks, "block")
-            << " smaller than a fifth of a triangle or tetrahedron went to "
-            << (is_one ? "its" : "their") << " neighbours, "
-            << (is_one ? "" : "the largest ") << "of "
-            << report.largest_lost_volume << (dim == 2 ? " m2" : " m3")
-            << " at (";
-        for (unsigned int d = 0; d < dim; ++d)
-          out << (d ? ", " : "") << report.largest_lost_place[d];
-        out << ") m; lower 'Mesh/Size' there to keep "
-            << (is_one ? "it.\n" : "them.\n");
-      }
-    print_thin_rock(out, report, scene);
     if (!report.gaps.empty())
       {
         const auto &gap = *report.gaps.begin();
@@ -238,16 +311,15 @@ namespace Keyblock
             << " before " << scene.joints[gap.other]->name
             << (report.gaps.size() == 1 ? ")\n" : ", ...)\n");
       }
-    print_names(out,
-                report.lost,
-                scene,
-                "too small for the cells where they lie, and left out");
-    print_lost_parts(out, report, scene);
-    print_names(out, report.outside, scene, "outside the model, and left out");
   }
 
-  template void
-  print_mesh_report(std::ostream &, const MeshReport<2> &, const Scene<2> &);
-  template void
-  print_mesh_report(std::ostream &, const MeshReport<3> &, const Scene<3> &);
+#define INSTANTIATE(dim)                                                       \
+  template std::vector<std::string> warnings_of_mesh_report(                   \
+    const MeshReport<dim> &, const Scene<dim> &);                              \
+  template void print_mesh_report(std::ostream &,                              \
+                                  const MeshReport<dim> &,                     \
+                                  const Scene<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Keyblock

@@ -337,10 +337,6 @@ namespace Keyblock
     root["run"]                      = run_as_json(run);
     root["run"]["peak_memory_bytes"] = memory;
     root["warnings"]                 = run.warnings;
-    for (const StageReport &stage : stages)
-      if (!stage.warning.empty())
-        root["warnings"].push_back("Stage " + stage.name + ": " +
-                                   stage.warning);
     root["energy"] =
       energies_as_json(stages.empty() ? Energies() : stages.back().energies);
     root["blocks"] = blocks_as_json<dim>(

@@ -271,9 +271,11 @@ namespace Keyblock::Python
             return computed(false, [&]() { return run->factors(); });
           },
           "Those that the scene asks for: list of Factor.")
-        .def_property_readonly("warnings",
-                               &AnyRun::warnings,
-                               "Of scene and set-up, one sentence each.")
+        .def_property_readonly(
+          "warnings",
+          &AnyRun::warnings,
+          "Of scene, set-up and the stages run so far, one "
+          "sentence each.")
         .def_property_readonly("time", &AnyRun::time, "Simulated time (s).")
         .def_property_readonly(
           "blocks",

@@ -2,6 +2,7 @@
 // What mass scaling did, in words.
 #include <keyblock/rock/mass_scaling.h>
 
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -21,6 +22,21 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** What an entry of the list of scaled masses is called. */
+    template <int dim>
+    std::string
+    name_of_scaled(const Blocks<dim> &blocks, const unsigned int b)
+    {
+      return b < blocks.blocks.size()
+               ? "block " + std::to_string(blocks.blocks[b].id)
+               : "rock that is excavated later";
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::string
   describe_mass_scaling(const std::vector<MassScaling> &scaling,
@@ -29,37 +45,50 @@ namespace Keyblock
   {
     if (!is_any_scaled(scaling))
       return "";
-    std::ostringstream text, warnings;
+    std::ostringstream text;
     text << std::setprecision(3) << "Masses  added to cells with a step below "
          << least_step << " s: " << 100. * total_added_fraction(scaling)
          << " % of all\n";
-    warnings << std::setprecision(3);
     for (unsigned int b = 0; b < scaling.size(); ++b)
-      {
-        const MassScaling &block = scaling[b];
-        if (block.square == 0.)
-          continue;
-        const std::string name =
-          b < blocks.blocks.size()
-            ? "block " + std::to_string(blocks.blocks[b].id)
-            : "rock that is excavated later";
-        text << "        " << name << ": " << 100. * block.added_fraction()
-             << " % to " << block.n_cells << " cells\n";
-        if (block.is_at_bound)
-          warnings << "Warning: The stable step of " << name << " is "
-                   << 2. / std::sqrt(block.square)
-                   << " s, below 'Time stepping/Least step' (" << least_step
-                   << " s): more mass would have to be moved than 'Largest "
-                      "added mass' allows; improve the mesh there, or raise "
-                      "that entry.\n";
-      }
-    return text.str() + warnings.str();
+      if (const MassScaling &block = scaling[b]; block.square != 0.)
+        text << "        " << name_of_scaled(blocks, b) << ": "
+             << 100. * block.added_fraction() << " % to " << block.n_cells
+             << " cells\n";
+    return text.str();
   }
 
-  template std::string describe_mass_scaling(const std::vector<MassScaling> &,
-                                             const Blocks<2> &,
-                                             const double);
-  template std::string describe_mass_scaling(const std::vector<MassScaling> &,
-                                             const Blocks<3> &,
-                                             const double);
+
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_mass_scaling(const std::vector<MassScaling> &scaling,
+                           const Blocks<dim> &blocks,
+                           const double least_step)
+  {
+    std::vector<std::string> warnings;
+    for (unsigned int b = 0; b < scaling.size(); ++b)
+      if (const MassScaling &block = scaling[b];
+          block.square != 0. && block.is_at_bound)
+        {
+          std::ostringstream text;
+          text << std::setprecision(3) << "The stable step of "
+               << name_of_scaled(blocks, b) << " is "
+               << 2. / std::sqrt(block.square)
+               << " s, below 'Time stepping/Least step' (" << least_step
+               << " s): more mass would have to be moved than 'Largest added "
+                  "mass' allows; improve the mesh there, or raise that entry.";
+          warnings.push_back(text.str());
+        }
+    return warnings;
+  }
+
+#define INSTANTIATE(dim)                                                       \
+  template std::string describe_mass_scaling(const std::vector<MassScaling> &, \
+                                             const Blocks<dim> &,              \
+                                             const double);                    \
+  template std::vector<std::string> warnings_of_mass_scaling(                  \
+    const std::vector<MassScaling> &, const Blocks<dim> &, const double);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Keyblock

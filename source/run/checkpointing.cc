@@ -4,7 +4,6 @@
 
 #include <cstring>
 #include <iomanip>
-#include <iostream>
 
 namespace Keyblock
 {
@@ -59,14 +58,14 @@ namespace Keyblock
     last_saved                = MPI_Wtime();
     if (model.out.is_active())
       clear_progress(model.out.get_stream());
-    if (failure.empty())
-      note_checkpoint(name);
-    if (failure.empty())
-      model.out << "Saved   " << last_checkpoint << std::endl;
-    else if (model.communicator.is_root())
-      std::cerr << "Warning: The checkpoint '" << name
-                << "' cannot be written (" << failure << ")."
-                << say_where_to_continue() << std::endl;
+    if (!failure.empty())
+      {
+        model.warnings.add("The checkpoint '" + name + "' cannot be written (" +
+                           failure + ")." + say_where_to_continue());
+        return;
+      }
+    note_checkpoint(name);
+    model.out << "Saved   " << last_checkpoint << std::endl;
   }
 
 
@@ -78,9 +77,9 @@ namespace Keyblock
     const std::string name =
       folder + name_of_kept_stage(record.present.index + 1);
     const std::string failure = write(name);
-    if (!failure.empty() && model.communicator.is_root())
-      std::cerr << "Warning: The state '" << name << "' cannot be kept ("
-                << failure << ")." << std::endl;
+    if (!failure.empty())
+      model.warnings.add("The state '" + name + "' cannot be kept (" + failure +
+                         ").");
   }
 
 
@@ -208,6 +207,9 @@ namespace Keyblock
     exchange(file, "stages/", record.stage_reports);
     exchange(file, "factors/", record.safety_factors);
     exchange(file, "history/", monitors.history);
+    std::vector<std::string> warnings = model.warnings.all();
+    file.exchange("run/warnings", warnings);
+    model.warnings.recall(warnings);
     std::vector<double> times;
     std::vector<std::string> names, stages;
     for (const VtuRecord &r : output.records)

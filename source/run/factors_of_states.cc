@@ -45,6 +45,7 @@ namespace Keyblock
     for (const KeptState &state : states)
       model.communicator.on_root(
         [&]() { protect_results(state.file, folder); });
+    model.warnings.add(model.scene.warnings());
     model.make_geometry();
     for (const KeptState &state : states)
       {

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// What earlier runs have left in their output folders.
+#include <keyblock/base/delimited_text.h>
+#include <keyblock/base/find_file.h>
 #include <keyblock/run/checkpointing.h>
+#include <keyblock/run/earlier_results.h>
 #include <keyblock/run/kept_states.h>
+#include <keyblock/scene/entries.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
 #include <sstream>
 
 namespace Keyblock
@@ -124,6 +132,115 @@ namespace Keyblock
     return used;
   }
 
+
+
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    /** The first line of used.prm that only Keyblock writes. */
+    const std::string mark_of_used = "# Number of dimensions: 2 (plane strain";
+
+    /** Whether a file is the used.prm of a run. */
+    bool
+    is_used_scene(const fs::path &file)
+    {
+      std::error_code error;
+      if (!fs::is_regular_file(file, error)) // a device may have no end
+        return false;
+      std::ifstream in(file);
+      std::string line;
+      for (unsigned int n = 0; n < 5 && std::getline(in, line); ++n)
+        if (line.compare(0, mark_of_used.size(), mark_of_used) == 0)
+          return true;
+      return false;
+    }
+
+    /** Files that a scene reads, by their full paths. */
+    template <int dim>
+    std::set<std::string>
+    list_inputs(const Scene<dim> &scene)
+    {
+      std::set<std::string> inputs;
+      std::error_code error;
+      for (const auto &[entry, value] : list_entries(scene.used_entries()))
+        if (const std::string name = last_of(entry); name == "File" ||
+                                                     name == "History file" ||
+                                                     name == "Measured points")
+          if (const std::string found = find_file(scene.file, value);
+              !value.empty() && !found.empty())
+            inputs.insert(fs::weakly_canonical(found, error).string());
+      return inputs;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<fs::path>
+  list_earlier_results(const std::string &folder, const Scene<dim> &scene)
+  {
+    static const std::regex names(
+      "(joints|geostress|history|blocks|factors)\\.csv|joints\\.vtu|"
+      "summary\\.json|(solution|bolts|liners)\\.pvd|"
+      "(rock|interface)_[0-9]{4,}(\\.[0-9]+)?\\.vtu|"
+      "(rock|interface)_[0-9]{4,}\\.pvtu|(bolts|liners)_[0-9]{4,}\\.vtu|"
+      "(checkpoint|stage_[0-9]+)\\.h5(\\.part)?");
+    std::vector<fs::path> files;
+    if (!is_used_scene(folder + "used.prm"))
+      return files;
+    const std::set<std::string> inputs = list_inputs(scene);
+    std::error_code error;
+    for (fs::directory_iterator file(folder, error), end; file != end && !error;
+         file.increment(error))
+      if (file->symlink_status(error).type() == fs::file_type::regular &&
+          std::regex_match(file->path().filename().string(), names) &&
+          inputs.count(fs::weakly_canonical(file->path(), error).string()) == 0)
+        files.push_back(file->path());
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+
+
+
+  std::string
+  remove_earlier_results(const std::vector<fs::path> &files,
+                         const std::string &folder)
+  {
+    const fs::path saved = folder + "checkpoint.h5",
+                   kept  = folder + "earlier_checkpoint.h5",
+                   ended = folder + "summary.json";
+    std::error_code error;
+    const bool is_broken_off =
+      fs::exists(saved, error) &&
+      (!fs::exists(ended, error) ||
+       fs::last_write_time(saved, error) > fs::last_write_time(ended, error));
+    std::vector<std::string> removed;
+    bool has_kept = false;
+    for (const fs::path &file : files)
+      if (is_broken_off && file.filename() == saved.filename())
+        {
+          fs::rename(file, kept, error);
+          has_kept = !error;
+        }
+      else if (fs::remove(file, error))
+        removed.push_back(file.filename().string());
+    std::string text;
+    if (!removed.empty())
+      text = "Folder  " + count_text(removed.size(), "file") +
+             " of an earlier run removed from " + folder + ": " +
+             removed.front() +
+             (removed.size() > 1 ? " to " + removed.back() : "") + '\n';
+    if (has_kept)
+      text += "Folder  the earlier run was broken off: its checkpoint is now " +
+              kept.string() + '\n';
+    return text;
+  }
+
+  template std::vector<fs::path> list_earlier_results(const std::string &,
+                                                      const Scene<2> &);
+  template std::vector<fs::path> list_earlier_results(const std::string &,
+                                                      const Scene<3> &);
   template std::vector<KeptState>
   list_kept_states(const Communicator &, const std::string &, const Scene<2> &);
   template std::vector<KeptState>

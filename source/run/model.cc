@@ -13,6 +13,7 @@ namespace Keyblock
                     const std::vector<std::string> &overrides)
     : communicator(communicator)
     , out(std::cout, communicator.is_root())
+    , warnings(out)
   {
     scene.read(communicator, scene_file, overrides);
   }

@@ -5,6 +5,7 @@
 #include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/law/joint_stiffness.h>
 #include <keyblock/mesh/place_digits.h>
+#include <keyblock/mesh/report_warnings.h>
 #include <keyblock/run/bolt_warnings.h>
 #include <keyblock/run/circle_warnings.h>
 #include <keyblock/run/free_field_warnings.h>
@@ -106,7 +107,6 @@ namespace Keyblock
                       const Model<dim> &model,
                       const RunReport &report)
     {
-      const TimeStepping &stepping = model.scene.time_stepping;
       out << "        stable time step " << model.stable_step()
           << " s, set by the cell at (" << report.stable_step_place << ")"
           << (report.stable_step_joints.empty()
@@ -114,16 +114,43 @@ namespace Keyblock
                 : " beside " + report.stable_step_joints)
           << "\n        least over median step of "
           << "the cells " << report.step_ratio << '\n';
-      if (report.step_ratio < least_step_ratio)
-        out << "Warning: The least stable step of a cell is "
-            << report.step_ratio
-            << " times the median one, and sets the time step; improve "
-               "the mesh "
-               "there"
-            << (stepping.least_step == 0.
-                  ? ", or set 'Time stepping/Least step'"
-                  : "")
-            << ".\n";
+    }
+
+
+
+    /** That one cell sets the time step, or empty. */
+    template <int dim>
+    std::string
+    warning_of_small_step(const Model<dim> &model, const RunReport &report)
+    {
+      if (model.n_cells_global == 0 || report.step_ratio >= least_step_ratio)
+        return "";
+      return "The least stable step of a cell is " +
+             text_of(report.step_ratio, 3) +
+             " times the median one, and sets the time step; improve the mesh "
+             "there" +
+             (model.scene.time_stepping.least_step == 0.
+                ? ", or set 'Time stepping/Least step'."
+                : ".");
+    }
+
+
+
+    /** Those of the mesh, which rank 0 alone knows (collective). */
+    template <int dim>
+    std::vector<std::string>
+    warnings_of_joints(const Model<dim> &model)
+    {
+      std::string lines;
+      if (model.communicator.is_root())
+        for (const std::string &sentence :
+             warnings_of_mesh_report(model.mesh_report, model.scene))
+          lines += sentence + '\n';
+      std::istringstream all(model.communicator.text_of_root(lines));
+      std::vector<std::string> found;
+      for (std::string line; std::getline(all, line);)
+        found.push_back(line);
+      return found;
     }
   } // namespace
 
@@ -227,11 +254,17 @@ namespace Keyblock
 
   template <int dim>
   std::vector<std::string>
-  warnings_of_set_up(const Model<dim> &model, const Monitors<dim> &monitors)
+  warnings_of_set_up(const Model<dim> &model,
+                     const Monitors<dim> &monitors,
+                     const RunReport &report)
   {
-    std::vector<std::string> warnings = monitors.warnings;
+    std::vector<std::string> warnings = warnings_of_joints(model);
+    warnings.insert(warnings.end(),
+                    monitors.warnings.begin(),
+                    monitors.warnings.end());
     for (const std::string &warning :
-         {warning_of_tension(
+         {warning_of_small_step(model, report),
+          warning_of_tension(
             model.communicator, model.scene, model.split, model.cells),
           warning_of_welded_joints(model.scene, model.split, model.mesh_report),
           warning_of_compliant_joints(model.scene),
@@ -301,11 +334,9 @@ namespace Keyblock
 
   template <int dim>
   void
-  print_set_up(std::ostream &out,
-               const Model<dim> &model,
-               const RunReport &report,
-               const std::vector<std::string> &warnings,
-               const std::string &mass_scaling)
+  print_mesh(std::ostream &out,
+             const Model<dim> &model,
+             const RunReport &report)
   {
     out << "Mesh    " << model.split.mesh.n_cells() << " cells ("
         << model.n_cells_global << " deformable), "
@@ -317,9 +348,15 @@ namespace Keyblock
       print_stable_step(out, model, report);
     print_mesh_report(out, model.mesh_report, model.scene);
     print_liners(out, model);
-    for (const std::string &warning : warnings)
-      out << "Warning: " << warning << '\n';
-    out << mass_scaling;
+    out << std::flush;
+  }
+
+
+
+  template <int dim>
+  void
+  print_blocks(std::ostream &out, const Model<dim> &model)
+  {
     print_block_table(out, model.blocks, model.scene);
     if (model.scene.block_theory.report)
       print_block_theory(out,
@@ -328,20 +365,16 @@ namespace Keyblock
     out << std::flush;
   }
 
-  template std::vector<std::string> warnings_of_set_up(const Model<2> &,
-                                                       const Monitors<2> &);
-  template std::vector<std::string> warnings_of_set_up(const Model<3> &,
-                                                       const Monitors<3> &);
-  template void report_stable_step(const Model<2> &, RunReport &);
-  template void report_stable_step(const Model<3> &, RunReport &);
-  template void print_set_up(std::ostream &,
-                             const Model<2> &,
-                             const RunReport &,
-                             const std::vector<std::string> &,
-                             const std::string &);
-  template void print_set_up(std::ostream &,
-                             const Model<3> &,
-                             const RunReport &,
-                             const std::vector<std::string> &,
-                             const std::string &);
+#define INSTANTIATE(dim)                                                       \
+  template std::vector<std::string> warnings_of_set_up(const Model<dim> &,     \
+                                                       const Monitors<dim> &,  \
+                                                       const RunReport &);     \
+  template void report_stable_step(const Model<dim> &, RunReport &);           \
+  template void print_mesh(std::ostream &,                                     \
+                           const Model<dim> &,                                 \
+                           const RunReport &);                                 \
+  template void print_blocks(std::ostream &, const Model<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace Keyblock

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/run/earlier_results.h>
 #include <keyblock/run/run_estimate.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/simulation.h>
@@ -54,20 +55,6 @@ namespace Keyblock
 
 
 
-  namespace
-  {
-    /** What the scene warns of, before it is meshed: that may take long. */
-    template <int dim>
-    void
-    print_warnings(const Scene<dim> &scene, dealii::ConditionalOStream &out)
-    {
-      for (const std::string &warning : scene.warnings())
-        out << "Warning: " << warning << std::endl;
-    }
-  } // namespace
-
-
-
   template <int dim>
   void
   Simulation<dim>::set_up()
@@ -83,34 +70,38 @@ namespace Keyblock
                                                     folder);
     stages =
       std::make_unique<StageRunner<dim>>(model, parts->finite_check, *recorder);
-    warnings = warnings_of_set_up(model, parts->monitors);
     report_stable_step(model, parts->record.report);
+    warnings = warnings_of_set_up(model, parts->monitors, parts->record.report);
     parts->record.report.overrides = overrides;
-    parts->record.report.warnings  = model.scene.warnings();
-    parts->record.report.warnings.insert(parts->record.report.warnings.end(),
-                                         warnings.begin(),
-                                         warnings.end());
-  }
-
-
-
-  template <int dim>
-  std::string
-  Simulation<dim>::mass_scaling_of_stage() const
-  {
-    return describe_mass_scaling(model.conditions->active_cells.mass_scaling,
-                                 model.blocks,
-                                 model.scene.time_stepping.least_step);
   }
 
 
 
   template <int dim>
   void
-  Simulation<dim>::print_head(std::ostream &out)
+  Simulation<dim>::tell_mass_scaling()
   {
-    mass_scaling_text = mass_scaling_of_stage();
-    print_set_up(out, model, parts->record.report, warnings, mass_scaling_text);
+    const auto &scaling    = model.conditions->active_cells.mass_scaling;
+    const double step      = model.scene.time_stepping.least_step;
+    const std::string text = describe_mass_scaling(scaling, model.blocks, step);
+    if (text != mass_scaling_text)
+      model.out << text << std::flush;
+    mass_scaling_text = text;
+    model.warnings.add(warnings_of_mass_scaling(scaling, model.blocks, step));
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::tell_set_up()
+  {
+    if (model.out.is_active())
+      print_mesh(model.out.get_stream(), model, parts->record.report);
+    model.warnings.add(warnings);
+    tell_mass_scaling();
+    if (model.out.is_active())
+      print_blocks(model.out.get_stream(), model);
   }
 
 
@@ -120,15 +111,15 @@ namespace Keyblock
   Simulation<dim>::validate()
   {
     check_kept_stages(model.scene);
-    print_warnings(model.scene, model.out);
+    model.warnings.add(model.scene.warnings());
     model.make_geometry();
     set_up();
+    tell_set_up();
     if (model.out.is_active())
-      {
-        std::ostream &out = model.out.get_stream();
-        print_head(out);
-        print_block_statics(out, model.scene, model.split, model.blocks);
-      }
+      print_block_statics(model.out.get_stream(),
+                          model.scene,
+                          model.split,
+                          model.blocks);
     print_estimate();
     model.out << "The scene is valid." << std::endl;
   }
@@ -149,9 +140,9 @@ namespace Keyblock
       }
     catch (const ComputationError &error)
       {
-        model.out << "Warning: The first steps fail, so that time and memory "
-                     "of the run cannot be told: "
-                  << error.message << '\n';
+        model.warnings.add("The first steps fail, so that time and memory of "
+                           "the run cannot be told: " +
+                           error.message);
       }
   }
 
@@ -225,7 +216,7 @@ namespace Keyblock
         file = std::make_unique<StateFile>(model.communicator, checkpoint);
         check_origin(*file, checkpoint, model.scene, StateUse::restart);
       }
-    print_warnings(model.scene, model.out);
+    model.warnings.add(model.scene.warnings());
     model.make_geometry();
     if (file)
       check_mesh(*file, checkpoint, model.split);
@@ -298,18 +289,18 @@ namespace Keyblock
   {
     model.communicator.on_root([&]() {
       if (folder.empty())
-        {
-          if (model.out.is_active())
-            print_head(model.out.get_stream());
-          return;
-        }
+        return;
       std::error_code error;
       std::filesystem::create_directories(folder, error);
       AssertThrow(!error,
                   InputError("The output folder '" + folder +
                              "' cannot be made (" + error.message() +
                              "); choose another by --output."));
+      const auto earlier = checkpoint.empty()
+                             ? list_earlier_results(folder, model.scene)
+                             : std::vector<std::filesystem::path>();
       model.scene.write_used(folder + "used.prm");
+      model.out << remove_earlier_results(earlier, folder) << std::flush;
       if (!model.scene.joints.empty())
         {
           write_joint_table(folder + "joints.csv", model.scene);
@@ -319,12 +310,10 @@ namespace Keyblock
         }
       if (model.geostress)
         write_geostress(folder + "geostress.csv", *model.geostress);
-      if (!model.out.is_active())
-        return;
-      print_head(model.out.get_stream());
-      if (model.geostress)
-        print_geostress(model.out.get_stream(), *model.geostress);
     });
+    tell_set_up();
+    if (model.geostress && model.out.is_active())
+      print_geostress(model.out.get_stream(), *model.geostress);
   }
 
 
@@ -349,10 +338,7 @@ namespace Keyblock
       parts->record.has_before ? take_snapshot(model.parts()) : Snapshot<dim>();
     parts->output.stage = progress.number();
     stages->begin(progress);
-    const std::string text = mass_scaling_of_stage();
-    if (text != mass_scaling_text)
-      model.out << text << std::flush;
-    mass_scaling_text     = text;
+    tell_mass_scaling();
     progress.first_step   = model.step->n_steps;
     parts->record.present = progress;
   }
@@ -379,6 +365,9 @@ namespace Keyblock
                       model,
                       stage,
                       record.stage_reports.back());
+        if (const std::string &warning = record.stage_reports.back().warning;
+            !warning.empty())
+          model.warnings.add("Stage " + stage.name + ": " + warning);
         present.is_reported = true;
         if (model.scene.output.keeps_stages)
           parts->checkpointing.keep_stage();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The end of a run: what it has come to.
+#include <keyblock/base/number_text.h>
 #include <keyblock/output/liner_output.h>
 #include <keyblock/run/simulation.h>
 #include <keyblock/verification/checks.h>
@@ -55,15 +56,16 @@ namespace Keyblock
       model.communicator.sum(model.contact ? model.contact->tally.n_capped : 0);
     report.solved_groups = model.communicator.sum(
       model.contact ? model.contact->tally.n_solved : 0.);
+    if (report.capped_groups > 0)
+      model.warnings.add(
+        std::to_string(report.capped_groups) + " contact groups of " +
+        text_of(report.solved_groups) +
+        " in this run were left at 'Contact/Maximum iterations', not solved "
+        "to 'Contact/Tolerance'.");
+    report.warnings = model.warnings.all();
     if (!folder.empty())
       write_results(checks);
     parts->finite_check.check_history();
-    if (report.capped_groups > 0)
-      model.out << "Warning: " << report.capped_groups << " contact groups of "
-                << report.solved_groups
-                << " in this run were left at 'Contact/Maximum iterations', "
-                   "not solved to "
-                   "'Contact/Tolerance'.\n";
     for (const auto &[name, value] : checks)
       model.out << "Check   " << name << " = " << std::setprecision(9) << value
                 << '\n';

@@ -289,8 +289,6 @@ namespace Keyblock
         << text_of_shortening(model.conditions->frequency_ratio_of_liners,
                               model.conditions->frequency_ratio_of_traces)
         << '\n';
-    if (!report.warning.empty())
-      out << "Warning: " << report.warning << '\n';
     out << std::flush;
   }
 

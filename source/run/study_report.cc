@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/warning_list.h>
 #include <keyblock/blocks/block_measures.h>
 #include <keyblock/run/study_report.h>
 
@@ -212,7 +213,7 @@ namespace Keyblock
   {
     const unsigned int n_new = results.size() - n_resumed;
     for (const std::string &warning : warnings())
-      out << "Warning: " << warning << '\n';
+      WarningList::print(out, warning);
     out << std::setprecision(4) << "Study   " << results.size()
         << (scene.study.level == StudyLevel::full
               ? " samples, those with critical blocks run, "

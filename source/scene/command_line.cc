@@ -10,6 +10,36 @@
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Throw InputError if an option was taken for the value of the one before
+     * it. */
+    void
+    require_values(const boost::program_options::variables_map &values)
+    {
+      const auto require_value = [](const std::string &option,
+                                    const std::string &value) {
+        AssertThrow(value.compare(0, 2, "--") != 0,
+                    InputError("The option --" + option + " is followed by '" +
+                               value +
+                               "', another option, where its value is "
+                               "expected; write --" +
+                               option +
+                               (option == "set" ? " \"Section/Entry=value\"."
+                                                : " and a name.")));
+      };
+      for (const auto &[option, value] : values)
+        if (option == "set")
+          for (const auto &text : value.as<std::vector<std::string>>())
+            require_value(option, text);
+        else if (const auto *text =
+                   boost::any_cast<std::string>(&value.value()))
+          require_value(option, *text);
+    }
+  } // namespace
+
+
+
   CommandLine::CommandLine(int argc, const char *const argv[])
   {
     namespace options = boost::program_options;
@@ -75,6 +105,7 @@ namespace Keyblock
     answer = text.str();
     if (!answer.empty())
       return;
+    require_values(values);
     if (values.count("set"))
       overrides = values["set"].as<std::vector<std::string>>();
     if (values.count("output"))

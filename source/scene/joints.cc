@@ -59,7 +59,7 @@ namespace Keyblock
             // once more, so that the message has the line in the file
             parse_entries(prm,
                           std::string(passage.line, '\n') + passage.text,
-                          passage.place,
+                          passage.line > 0 ? passage.place : "",
                           passage.place + ", joint '" + joint.name + "'");
           }
         joint = present;

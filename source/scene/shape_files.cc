@@ -87,14 +87,16 @@ namespace Keyblock
                 subject + " has the extension '" + suffix +
                   "'; convert it to " +
                   (dim == 2 ? ".dxf." : "one of .step, .stp, .brep, .stl."));
-        require(is_drawing == (dim == 2),
-                subject +
-                  (is_drawing
-                     ? " is a drawing, but 'Dimension' is 3; give a "
-                       "solid (.step, .stp, .brep, .stl), or an extruded "
-                       "polygon."
-                     : " is a solid, but 'Dimension' is 2; give a closed "
-                       "outline (.dxf)."));
+        require(
+          is_drawing == (dim == 2),
+          subject +
+            (is_drawing
+               ? " is a drawing, but 'Dimension' is 3, where excavations are "
+                 "solids: export the body as .stl, .step or .brep, or "
+                 "give an extruded polygon (3DFACEs of a drawing serve "
+                 "as joints, by 'Joints/NAME/File')."
+               : " is a solid, but 'Dimension' is 2; give a closed "
+                 "outline (.dxf)."));
         check_scale(section, excavation.file, excavation.scale);
       }
 

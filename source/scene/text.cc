@@ -2,6 +2,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/scene/complaints.h>
 #include <keyblock/scene/decimal_commas.h>
 #include <keyblock/scene/dropped_names.h>
 #include <keyblock/scene/entries.h>
@@ -79,11 +80,10 @@ namespace Keyblock
         require_listed(sentence, source);
         if (!boost::ends_with(sentence, "."))
           sentence += '.';
-        AssertThrow(false,
-                    InputError(
-                      "In " + source + ": " + sentence +
-                      " Entries, ranges and units are listed in "
-                      "doc/parameters.md (or by --print-parameters)."));
+        throw InputError(
+          explain_complaint(prm, sentence, text, source, !file_name.empty()) +
+          " Entries, ranges and units are listed in doc/parameters.md (or by "
+          "--print-parameters).");
       }
   }
 
@@ -350,6 +350,7 @@ namespace Keyblock
                          read_file(communicator, file_name, "scene file"),
                          {file_name}))
   {
+    require_ends(text, file_name);
     warnings = replace_old_names(text);
     set_joints_apart(*this);
     for (const std::string &assignment : without_patterns(text, overrides))

@@ -2,6 +2,7 @@
 // Values that look as if they were in another unit.
 #include <keyblock/base/number_text.h>
 #include <keyblock/law/joint_stiffness.h>
+#include <keyblock/scene/doubts.h>
 #include <keyblock/scene/unit_warnings.h>
 
 #include <boost/algorithm/string.hpp>
@@ -9,73 +10,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace Keyblock
 {
   namespace
   {
-    /** Values of entries that are allowed and hardly ever meant. */
-    class Doubts
-    {
-    public:
-      /** Doubt the value of an entry between two bounds, both exclusive. */
-      void
-      look_at(const double value,
-              const std::string &owner,
-              const std::string &name,
-              const double above,
-              const double below,
-              const std::string &unit,
-              const std::string &question)
-      {
-        if (!(value > above && value < below))
-          return;
-        const std::string key = name + unit + text_of(value);
-        Doubt &doubt          = doubts[key];
-        if (doubt.n++ == 0)
-          {
-            order.push_back(key);
-            doubt.sentence = "The entry '" + owner + "/" + name + "' is " +
-                             text_of(value) + " " + unit;
-            doubt.question = question;
-          }
-      }
-
-      std::vector<std::string>
-      sentences() const
-      {
-        std::vector<std::string> all;
-        for (const std::string &key : order)
-          {
-            const Doubt &doubt = doubts.at(key);
-            all.push_back(doubt.sentence +
-                          (doubt.n > 1
-                             ? ", as " + std::to_string(doubt.n - 1) +
-                                 (doubt.n > 2 ? " more are" : " more is")
-                             : "") +
-                          ": " + doubt.question);
-          }
-        return all;
-      }
-
-    private:
-      struct Doubt
-      {
-        std::string sentence, question;
-        unsigned int n = 0;
-      };
-      std::map<std::string, Doubt> doubts; ///< by entry, unit and value
-      std::vector<std::string> order;
-    };
-
     void
     doubt_angle(Doubts &doubts,
                 const double value,
                 const std::string &owner,
                 const std::string &name)
     {
-      constexpr double least = 1.5; // [deg], nearly a right angle in radians
+      constexpr double least = 1.6; // [deg], a right angle in radians
       doubts.look_at(value,
                      owner,
                      name,
@@ -107,6 +53,7 @@ namespace Keyblock
     constexpr double endless = std::numeric_limits<double>::infinity();
 
     constexpr double least_modulus     = 1e5;  // [Pa]
+    constexpr double largest_modulus   = 1e13; // [Pa]
     constexpr double least_stiffness   = 1e5;  // [Pa/m]
     constexpr double largest_depth     = 20e3; // [m]
     constexpr double least_unit_weight = 5e3;  // [N/m3]
@@ -118,7 +65,7 @@ namespace Keyblock
                   const std::string &what,
                   const unsigned int usual)
     {
-      constexpr double least = 50.; // [kg/m3]
+      constexpr double least = 100., largest = 1e4; // [kg/m3]
       doubts.look_at(value,
                      owner,
                      "Density",
@@ -127,6 +74,68 @@ namespace Keyblock
                      "kg/m3",
                      "is it in t/m3 or kN/m3? " + what + " has about " +
                        std::to_string(usual) + " kg/m3.");
+      doubts.look_at(value,
+                     owner,
+                     "Density",
+                     largest,
+                     endless,
+                     "kg/m3",
+                     "is it a unit weight in N/m3? " + what + " has about " +
+                       std::to_string(usual) + " kg/m3.");
+    }
+
+    /** Cohesion of rock or joints. */
+    void
+    doubt_cohesion(Doubts &doubts, const double value, const std::string &owner)
+    {
+      constexpr double least = 1., largest = 1e9; // [Pa]
+      doubt_stress(doubts, value, owner, "Cohesion", least);
+      doubts.look_at(value,
+                     owner,
+                     "Cohesion",
+                     largest,
+                     endless,
+                     "Pa",
+                     "no rock has as much; stresses are in pascals, 1 MPa is "
+                     "1e6.");
+    }
+
+    /** Horizontal over vertical stress. */
+    void
+    doubt_ratios(Doubts &doubts,
+                 const std::vector<double> &ratios,
+                 const std::string &owner,
+                 const std::string &name)
+    {
+      constexpr double largest = 10.; // [-]
+      for (const double ratio : ratios)
+        doubts.look_at(ratio,
+                       owner,
+                       name,
+                       largest,
+                       endless,
+                       "[-]",
+                       "no ground has so much more horizontal than vertical "
+                       "stress; is " +
+                         text_of(0.01 * ratio, 3) + " meant?");
+    }
+
+    void
+    doubt_coefficient(Doubts &doubts,
+                      const std::vector<double> &coefficient,
+                      const std::string &owner)
+    {
+      constexpr double largest = 2.; // [-]
+      for (const double c : coefficient)
+        doubts.look_at(std::abs(c),
+                       owner,
+                       "Seismic coefficient",
+                       largest,
+                       endless,
+                       "[-]",
+                       "is it in m/s2? It is acceleration over 9.81 m/s2: that "
+                       "would be " +
+                         text_of(std::abs(c) / 9.81, 3) + ".");
     }
 
     void
@@ -258,14 +267,13 @@ namespace Keyblock
   std::vector<std::string>
   warnings_of_units(const Scene<dim> &scene)
   {
-    constexpr double least_cohesion = 1.; // [Pa]
+    constexpr double largest_unbalanced = 0.1; // [-]
     Doubts doubts;
     for (const auto &joint : scene.joints)
       {
         const std::string owner = "Joints/" + joint->name;
         doubt_angle(doubts, joint->friction_angle, owner, "Friction angle");
-        doubt_stress(
-          doubts, joint->cohesion, owner, "Cohesion", least_cohesion);
+        doubt_cohesion(doubts, joint->cohesion, owner);
         doubt_stiffness(doubts, JointStiffness(*joint), owner);
         doubt_strength(doubts, *joint, owner);
       }
@@ -283,20 +291,51 @@ namespace Keyblock
                           material->friction_angle,
                           owner,
                           "Friction angle");
-              doubt_stress(
-                doubts, material->cohesion, owner, "Cohesion", least_cohesion);
+              doubt_cohesion(doubts, material->cohesion, owner);
             }
           doubt_stress(doubts,
                        material->young_modulus,
                        owner,
                        "Young modulus",
                        least_modulus);
+          doubts.look_at(material->young_modulus,
+                         owner,
+                         "Young modulus",
+                         largest_modulus,
+                         endless,
+                         "Pa",
+                         "no rock is so stiff, and time steps are short by it; "
+                         "1 GPa is 1e9.");
           doubt_density(doubts, material->density, owner, "Rock", 2700);
         }
     for (const auto &bolts : scene.bolts)
       doubt_bolts(doubts, *bolts);
     for (const auto &liner : scene.liners)
       doubt_liner(doubts, *liner);
+    for (const auto &stage : scene.stages)
+      {
+        const std::string owner = "Stages/" + stage->name;
+        doubt_coefficient(doubts, stage->seismic_coefficient, owner);
+        if (!stage->is_dynamic())
+          doubts.look_at(stage->unbalanced_ratio,
+                         owner,
+                         "Unbalanced ratio",
+                         largest_unbalanced,
+                         endless,
+                         "[-]",
+                         "the stage ends before its rock has come to rest; "
+                         "1e-3 to 1e-5 are usual.");
+      }
+    doubt_coefficient(doubts,
+                      scene.safety.seismic_coefficient,
+                      "Safety factor");
+    if (scene.ground.depth > 0.)
+      doubt_ratios(doubts, scene.ground.k0, "Ground", "K0");
+    else
+      doubt_ratios(doubts,
+                   scene.initial_state.lateral_ratios,
+                   "Initial state",
+                   "Lateral ratios");
     doubt_density(doubts, scene.ground.density, "Ground", "Rock", 2700);
     doubts.look_at(scene.ground.depth,
                    "Ground",

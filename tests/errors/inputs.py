@@ -708,6 +708,174 @@ def small_ledge():
             assert "sliding on" in row, row
 
 
+ROOF = PRM / "verification" / "roof_block_falls.prm"
+
+
+def warnings_of(done):
+    """What the screen warned of, each once."""
+    assert done.returncode == 0, done.stdout + done.stderr
+    text = (done.stdout + done.stderr).decode("utf-8")
+    found = re.findall("^Warning: (.*)$", text, re.MULTILINE)
+    assert len(set(found)) == len(found), found
+    return found
+
+
+def told_and_kept():
+    """Whatever the screen warns of stands in summary.json, in the same order,
+    once, after a restart, too."""
+    lying = ["Joints/Names=left, right, same, away, tiny",
+             "Joints/same/Extent=polygon", "Joints/same/Vertices=-2.5, 3; 0, 7",
+             "Joints/away/Extent=polygon", "Joints/away/Vertices=50, 50; 60, 60",
+             "Joints/tiny/Extent=polygon", "Joints/tiny/Vertices=5, 5; 5.001, 5"]
+    settings = ["Joints/left/Cohesion=0.5", "Time stepping/Least step=1e-2", "Stages/*/Maximum steps=40",
+                "Output/Checkpoint interval=1e-6", "Output/Write VTU=false",
+                *lying]
+    arguments = [word for entry in settings for word in ("--set", entry)]
+    told = warnings_of(run([ROOF, "--output", "o", *arguments]))
+    for kind in ("is 0.5 Pa: is it in", "lies wholly on the joint 'same'",
+                 "outside the model", "too small for the cells",
+                 "below 'Time stepping/Least step'"):
+        assert any(kind in text for text in told), f"no '{kind}' in {told}"
+    summary = json.loads(pathlib.Path("o/summary.json").read_text("utf-8"))
+    assert summary["warnings"] == told, summary["warnings"]
+    corner = run([PRM / "verification/corner.prm", "--output", "c", "--set",
+                  "Contact/Maximum iterations=1"])
+    summary = json.loads(pathlib.Path("c/summary.json").read_text("utf-8"))
+    assert summary["warnings"] == warnings_of(corner), summary["warnings"]
+    assert "left at 'Contact/Maximum iterations'" in summary["warnings"][-1]
+    # a folder stands where a checkpoint is to be written
+    pathlib.Path("full/checkpoint.h5.part").mkdir(parents=True)
+    told_full = warnings_of(run([ROOF, "--output", "full", *arguments]))
+    assert any("'full/checkpoint.h5' cannot be written" in text
+               for text in told_full), told_full
+    summary = json.loads(pathlib.Path("full/summary.json").read_text("utf-8"))
+    assert summary["warnings"] == told_full, summary["warnings"]
+    warnings_of(run([ROOF, "--restart", "o/checkpoint.h5", "--output", "again",
+                     *arguments]))
+    summary = json.loads(pathlib.Path("again/summary.json").read_text("utf-8"))
+    assert sorted(summary["warnings"]) == sorted(told), summary["warnings"]
+
+
+def used_folder():
+    """A new run leaves nothing of an earlier one in its folder, and everything
+    of its user; neither a refused scene nor a restart takes anything."""
+    folder = pathlib.Path("o")
+    short = [ROOF, "--output", folder, "--set", "Stages/*/Maximum steps=20"]
+    done = run([*short, "--set", "Output/Keep stages=true",
+                "--set", "Output/Checkpoint interval=1e-6"])
+    assert b"Folder" not in done.stdout and done.returncode == 0, done
+    of_run = {path.name for path in folder.iterdir()}
+    own = ["notes.csv", "rock_section.vtu", "my_checkpoint.h5", "rock_1.vtu"]
+    for name in own:
+        (folder / name).write_text("mine")
+    refused(run([*short, "--set", "Mesh/Size=-1"]), "Size")
+    done = run([*short, "--restart", folder / "checkpoint.h5",
+                "--set", "Output/Keep stages=true",
+                "--set", "Output/Checkpoint interval=1e-6"])
+    assert b"Folder" not in done.stdout and done.returncode == 0, done
+    assert {path.name for path in folder.iterdir()} == of_run | set(own)
+    # fewer states, no stages
+    done = run([*short, "--set", "Output/VTU count=1"])
+    assert b"of an earlier run removed from o/: blocks.csv to " in done.stdout, done
+    fresh = run([ROOF, "--output", "fresh", "--set", "Stages/*/Maximum steps=20",
+                 "--set", "Output/VTU count=1"])
+    assert fresh.returncode == 0 and b"Folder" not in fresh.stdout, fresh
+    left = {path.name for path in folder.iterdir()}
+    assert left == {path.name for path in pathlib.Path("fresh").iterdir()} | set(own)
+    assert left < of_run | set(own), left
+    # the checkpoint of a run that was broken off is not lost
+    (folder / "checkpoint.h5").write_text("hours")
+    (folder / "summary.json").unlink()
+    done = run(short)
+    assert b"its checkpoint is now o/earlier_checkpoint.h5" in done.stdout, done
+    assert (folder / "earlier_checkpoint.h5").read_text() == "hours"
+    # without the used.prm of a run nothing is known of the folder
+    (folder / "used.prm").write_text("set Dimension = 2\n")
+    (folder / "rock_0099.vtu").write_text("mine")
+    done = run(short)
+    assert b"Folder" not in done.stdout and (folder / "rock_0099.vtu").exists()
+
+
+def written_wrongly():
+    """File, line, entry and what is meant."""
+    text = ROOF.read_text("utf-8")
+    lines = text.splitlines()
+
+    def line_of(words, begin=0):
+        return 1 + next(i for i, line in enumerate(lines)
+                        if i >= begin and words in line)
+
+    def refuse(old, new, fragment, count=1):
+        assert old in text
+        pathlib.Path("s.prm").write_text(text.replace(old, new, count), "utf-8")
+        refused(validate("s.prm"), fragment)
+
+    refuse("Friction angle = 40", "Friction angle = 30,5",
+           f"In 's.prm', line {line_of('Friction')}, joint 'left': the entry "
+           "'Friction angle' is '30,5', which is not a number from 0 to 89.9; "
+           "numbers have a point: write 30.5.")
+    refuse("Friction angle", "Fricton angle", "is 'Friction angle' meant?")
+    refuse("Young modulus", "Youngs modulus", f"In 's.prm', line {line_of('Young')}: "
+           "there is no entry 'Materials/rock/Youngs modulus'; is 'Young modulus' meant?")
+    refuse("subsection Materials", "subsection Matreials",
+           f"line {line_of('Materials')}: there is no section 'Matreials'; is "
+           "'Materials' meant?")
+    refuse("set Density", "st Density", f"line {line_of('Density')}: 'st Density = "
+           "2700' begins with none of set")
+    refuse("  set Size = 0.8\nend", "  set Size = 0.8", "In 's.prm', line "
+           f"{line_of('subsection Mesh')}: the subsection 'Mesh' has no 'end'")
+    refuse("    set Density = 2700\n  end", "    set Density = 2700", "line "
+           f"{line_of('subsection rock')}: the subsection 'rock' has no 'end'")
+    refuse("set Title", "end\nset Title", f"line {line_of('Title')}: this 'end' closes no")
+    pathlib.Path("s.prm").write_text(text[:text.rindex("end")], "utf-8")
+    refused(validate("s.prm"), "has no 'end'")
+
+
+def hardly_meant():
+    """Values that are allowed and hardly ever meant are warned of, others not."""
+    incline, cavern = INCLINE, PRM / "verification/cavern_at_depth.prm"
+    radians = "s.prm"
+    text = re.sub(r"Dip direction = \d+", "Dip direction = 4.7", COARSE_WEDGE)
+    pathlib.Path(radians).write_text(re.sub(r"Dip = \d+", "Dip = 1.13", text))
+    for scene, settings, sentences in (
+            (ROOF, ["Joints/left/Cohesion=5e9", "Materials/rock/Young modulus=1e14",
+                    "Materials/rock/Density=26487", "Initial state/Lateral ratios=80",
+                    "Initial state/Gravity=0; -981", "Stages/*/Seismic coefficient=2.5, 0",
+                    "Stages/*/Unbalanced ratio=0.5", "Water/Level=12",
+                    "Joints/right/Friction angle=1.55"],
+             ["'Joints/left/Cohesion' is 5e+09 Pa: no rock has as much",
+              "'Materials/rock/Young modulus' is 1e+14 Pa: no rock is so stiff",
+              "'Materials/rock/Density' is 26487 kg/m3: is it a unit weight",
+              "'Initial state/Lateral ratios' is 80 [-]: no ground has so much more "
+              "horizontal than vertical stress; is 0.8 meant?",
+              "'Initial state/Gravity' is '0; -981', 981 m/s2: is it in m/s2?",
+              "Seismic coefficient' is 2.5 [-]",
+              "is it in m/s2? It is acceleration over 9.81 m/s2: that would be 0.255.",
+              "Unbalanced ratio' is 0.5 [-]",
+              "'Water/Level' is up to 12 m, above the top of the ground at 10 m: water "
+              "presses in joints as deep as they lie below it, but not on faces",
+              "'Joints/right/Friction angle' is 1.55 degrees: is it in radians?"]),
+            (ROOF, ["Materials/rock/Density=80"], ["is it in t/m3 or kN/m3?"]),
+            (cavern, ["Ground/K0=80", "Excavations/cavern/Stage=bench",
+                      "Excavations/cavern/Bench stages=heading"],
+             ["'Ground/K0' is 80 [-]", "'cavern bench 1' is dug in 'heading', before "
+              "'cavern' above it in 'bench'"]),
+            (cavern, ["Ground/Depth=0", "Ground/K0=1", "Initial state/Gravity=9.81; 0",
+                      "Domain/Corner=-50, -50", "Domain/Size=100, 100"],
+             ["'Initial state/Gravity' is '9.81; 0', not down the axis y, along which "
+              "the excavation 'cavern' stands"]),
+            (radians, [], ["'Joints/J1/Dip' is 1.13 degrees, and no dip of the scene is "
+                           "above 1.6: are they in radians? That would be 64.7"]),
+            (ROOF, [], []),
+            (incline, ["Water/Level=-1"], [])):
+        told = warnings_of(validate(scene, settings))
+        print("\n".join(told))
+        for sentence in sentences:
+            assert any(sentence in text for text in told), sentence
+        if not sentences:
+            assert not told, told
+
+
 def blocks_that_lean():
     """A block is stable only while the one stays that holds it."""
     scene = PRM / "verification/factor_group.prm"

@@ -47,7 +47,7 @@ def scene():
     for words, action in (
             (["no_such.prm", "cannot be read", "check its path"],
              lambda: keyblock.Scene("no_such.prm")),
-            (["Line <2>", "Fiction"],
+            (["line 2", "Fiction"],
              lambda: keyblock.Scene(text="subsection Joints\n set Fiction = 1\nend\n")),
             (["Mesh/Sise=1"], lambda: keyblock.Scene(INCLINE, overrides={"Mesh/Sise": 1})),
             (["neither a file nor a text"], keyblock.Scene),

@@ -4,7 +4,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include <keyblock/mesh/report.h>
+#include <keyblock/mesh/report_warnings.h>
 #include <keyblock/scene/text.h>
 
 #include <sstream>
@@ -29,16 +29,27 @@ BOOST_AUTO_TEST_CASE(one_block_that_went_to_its_neighbours)
     report.n_lost_blocks = n;
     std::ostringstream out;
     print_mesh_report(out, report, scene);
+    for (const std::string &warning : warnings_of_mesh_report(report, scene))
+      out << warning << '\n';
     return out.str();
   };
   const auto has = [](const std::string &all, const std::string &part) {
     return all.find(part) != std::string::npos;
   };
   BOOST_TEST(has(text(1), "0.9 of their length in the mean"));
-  BOOST_TEST(has(text(1), "Warning: 1 block smaller than a fifth"));
+  BOOST_TEST(!has(text(1), "Finite joints have"));
+  for (const double ratio : {1.92, 0.5})
+    {
+      report.area_ratio = ratio;
+      BOOST_TEST(has(text(1),
+                     ratio > 1. ? "Finite joints have 1.92 of their length"
+                                : "Finite joints have 0.5 of their length"));
+    }
+  report.area_ratio = 0.9;
+  BOOST_TEST(has(text(1), "1 block smaller than a fifth"));
   BOOST_TEST(has(text(1), "to its neighbours, of 0 m2"));
   BOOST_TEST(has(text(1), "to keep it.\n"));
-  BOOST_TEST(has(text(2), "Warning: 2 blocks smaller than a fifth"));
+  BOOST_TEST(has(text(2), "2 blocks smaller than a fifth"));
   BOOST_TEST(has(text(2), "to keep them.\n"));
 }
 

@@ -7,6 +7,7 @@
 
 #include <keyblock/blocks/block_geometry.h>
 #include <keyblock/blocks/mesh_fidelity.h>
+#include <keyblock/mesh/report_warnings.h>
 
 #include <cmath>
 #include <fstream>
@@ -54,7 +55,8 @@ namespace
     warnings() const
     {
       std::ostringstream text;
-      print_mesh_report(text, report, scene);
+      for (const std::string &warning : warnings_of_mesh_report(report, scene))
+        text << warning << '\n';
       for (const std::string &warning :
            warnings_of_coarse_mesh(scene, split, blocks))
         text << warning << '\n';

@@ -63,7 +63,7 @@ namespace Keyblock
     std::vector<BoltFigures> bolts;        ///< at the end
     std::vector<LinerReport> liners;       ///< at the end
     std::vector<LinerFigures> structural;  ///< liners, at the end
-    std::vector<std::string> warnings;     ///< of the scene and its set-up
+    std::vector<std::string> warnings;     ///< all of the run
     std::vector<std::string> overrides;    ///< "Section/Entry=value"
   };
 

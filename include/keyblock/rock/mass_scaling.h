@@ -82,12 +82,18 @@ namespace Keyblock
   /** Mass added to cells of all blocks, over the mass of these [-]. */
   double total_added_fraction(const std::vector<MassScaling> &scaling);
 
-  /** What was added to which blocks, and a warning for each block whose step
-   * stays below @p least_step [s]; nothing if no block is scaled. */
+  /** What was added to which blocks; nothing if no block is scaled. */
   template <int dim>
   std::string describe_mass_scaling(const std::vector<MassScaling> &scaling,
                                     const Blocks<dim> &blocks,
                                     const double least_step);
+
+  /** A sentence for each block whose step stays below @p least_step [s]. */
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_mass_scaling(const std::vector<MassScaling> &scaling,
+                           const Blocks<dim> &blocks,
+                           const double least_step);
 } // namespace Keyblock
 
 #endif

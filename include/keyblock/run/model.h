@@ -5,6 +5,7 @@
 #include <deal.II/base/conditional_ostream.h>
 
 #include <keyblock/base/communicator.h>
+#include <keyblock/base/warning_list.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/geostress/geostress.h>
 #include <keyblock/step/snapshot.h>
@@ -58,6 +59,7 @@ namespace Keyblock
 
     const Communicator communicator;
     dealii::ConditionalOStream out; ///< messages of the run, on rank 0
+    WarningList warnings;           ///< prints them to out
     Scene<dim> scene;
     MeshQuality quality;
     MeshReport<dim> mesh_report;

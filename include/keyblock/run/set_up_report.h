@@ -7,23 +7,26 @@
 
 namespace Keyblock
 {
-  /** What of the set-up deserves a look, one sentence each (collective). */
+  /** What of the set-up deserves a look, one sentence each (collective).
+   * @param report with the stable step */
   template <int dim>
   std::vector<std::string> warnings_of_set_up(const Model<dim> &model,
-                                              const Monitors<dim> &monitors);
+                                              const Monitors<dim> &monitors,
+                                              const RunReport &report);
 
   /** Where the stable step is set, and by how much (collective). */
   template <int dim>
   void report_stable_step(const Model<dim> &model, RunReport &report);
 
-  /** Mesh, stable step and blocks, for people.
-   * @param mass_scaling what it does, in words */
+  /** Mesh, stable step and liners, for people. */
   template <int dim>
-  void print_set_up(std::ostream &out,
-                    const Model<dim> &model,
-                    const RunReport &report,
-                    const std::vector<std::string> &warnings,
-                    const std::string &mass_scaling);
+  void print_mesh(std::ostream &out,
+                  const Model<dim> &model,
+                  const RunReport &report);
+
+  /** Blocks and, if the scene wants it, their theory, for people. */
+  template <int dim>
+  void print_blocks(std::ostream &out, const Model<dim> &model);
 } // namespace Keyblock
 
 #endif

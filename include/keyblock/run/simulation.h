@@ -77,11 +77,12 @@ namespace Keyblock
       return parts->record.stage_reports;
     }
 
-    /** Those of the scene and of its set-up; after validate() or start(). */
+    /** Those so far: of the scene, its set-up and its stages; after validate()
+     * or start(). */
     const std::vector<std::string> &
     all_warnings() const
     {
-      return parts->record.report.warnings;
+      return model.warnings.all();
     }
 
     /** What the run works on, for tests and tools that look at the result. */
@@ -114,13 +115,13 @@ namespace Keyblock
 
   private:
     void set_up();
-    void print_head(std::ostream &out);
+    void tell_set_up();
 
     /** Time and memory of a run (collective). */
     void print_estimate();
 
-    /** What mass scaling does in the present stage, in words. */
-    std::string mass_scaling_of_stage() const;
+    /** What mass scaling does in the present stage, if that is new. */
+    void tell_mass_scaling();
     void open_output();
     void begin_stage(const unsigned int index);
     void complete_stage();
@@ -146,10 +147,10 @@ namespace Keyblock
     std::unique_ptr<StageRunner<dim>> stages;
     std::unique_ptr<RankGroups> groups;
     std::unique_ptr<RankGroupStudy<dim>> group_study; ///< null: one group
-    std::vector<std::string> warnings;                ///< of the set-up
-    std::string mass_scaling_text; ///< as it was last printed
-    double wall_start;             ///< [s]
-    unsigned int next_stage = 0;   ///< or the one that is under way
+    std::vector<std::string> warnings; ///< of the set-up, not told yet
+    std::string mass_scaling_text;     ///< as it was last printed
+    double wall_start;                 ///< [s]
+    unsigned int next_stage = 0;       ///< or the one that is under way
     bool is_under_way       = false;
     bool keeps_before       = false; ///< states before stages, for factors
   };

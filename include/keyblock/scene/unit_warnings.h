@@ -15,6 +15,12 @@ namespace Keyblock
   template <int dim>
   std::vector<std::string> warnings_of_units(const Scene<dim> &scene);
 
+  /** What is hardly ever meant: water above the ground, gravity that no ground
+   * has or that is across a profile, benches dug from below, dips in radians.
+   */
+  template <int dim>
+  std::vector<std::string> warnings_of_mistakes(const Scene<dim> &scene);
+
   /** A sentence if the initial stress that follows from Ground/Depth is not
    * that of the weight of all the rock. */
   template <int dim>
