@@ -182,7 +182,8 @@ namespace Keyblock
         if (around.largest_bend > least_bend)
           add() << "faces on " << around.bent << ", bent by up to "
                 << around.largest_bend << " degrees, taken as plane"
-                << (around.largest_bend > locking_bend
+                << (around.largest_bend > locking_bend &&
+                        std::isfinite(limit.factor)
                       ? "; they may lock it, so that strength reduction finds "
                         "far too much"
                       : "");

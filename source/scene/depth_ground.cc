@@ -298,7 +298,7 @@ namespace Keyblock
   void
   Scene<dim>::complete_ground(const SceneText &text)
   {
-    if (ground.depth <= 0.)
+    if (!ground.is_given())
       return;
     require(domain.shape != DomainShape::box || !domain.size.empty(),
             "The entry 'Domain/Size' is missing: 'Ground/Depth' puts rollers "
@@ -355,7 +355,7 @@ namespace Keyblock
   warnings_of_ground(const Scene<dim> &scene)
   {
     const InitialState<dim> &state = scene.initial_state;
-    if (scene.ground.depth <= 0. || state.vertical_stress_gradient <= 0. ||
+    if (!scene.ground.is_given() || state.vertical_stress_gradient <= 0. ||
         !state.stress.empty() || !state.measured_points.empty() ||
         state.equilibrium != InitialEquilibrium::none ||
         find_rock(scene).is_uniform)

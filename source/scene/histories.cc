@@ -228,6 +228,7 @@ namespace Keyblock
                                  warnings_of_late_histories(*this),
                                  warnings_of_water(*this),
                                  warnings_of_mistakes(*this),
+                                 warnings_of_missing_entries(*this),
                                  warnings_of_ground(*this)})
       found.insert(found.end(), warnings.begin(), warnings.end());
     for (const auto &material : materials)

@@ -99,7 +99,7 @@ namespace Keyblock
       const InitialState<dim> &state = scene.initial_state;
       const Domain<dim> &domain      = scene.domain;
       double top                     = -unknown;
-      if (scene.ground.depth > 0.)
+      if (scene.ground.is_given())
         return scene.ground.depth;
       if (!state.stress.empty() || !state.measured_points.empty() ||
           !scene.tractions.empty())

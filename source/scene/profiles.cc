@@ -181,8 +181,7 @@ namespace Keyblock
                     const std::vector<const Excavation<dim> *> &profiles,
                     const double surface)
     {
-      if (surface <= 0. ||
-          std::any_of(profiles.begin(), profiles.end(), [&](const auto *e) {
+      if (std::any_of(profiles.begin(), profiles.end(), [&](const auto *e) {
             return e->center[1] + e->height >= surface;
           }))
         return;
@@ -216,7 +215,8 @@ namespace Keyblock
     if (domain.shape == DomainShape::box && domain.size.empty())
       {
         surround(domain, profiles);
-        stop_at_surface(domain, profiles, ground.depth);
+        if (ground.is_given())
+          stop_at_surface(domain, profiles, ground.depth);
         set_entries(*prm,
                     "Domain",
                     {{"Corner", exact_list(domain.corner, dim)},

@@ -246,7 +246,7 @@ namespace Keyblock
     declare(*prm);
     text.parse(*prm, false);
     if (network.is_resolved)
-      refuse_idle_overrides(text, ground.depth > 0.);
+      refuse_idle_overrides(text, ground.is_given());
     refuse_idle_entries(*prm, *this, text);
     tidy_corners(domain.polygon, "Domain/Polygon");
     for (const auto &one : excavations)

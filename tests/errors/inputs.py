@@ -556,7 +556,7 @@ def derived_entries():
         words = entry.replace("    ", " ")
         assert words in " ".join(used.split()), entry
     history = pathlib.Path("a/history.csv").read_bytes()
-    for folder, more in (("b", []), ("c", ["--set", "Ground/Depth=0"])):
+    for folder, more in (("b", []), ("c", ["--set", "Ground/Depth=-1"])):
         done = run(["a/used.prm", "--output", folder, *few, *more])
         assert done.returncode == 0, done.stderr
         assert pathlib.Path(folder, "history.csv").read_bytes() == history, (
@@ -860,10 +860,18 @@ def hardly_meant():
                       "Excavations/cavern/Bench stages=heading"],
              ["'Ground/K0' is 80 [-]", "'cavern bench 1' is dug in 'heading', before "
               "'cavern' above it in 'bench'"]),
-            (cavern, ["Ground/Depth=0", "Ground/K0=1", "Initial state/Gravity=9.81; 0",
+            (cavern, ["Ground/Depth=-1", "Ground/K0=1", "Initial state/Gravity=9.81; 0",
                       "Domain/Corner=-50, -50", "Domain/Size=100, 100"],
              ["'Initial state/Gravity' is '9.81; 0', not down the axis y, along which "
               "the excavation 'cavern' stands"]),
+            (cavern, ["Ground/Depth=-1", "Ground/K0=2", "Initial state/Gravity=0; -9.81",
+                      "Domain/Corner=-50, -50", "Domain/Size=100, 100"],
+             ["The section 'Ground' has entries, but not 'Depth'",
+              "Nothing holds the model, neither a support nor a rigid material"]),
+            (cavern, ["Ground/Depth=-1", "Domain/Corner=-50, -50", "Domain/Size=100, 100",
+                      "Safety factor/Blocks=exposed", "Supports/Names=rest",
+                      "Supports/rest/Boundaries=bottom"],
+             ["Nothing loads the rock, neither gravity nor stress nor water"]),
             (radians, [], ["'Joints/J1/Dip' is 1.13 degrees, and no dip of the scene is "
                            "above 1.6: are they in radians? That would be 64.7"]),
             (ROOF, [], []),
@@ -1114,7 +1122,7 @@ def written_out():
     weak = validate(used, ["Joints/east/Friction angle=10"])
     assert weak.returncode == 0, weak.stderr
     assert weak.stdout != validate(used).stdout
-    assert validate(used, ["Ground/Depth=0"]).returncode == 0
+    assert validate(used, ["Ground/Depth=-1"]).returncode == 0
 
 
 def main():

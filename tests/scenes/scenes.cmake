@@ -241,6 +241,7 @@ keyblock_scene(verification/two_wedges REFERENCES two_wedges_wanted ALIKE RANKS 
   "Joints/plane/Friction angle=30")
 # blocks whose faces the mesh must not bend, nor lead onto a corner
 keyblock_scene(verification/daylight_wedge RANKS 1)
+keyblock_scene(verification/dug_bed RANKS 1)
 foreach(size 0.4 0.6)
   keyblock_scene(verification/bent_roof REFERENCES bent_roof_${size} RANKS 1
     SET "Mesh/Size at excavation=${size}" "Safety factor/Blocks=3")

@@ -62,10 +62,16 @@ namespace Keyblock
   template <int dim>
   struct DepthGround
   {
-    double depth   = 0.; ///< of elevation 0 below the surface [m]; 0: none
-    double density = 0.; ///< 0: of most of the rock
+    double depth   = -1.; ///< of elevation 0 below the surface [m]; < 0: none
+    double density = 0.;  ///< 0: of most of the rock
     std::vector<double> k0 = {1.};
     double azimuth         = 90.;
+
+    bool
+    is_given() const
+    {
+      return depth >= 0.;
+    }
 
     void declare(ParameterHandler &prm);
   };

@@ -21,6 +21,10 @@ namespace Keyblock
   template <int dim>
   std::vector<std::string> warnings_of_mistakes(const Scene<dim> &scene);
 
+  /** What is missing: loads, supports, the depth of the ground. */
+  template <int dim>
+  std::vector<std::string> warnings_of_missing_entries(const Scene<dim> &scene);
+
   /** A sentence if the initial stress that follows from Ground/Depth is not
    * that of the weight of all the rock. */
   template <int dim>

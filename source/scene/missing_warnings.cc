@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Scenes that lack what loads the rock, or what holds it, are warned of.
+#include <keyblock/scene/gravity.h>
+#include <keyblock/scene/unit_warnings.h>
+
+#include <algorithm>
+
+namespace Keyblock
+{
+  namespace
+  {
+    template <int dim>
+    bool
+    has_water(const Scene<dim> &scene)
+    {
+      return !scene.water.level.empty() ||
+             std::any_of(scene.joints.begin(),
+                         scene.joints.end(),
+                         [](const auto &joint) {
+                           return !joint->water_pressure.empty() ||
+                                  !joint->water_level.empty();
+                         }) ||
+             std::any_of(scene.stages.begin(),
+                         scene.stages.end(),
+                         [](const auto &stage) {
+                           return !stage->water_level.empty();
+                         });
+    }
+
+    template <int dim>
+    bool
+    has_gravity(const Scene<dim> &scene)
+    {
+      const Gravity<dim> gravity(scene);
+      return gravity.is_varying || gravity.at(Point<dim>(), 0.).norm() > 0.;
+    }
+
+    /** Whether anything acts on the rock, or has. */
+    template <int dim>
+    bool
+    is_loaded(const Scene<dim> &scene)
+    {
+      const InitialState<dim> &state = scene.initial_state;
+      return has_gravity(scene) || has_water(scene) || !state.stress.empty() ||
+             !state.measured_points.empty() || state.has_depth_stress() ||
+             state.surface_stress != 0. || !scene.tractions.empty() ||
+             !scene.bolts.empty();
+    }
+
+    template <int dim>
+    bool
+    has_rigid_material(const Scene<dim> &scene)
+    {
+      return std::any_of(scene.materials.begin(),
+                         scene.materials.end(),
+                         [](const auto &material) {
+                           return material->is_rigid();
+                         });
+    }
+
+    template <int dim>
+    bool
+    is_to_rest(const Scene<dim> &scene)
+    {
+      return std::any_of(scene.stages.begin(),
+                         scene.stages.end(),
+                         [](const auto &stage) {
+                           return stage->kind == StageKind::quasi_static;
+                         });
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_missing_entries(const Scene<dim> &scene)
+  {
+    std::vector<std::string> found;
+    const DepthGround<dim> &ground = scene.ground, none;
+    if (!ground.is_given() &&
+        (ground.k0 != none.k0 || ground.density != none.density ||
+         ground.azimuth != none.azimuth))
+      found.push_back("The section 'Ground' has entries, but not 'Depth', "
+                      "without which they have no effect; give the depth of "
+                      "elevation 0 below the surface, which may be 0.");
+    const bool is_held = !scene.supports.empty() || has_rigid_material(scene);
+    if (!is_loaded(scene) && scene.safety.is_wanted() && is_held)
+      found.push_back("Nothing loads the rock, neither gravity nor stress nor "
+                      "water nor a traction, so that every block is stable; "
+                      "give 'Initial state/Gravity', or 'Ground/Depth'.");
+    if (!is_held && has_gravity(scene) && is_to_rest(scene))
+      found.push_back("Nothing holds the model, neither a support nor a rigid "
+                      "material, so that it falls as a whole and comes to no "
+                      "rest; name 'Supports' on its outer sides.");
+    return found;
+  }
+
+  template std::vector<std::string>
+  warnings_of_missing_entries(const Scene<2> &);
+  template std::vector<std::string>
+  warnings_of_missing_entries(const Scene<3> &);
+} // namespace Keyblock
