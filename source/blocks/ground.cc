@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/base/expression.h>
 #include <keyblock/blocks/ground.h>
+
+#include <algorithm>
 
 namespace Keyblock
 {
@@ -145,7 +146,27 @@ namespace Keyblock
 
 
   template <int dim>
-  std::vector<CellFace>
+  LoadedRegion<dim>::LoadedRegion(const Traction<dim> &traction)
+    : inside(traction.region.empty() ? "-1" : traction.region,
+             1,
+             "Tractions/*/Region")
+  {}
+
+
+
+  template <int dim>
+  bool
+  LoadedRegion<dim>::has(const Point<dim> &center,
+                         const Point<dim> &place) const
+  {
+    constexpr double hair = 1e-6; // of the way to the centre [-]
+    return inside.value(place + hair * (center - place), 0., 0) > 0.;
+  }
+
+
+
+  template <int dim>
+  std::vector<LoadedFace>
   list_loaded_faces(const Ground<dim> &ground,
                     const std::vector<CellFace> &free,
                     const Traction<dim> &traction)
@@ -153,19 +174,27 @@ namespace Keyblock
     if (ground.scene.stage_number(traction.stage) > ground.stage_number)
       return {};
     const Mesh<dim> &mesh = ground.split.mesh;
-    const Expression<dim> inside(traction.region.empty() ? "-1"
-                                                         : traction.region,
-                                 1,
-                                 "Tractions/*/Region");
-    std::vector<CellFace> loaded;
+    const LoadedRegion<dim> region(traction);
+    std::vector<LoadedFace> loaded;
     for (const CellFace &f : free)
       {
-        bool is_loaded =
-          inside.value(mesh.face_center(f.cell, f.face), 0., 0) > 0.;
-        for (const std::string &name : traction.boundaries)
-          is_loaded = is_loaded || mesh.is_on(f.cell, f.face, name);
-        if (is_loaded)
-          loaded.push_back(f);
+        const bool is_on_boundary =
+          std::any_of(traction.boundaries.begin(),
+                      traction.boundaries.end(),
+                      [&](const std::string &name) {
+                        return mesh.is_on(f.cell, f.face, name);
+                      });
+        const Point<dim> center = mesh.face_center(f.cell, f.face);
+        unsigned int n_inside = region.has(center, center), n_places = 1;
+        for (const unsigned int v : mesh.face_vertices(f.cell, f.face))
+          for (const double part : {0.5, 1.})
+            {
+              n_inside +=
+                region.has(center, center + part * (mesh.vertices[v] - center));
+              ++n_places;
+            }
+        if (is_on_boundary || n_inside > 0)
+          loaded.push_back({{f}, is_on_boundary || n_inside == n_places});
       }
     return loaded;
   }
@@ -174,7 +203,8 @@ namespace Keyblock
   template struct Ground<dim>;                                                 \
   template bool is_changing(const Scene<dim> &, const unsigned int);           \
   template std::vector<CellFace> list_free_faces(const Ground<dim> &);         \
-  template std::vector<CellFace> list_loaded_faces(                            \
+  template class LoadedRegion<dim>;                                            \
+  template std::vector<LoadedFace> list_loaded_faces(                          \
     const Ground<dim> &,                                                       \
     const std::vector<CellFace> &,                                             \
     const Traction<dim> &);

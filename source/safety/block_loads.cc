@@ -94,12 +94,21 @@ namespace Keyblock
         const auto value_at = [&formula, time](const Point<dim> &place) {
           return formula.vector(place, time);
         };
-        for (const CellFace &f : list_loaded_faces(ground, own, *traction))
-          for (const FacePoint<dim> &point : adapted_points<dim>(
-                 face_corners(ground.split.mesh, f.cell, f.face), value_at))
-            forces.push_back(
-              {point.place,
-               free_area_ratio * point.area.norm() * value_at(point.place)});
+        const LoadedRegion<dim> region(*traction);
+        for (const LoadedFace &f : list_loaded_faces(ground, own, *traction))
+          {
+            const Point<dim> center =
+              ground.split.mesh.face_center(f.cell, f.face);
+            const auto acting_at = [&](const Point<dim> &place) {
+              return f.is_whole || region.has(center, place) ? value_at(place)
+                                                             : Tensor<1, dim>();
+            };
+            for (const FacePoint<dim> &point : adapted_points<dim>(
+                   face_corners(ground.split.mesh, f.cell, f.face), acting_at))
+              forces.push_back(
+                {point.place,
+                 free_area_ratio * point.area.norm() * acting_at(point.place)});
+          }
       }
     return forces;
   }

@@ -113,8 +113,8 @@ namespace Keyblock
     prm.add_parameter(
       "Region",
       region,
-      "Formula in x, y (z), positive at the centres of the free faces to be "
-      "loaded; it may stand instead of Boundaries.");
+      "Formula in x, y (z), positive on the parts of free faces to be loaded, "
+      "which may cut faces; it may stand instead of Boundaries.");
     prm.add_parameter("Traction",
                       expression,
                       "Force per area, a formula in x, y (z), t per axis "

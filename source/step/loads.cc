@@ -65,16 +65,31 @@ namespace Keyblock
         const Traction<dim> &traction = *scene.tractions[t];
         if (scene.stage_number(traction.stage) > ground.stage_number)
           continue;
-        const std::vector<CellFace> loaded =
+        const std::vector<LoadedFace> loaded =
           list_loaded_faces(ground, free, traction);
-        for (const CellFace &face : loaded)
-          add_load(
-            face,
-            t,
-            depends_on_time(traction.expression),
-            [&](const Point<dim> &p) { return tractions[t]->vector(p, 0.); },
-            [](const FacePoint<dim> &point) { return point.area.norm(); },
-            varying_tractions);
+        const LoadedRegion<dim> region(traction);
+        const bool is_varying = depends_on_time(traction.expression);
+        for (const LoadedFace &face : loaded)
+          {
+            const Point<dim> center =
+              split.mesh.face_center(face.cell, face.face);
+            const auto is_covered = [&](const Point<dim> &p) {
+              return face.is_whole || region.has(center, p);
+            };
+            if (is_varying && !face.is_whole)
+              add_part(face, t, is_covered);
+            else
+              add_load(
+                face,
+                t,
+                is_varying,
+                [&](const Point<dim> &p) {
+                  return is_covered(p) ? tractions[t]->vector(p, 0.)
+                                       : Tensor<1, dim>();
+                },
+                [](const FacePoint<dim> &point) { return point.area.norm(); },
+                varying_tractions);
+          }
         AssertThrow(!loaded.empty() || ground.stage_number > 1,
                     InputError("The traction '" + traction.name +
                                "' loads no face; check 'Tractions/" +
@@ -167,6 +182,42 @@ namespace Keyblock
                            steady_forces.emplace_back(dim * node + d, force[d]);
                        });
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Loads<dim>::add_part(
+    const CellFace &face,
+    const unsigned int traction,
+    const std::function<bool(const Point<dim> &)> &is_covered)
+  {
+    if (!has_owned_node(face))
+      return;
+    const auto share = [&](const Point<dim> &p) {
+      return is_covered(p) ? 1. : 0.;
+    };
+    const auto points =
+      adapted_points<dim>(face_corners(split.mesh, face.cell, face.face),
+                          share);
+    Tensor<1, dim> moment;
+    double area = 0.;
+    std::map<unsigned int, double> areas;
+    for (const FacePoint<dim> &point : points)
+      {
+        const double part = share(point.place) * point.area.norm();
+        area += part;
+        moment += part * Tensor<1, dim>(point.place);
+        for_each_share(face,
+                       point,
+                       [&](const unsigned int node, const double of_node) {
+                         areas[node] += of_node * part;
+                       });
+      }
+    if (area > 0.)
+      varying_tractions.push_back(
+        {traction, Point<dim>(moment / area), {areas.begin(), areas.end()}});
   }
 
 

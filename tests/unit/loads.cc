@@ -63,6 +63,29 @@ BOOST_AUTO_TEST_CASE(traction_is_area_times_traction)
   BOOST_TEST(!plate.conditions->loads.set_load(1.));
 }
 
+BOOST_AUTO_TEST_CASE(traction_where_its_region_is)
+{
+  // an edge of the region anywhere on the side
+  for (const double edge : {0.11, 0.37, 0.5, 0.93})
+    for (const std::string growth : {"", "*(1+t)"})
+      {
+        Plate plate("subsection Tractions\n set Names = push\n subsection "
+                    "push\n  set Region = if(x > 1.99, y - " +
+                    std::to_string(edge) + ", -1)\n  set Traction = 3e3" +
+                    growth + "; 0\n end\nend\n" + one_stage);
+        const double time  = growth.empty() ? 0. : 2.;
+        const double force = 3e3 * (1. + time) * (1. - edge);
+        plate.conditions->set_load(time);
+        BOOST_TEST(std::abs(plate.sum_of(plate.fields.load)[0] - force) <
+                   1e-3 * 3e3);
+        double moment = 0.;
+        for (unsigned int node = 0; node < plate.numbering->n_owned(); ++node)
+          moment += plate.fields.load[2 * node] * plate.place_of(node)[1];
+        moment = world.sum(moment);
+        BOOST_TEST(std::abs(moment - force * 0.5 * (1. + edge)) < 1e-3 * 3e3);
+      }
+}
+
 BOOST_AUTO_TEST_CASE(traction_of_a_stage)
 {
   Plate plate(traction("3e3; 0", "  set Stage = rest\n"));

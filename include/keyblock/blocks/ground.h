@@ -2,6 +2,7 @@
 #ifndef keyblock_blocks_ground_h
 #define keyblock_blocks_ground_h
 
+#include <keyblock/base/expression.h>
 #include <keyblock/blocks/interface.h>
 
 namespace Keyblock
@@ -52,12 +53,34 @@ namespace Keyblock
   template <int dim>
   std::vector<CellFace> list_free_faces(const Ground<dim> &ground);
 
+  /** A face that a traction loads. */
+  struct LoadedFace : CellFace
+  {
+    bool is_whole = true; ///< else where the traction's region is
+  };
+
   /** Those of @p free that a traction of this stage loads, as its boundaries
    * or its region say. */
   template <int dim>
-  std::vector<CellFace> list_loaded_faces(const Ground<dim> &ground,
-                                          const std::vector<CellFace> &free,
-                                          const Traction<dim> &traction);
+  std::vector<LoadedFace> list_loaded_faces(const Ground<dim> &ground,
+                                            const std::vector<CellFace> &free,
+                                            const Traction<dim> &traction);
+
+  /** Where the region of a traction is on a face. */
+  template <int dim>
+  class LoadedRegion
+  {
+  public:
+    explicit LoadedRegion(const Traction<dim> &traction);
+
+    /** Whether the traction acts at @p place of a face with this @p center. It
+     * is looked at a hair nearer to that: an edge of the region may lie on one
+     * of faces. */
+    bool has(const Point<dim> &center, const Point<dim> &place) const;
+
+  private:
+    const Expression<dim> inside;
+  };
 } // namespace Keyblock
 
 #endif

@@ -10,6 +10,7 @@
 #include <keyblock/step/body_acceleration.h>
 #include <keyblock/step/ramp.h>
 
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -161,6 +162,12 @@ namespace Keyblock
                   const Value &value_at,
                   const AreaOf &area_of,
                   std::vector<LoadPoint<dim, Area>> &varying);
+
+    /** Let a traction that depends on time act on the part of a face that
+     * @p is_covered, by a function of the place: at one point of it. */
+    void add_part(const CellFace &face,
+                  const unsigned int traction,
+                  const std::function<bool(const Point<dim> &)> &is_covered);
 
     bool has_owned_node(const CellFace &face) const;
 
