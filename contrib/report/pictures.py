@@ -16,6 +16,7 @@ DPI = 110
 WIDTH, HEIGHT = 7.2, 5.2  # at most [inch]
 ARROWS = 0.85  # of the axes [inch]
 CAVERN = "#d8d3c8"
+WATER = "#1f6fd0"
 
 
 def round_factor(value):
@@ -122,7 +123,25 @@ def draw_plane(geometry, rows, state, factor, box):
             middle = centres.mean(axis=0)
             labels[n] = centres[numpy.hypot(*(centres - middle).T).argmin()]
     put_labels(axes, labels, scale)
+    level = water_level(run, state)
+    if level is not None and box[0][1] <= level <= box[1][1]:
+        axes.axhline(level, color=WATER, linewidth=1.3, zorder=6,
+                     linestyle=(0, (6, 3)))
+        axes.plot([0.03], [level + 0.09 / scale], "v", color=WATER,
+                  markersize=7, zorder=6, clip_on=False,
+                  transform=axes.get_yaxis_transform())
     return figure
+
+
+def water_level(run, state):
+    """Elevation of the water table after a state; None: none, or a formula."""
+    last, level = run.states[state][1], run.entries.get("Water/Level", "")
+    for name in run.stages[:last + 1]:
+        level = run.entries.get(f"Stages/{name}/Water level", "") or level
+    try:
+        return float(level)
+    except ValueError:
+        return None
 
 
 def camera(geometry, eye):
@@ -337,4 +356,6 @@ def legend(geometry, rows):
     found += [(GROUP_COLOURS[k % 8], "line", f"joints {name}" if
                list(group).count(k) > 1 else f"joint {name}")
               for k, name in enumerate(names) if k in used]
+    if any(water_level(run, k) is not None for k in range(len(run.states))):
+        found.append((WATER, "dashes", "water table"))
     return found + [("#737373", "dashes", "as dug, before it moved")]
