@@ -79,8 +79,12 @@ def solid_parts(collection, grid, view):
 
     Through rock whose joints have the colours of their states these are seen."""
     is_state = view.field == "joint_state"
-    if "rock" in view.parts:
-        yield grid, 0.25 if is_state and not view.cut else 1.
+    if "rock" in view.parts and is_state and not view.cut:
+        # its cells, one behind the other, would hide the joints
+        yield parts_of.surface_of(grid, lambda faces: numpy.ones(
+            len(faces), bool)), 0.15
+    elif "rock" in view.parts:
+        yield grid, 1.
     if "tunnel" in view.parts:
         first = read_grid(find_rock(collection, 0)[1])
         surface = parts_of.tunnel_surface(grid, first)

@@ -174,6 +174,7 @@ def check_solid():
             "major": ("--field", "stress_major", "--cut", "y"),
             "both": ("--field", "stress_xy", "--parts", "rock,joints"),
             "states_inside": ("--field", "joint_state", "--inside"),
+            "states_rock": ("--field", "joint_state"),
             "states": ("--field", "joint_state", "--parts", "blocks")}.items():
         path = FOLDER / f"{name}.png"
         call(*DISPLAY, CONTRIB / "render.py", folder / "solution.pvd", path,
@@ -185,15 +186,21 @@ def check_solid():
     assert seen["cut"] != seen["rock"] and seen["inside"] != seen["tunnel"]
     assert any(abs(r - 33) < 9 and abs(g - 135) < 9 and abs(b - 230) < 9
                for r, g, b in seen["states"]), "no joint that sticks"
+    # through the rock, too: its surface alone is drawn, not each of its cells
+    blue = [sum(n for (r, _, b), n in colours.items() if b > r + 90) for colours
+            in (seen["states_rock"],
+                colours_of(FOLDER / "states_rock.png", 0.78)[1])]
+    assert blue[0] > blue[1] + 50, blue  # besides the legend's
     # the legend of joints, and the bar from pale to blue
     side = colours_of(FOLDER / "both.png", 0.8)[1]
     for colour in ((51, 33, 135), (204, 102, 120), (41, 92, 168)):
         assert any(max(abs(a - b) for a, b in zip(colour, one)) < 12
                    for one in side), (colour, side)
     # through the walls of what is dug joints are seen
-    blue = [one for one in colours_of(FOLDER / "states_inside.png")[1]
-            if one[2] > one[0] + 40]
-    assert len(blue) > 20, blue
+    blue = [sum(n for (r, _, b), n in colours_of(
+        FOLDER / "states_inside.png", share)[1].items() if b > r + 40)
+        for share in (0., 0.78)]
+    assert blue[0] > blue[1] + 400, blue
     for ending, begin in ((".pdf", b"%PDF-1"), (".svg", b"<svg ")):
         path = FOLDER / f"blocks{ending}"
         call(*DISPLAY, CONTRIB / "render.py", folder / "solution.pvd", path,

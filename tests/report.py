@@ -236,9 +236,44 @@ def check(n_states):
         row, = rows_of(FOLDER / "blocks.csv")
         assert float(row["lower"]) < 0.877022 < float(row["upper"]), row
         assert row["place"] == "floor"
+        check_pyramids()
     if CASE == "bolts":
         assert_bolts(summary, page)
     open_in_browser(path)
+
+
+def check_pyramids():
+    """Removable pyramids of four sets: computed by the report as the program does."""
+    sys.path.insert(0, str(pathlib.Path(REPORT).resolve().parent))
+    from report.pyramids import find_removable
+    from report.reading import Run
+    scene, folder = FOLDER / "pyramids.prm", FOLDER / "pyramids"
+    planes = {"A": (62, 40, 30), "B": (58, 160, 25), "C": (65, 280, 35),
+              "D": (20, 100, 20)}
+    scene.write_text("set Dimension = 3\n")
+    settings = ["Domain/Size=4, 4, 4", "Mesh/Generator=gmsh", "Mesh/Size=2",
+                "Joints/Names=" + ", ".join(planes), "Materials/Names=rock",
+                "Safety factor/Method=limit equilibrium",
+                "Block theory/Report=true"]
+    settings += [f"Joints/{name}/{key}={value}"
+                 for name, plane in planes.items() for key, value in zip(
+                     ("Dip", "Dip direction", "Friction angle", "Point"),
+                     (*plane, "2, 2, 2"))]
+    subprocess.run([KEYBLOCK, scene, "--output", folder] + [
+        word for s in settings for word in ("--set", s)], check=True,
+        stdout=subprocess.DEVNULL)
+    _, page = make_report(folder, FOLDER / "pyramids.html")
+    assert "as the program has found" in page and ">0011</text>" in page
+    run = Run(folder)
+    *_, told, by_program = find_removable(run)
+    del run.summary["block_theory"]
+    *_, found, otherwise = find_removable(run)
+    assert by_program and not otherwise and told["roof"], told
+    for face, factors in told.items():
+        assert factors.keys() == found[face].keys(), (face, factors, found)
+        for code, factor in factors.items():  # infinite: stable
+            assert (factor == found[face][code]
+                    or abs(factor - found[face][code]) < 1e-5), (face, code)
 
 
 def check_poor():

@@ -280,6 +280,17 @@ def check_where():
         row = row_of(path.read_text(encoding="utf-8"), 1)
         wanted = "roof" if there == "another" else "floor"
         assert f"<td>{wanted}</td>" in row, (there, row)
+    # the water table, which has a place of its own in the legend
+    used = folder / "used.prm"
+    for level in "none", "1":
+        used.write_text(re.sub(r"(subsection Water\n.*?set Level *=)[^\n]*",
+                               rf"\1 {level}", used.read_text(), count=1,
+                               flags=re.DOTALL))
+        subprocess.run([REPORT, folder, "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
+        page = path.read_text(encoding="utf-8")
+        assert ("water table" in page) == (level == "1"), level
+        assert "This report has no" not in page
 
 
 def check_pipe():

@@ -175,6 +175,8 @@ def check_ground():
         assert meta["arrays"]["triangles"][2] == 6 * surface, (
             names, meta["arrays"]["triangles"][2] / 6)
         assert "This report has no" not in page
+        # before the first stage what will be dug is seen, pale
+        assert ("still to be dug" in page) == bool(names), names
     assert meta["inside"]["along"][2] == -1., meta["inside"]
 
 

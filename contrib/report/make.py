@@ -5,7 +5,8 @@ A part that fails is left out, and the report says so: the rest is still worth
 reading."""
 import warnings
 
-from . import page, page_study, pictures, plots, style, tables, view
+from . import (page, page_study, pictures, plots, pyramids, style, tables,
+               view)
 from .geometry import Geometry
 from .reading import ReportError, Run
 from .study import Study, is_study
@@ -42,7 +43,8 @@ def read_geometry(run):
 def make_parts(run, geometry, rows, why, attempt):
     """Figures, pictures and view, as far as they can be made."""
     parts = {"view": None, "pictures": [], "why": why, "factors": (None, ""),
-             "legend": [], "net": None, "energy": None}
+             "legend": [], "net": None, "energy": None,
+             "pyramids": (None, "")}
     if geometry is not None:
         parts["view"] = attempt("view", None, view.pack, geometry, rows)
     if not style.pyplot:
@@ -61,6 +63,8 @@ def make_parts(run, geometry, rows, why, attempt):
         parts["net"] = attempt(
             "figure of the joints' orientations", None,
             plots.rose if run.is_plane else plots.stereonet, run) or ""
+        parts["pyramids"] = attempt("figure of removable joint pyramids",
+                                    (None, ""), pyramids.stereonets, run)
         parts["energy"] = attempt("figure of energies", None, plots.energies,
                                   run)
     return parts

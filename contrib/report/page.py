@@ -192,7 +192,8 @@ def write_page(run, rows, parts, csvs, attempt):
          parts["legend"], parts["why"], links["stages.csv"]),
         ("bolts", "bolts", bolts_section, links.get("bolts.csv")),
         ("shotcrete", "shotcrete", shotcrete_section),
-        ("joints", "joints", joints_section, parts["net"]),
+        ("joints", "joints", joints_section, parts["net"],
+         *parts["pyramids"]),
         ("energy", "energy", energy_section, parts["energy"]),
         ("settings", "settings", settings_section)]
     made = [(key, name, attempt(f"section on {name}", "", make, run,

@@ -82,8 +82,8 @@ def stages_section(run, pictures, marks, why, files):
     return "\n".join(text)
 
 
-def joints_section(run, figure):
-    """Orientations of the joints."""
+def joints_section(run, figure, pyramids=None, caption=""):
+    """Orientations of the joints, and which pyramids of them are removable."""
     if not run.joints:
         return ("<h2 id=joints>Joints</h2><p>There is no table of joints "
                 "(joints.csv).</p>")
@@ -108,6 +108,11 @@ def joints_section(run, figure):
                 "</th><th>friction angle [°]</th><th>cohesion [Pa]</th><th>"
                 "tensile strength [Pa]</th></tr></thead><tbody>"
                 + "".join(lines) + "</tbody></table></div>")
+    if pyramids:
+        text.append(f"<figure>{pyramids}<figcaption>{escape(caption)}"
+                    "</figcaption></figure>")
+    elif caption:
+        text.append(f"<p>{escape(caption)}</p>")
     return "\n".join(text)
 
 

@@ -16,6 +16,7 @@ DPI = 110
 WIDTH, HEIGHT = 7.2, 5.2  # at most [inch]
 ARROWS = 0.85  # of the axes [inch]
 CAVERN = "#d8d3c8"
+WATER = "#1f6fd0"
 
 
 def round_factor(value):
@@ -122,7 +123,25 @@ def draw_plane(geometry, rows, state, factor, box):
             middle = centres.mean(axis=0)
             labels[n] = centres[numpy.hypot(*(centres - middle).T).argmin()]
     put_labels(axes, labels, scale)
+    level = water_level(run, state)
+    if level is not None and box[0][1] <= level <= box[1][1]:
+        axes.axhline(level, color=WATER, linewidth=1.3, zorder=6,
+                     linestyle=(0, (6, 3)))
+        axes.plot([0.03], [level + 0.09 / scale], "v", color=WATER,
+                  markersize=7, zorder=6, clip_on=False,
+                  transform=axes.get_yaxis_transform())
     return figure
+
+
+def water_level(run, state):
+    """Elevation of the water table after a state; None: none, or a formula."""
+    last, level = run.states[state][1], run.entries.get("Water/Level", "")
+    for name in run.stages[:last + 1]:
+        level = run.entries.get(f"Stages/{name}/Water level", "") or level
+    try:
+        return float(level)
+    except ValueError:
+        return None
 
 
 def camera(geometry, eye):
@@ -174,14 +193,19 @@ def draw_solid(geometry, rows, state, factor, box):
     scale = min(WIDTH / (high - low)[0], HEIGHT / (high - low)[1])  # inch/m
     fine = 2. * DPI * scale  # pixels per metre, two for one of the picture
     size = numpy.ceil(fine * (high - low)).astype(int) + 8
-    seen = (points - centre) @ axes3.T
-    seen = numpy.concatenate([
-        fine * (seen[:, :, :1] - low[0]) + 4.,
-        fine * (high[1] - seen[:, :, 1:2]) + 4., fine * seen[:, :, 2:]],
-        axis=2)
-    triangles = seen[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3, 3)
-    number = nearest(triangles, size)
-    number = numpy.where(number >= 0, number // 2, -1)
+
+    def pixels_of(points):
+        """The nearest of faces in each pixel, or -1."""
+        seen = (points - centre) @ axes3.T
+        seen = numpy.concatenate([
+            fine * (seen[:, :, :1] - low[0]) + 4.,
+            fine * (high[1] - seen[:, :, 1:2]) + 4., fine * seen[:, :, 2:]],
+            axis=2)
+        triangles = seen[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3, 3)
+        number = nearest(triangles, size)
+        return numpy.where(number >= 0, number // 2, -1)
+
+    number = pixels_of(points)
     light = axes3.T @ (numpy.array((-0.3, 0.5, 0.8)) / 0.99)
     shade = 0.7 + 0.3 * numpy.abs(normals @ light)
     base = numpy.array([to_rgb(CAVERN)] * (len(faces) + 1))
@@ -195,12 +219,42 @@ def draw_solid(geometry, rows, state, factor, box):
                                      block[faces], 0), -1)[number]
     image[edges_of(owner, numpy.vstack([normals, numpy.zeros(3)])[number])] *= (
         0.45)
+    later = later_faces(geometry, state, list(style))
+    if geometry.run.digs() and len(later):
+        image = behind(image, owner, pixels_of(
+            geometry.places[geometry.face_vertices[later]]),
+            geometry.normals(later), axes3)
     image = 0.25 * (image[::2, ::2][:size[1] // 2, :size[0] // 2]
                     + image[1::2, ::2][:size[1] // 2, :size[0] // 2]
                     + image[::2, 1::2][:size[1] // 2, :size[0] // 2]
                     + image[1::2, 1::2][:size[1] // 2, :size[0] // 2])
     return show_image(image, owner, [row["block"] for row in rows
                                      if row["exposed"]], axes3)
+
+
+def later_faces(geometry, state, finite):
+    """Faces of rock that no state has shown yet, but one will (3D)."""
+    shift = numpy.uint32(state + 1)
+    is_later = (geometry.seen_in >> shift > 0) & (
+        geometry.seen_in & ((numpy.uint32(1) << shift) - numpy.uint32(1)) == 0)
+    # not what a block leaves behind
+    beside = numpy.where(geometry.face_other >= 0,
+                         geometry.block[geometry.face_other], -1)
+    return numpy.flatnonzero(
+        is_later & ~numpy.isin(geometry.block[geometry.face_cell], finite)
+        & ~numpy.isin(beside, finite))
+
+
+def behind(image, owner, number, normals, axes3):
+    """A picture with pale faces of what is still to be dug behind the rest."""
+    normals = normals / (numpy.linalg.norm(normals, axis=1)[:, None] + 1e-30)
+    normals *= numpy.where(normals @ axes3[2] < 0., -1., 1.)[:, None]
+    is_empty = owner < 0
+    pale = numpy.ones_like(image)
+    pale[number >= 0] = mix(CAVERN, 0.4)
+    pale[edges_of(numpy.where(number >= 0, 0, -1), numpy.vstack(
+        [normals, numpy.zeros(3)])[number])] = 0.6
+    return numpy.where(is_empty[:, :, None], pale, image)
 
 
 def choose_eye(geometry, exposed, centre):
@@ -290,12 +344,18 @@ def legend(geometry, rows):
     if any(not row["exposed"] for row in rows):
         found.append(("", "", "hidden blocks are paler"))
     if not run.is_plane:
-        return found + [(CAVERN, "area", "what is dug, seen through from "
-                         "behind" if run.digs() else "surface of the rock")]
+        found.append((CAVERN, "area", "what is dug, seen through from behind"
+                      if run.digs() else "surface of the rock"))
+        return found + [("#f0eee9", "area", "still to be dug")] * (
+            run.digs() and any(len(later_faces(
+                geometry, k, [row["block"] for row in rows]))
+                for k in range(len(geometry.is_there))))
     names, group = run.joint_groups()
     group = numpy.array([*group, -1])
     used = set(group[geometry.face_joint[geometry.face_joint < len(group)]])
     found += [(GROUP_COLOURS[k % 8], "line", f"joints {name}" if
                list(group).count(k) > 1 else f"joint {name}")
               for k, name in enumerate(names) if k in used]
+    if any(water_level(run, k) is not None for k in range(len(run.states))):
+        found.append((WATER, "dashes", "water table"))
     return found + [("#737373", "dashes", "as dug, before it moved")]

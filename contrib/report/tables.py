@@ -16,7 +16,7 @@ STATES = {
     "follows": ("#7f3c00", "fails once others have gone"),
     "moves": ("#f0e442", "still moving at the end of the last stage"),
     "low": ("#e69f00", "factor 1 to 1.5"),
-    "holds": ("#56b4e9", "factor above 1.5, or 1.5 and more as wanted"),
+    "holds": ("#56b4e9", "factor 1.5 and more"),
     "passed": ("#0072b2", "not critical by limit equilibrium"),
     "firm": ("#009e73", "immovable, or above the highest factor tried"),
     "stable": ("#009e73", "stable by limit equilibrium"),
