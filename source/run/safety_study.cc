@@ -243,6 +243,12 @@ namespace Keyblock
       return;
     std::ostream &out = model.out.get_stream();
     print_factor(out, record.safety_factors.back(), model.blocks, model.scene);
+    if (factor.tried_demand.outcome == TriedDemand::Outcome::bracketed &&
+        model.scene.safety.bolt_convention == BoltConvention::passive)
+      out << "        the pressure by trials is active, strength alone divided "
+             "by the factor; that by limit equilibrium, passive, is divided, "
+             "too"
+          << std::endl;
     for (const unsigned int i : told)
       print_group(out, record.safety_factors[i], model.blocks);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How a block moves with its support, and what support it needs.
+#include <keyblock/safety/block_moments.h>
 #include <keyblock/safety/block_statics.h>
 
 #include <algorithm>
@@ -12,6 +13,10 @@ namespace Keyblock
   {
     /** Halvings by which a demand is found. */
     constexpr unsigned int n_halvings = 60;
+
+    /** Force for balanced moments over that against sliding or the weight, at
+     * most. */
+    constexpr double most_moment = 10.;
 
     /** Bolts of a set more than which are none. */
     constexpr unsigned int most_bolts = 4096;
@@ -67,19 +72,21 @@ namespace Keyblock
       return high;
     }
 
-    /** The least force for which @p is_enough holds, from @p first on; more may
-     * push the block elsewhere. Infinite if there is none below @p most. */
+    /** The least force for which @p is_enough holds, from @p first on by steps
+     * of a @p ratio; more may push the block elsewhere. Infinite if there is
+     * none below @p most. */
     template <typename IsEnough>
     double
     least_force(const IsEnough &is_enough,
                 const double first,
-                const double most)
+                const double most,
+                const double ratio)
     {
       double low = 0., high = first;
       while (0. < high && high < most && !is_enough(high))
         {
           low = high;
-          high *= 1.1;
+          high *= ratio;
         }
       if (!(0. < high && high < most))
         return std::numeric_limits<double>::infinity();
@@ -182,6 +189,33 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** Forces of a @p pressure on faces. */
+    template <int dim>
+    std::vector<PointForce<dim>>
+    forces_of_pressure(const std::vector<PointForce<dim>> &free_faces,
+                       const double pressure)
+    {
+      std::vector<PointForce<dim>> forces;
+      if (pressure > 0.)
+        for (const PointForce<dim> &face : free_faces)
+          forces.push_back({face.place, -pressure * face.force});
+      return forces;
+    }
+
+    /** Whether the line of the resultant, which passes within the base, tells
+     * that moments are balanced. */
+    template <int dim>
+    bool
+    is_judged_by_base(const SupportedMotion<dim> &motion)
+    {
+      return motion.rotation.is_judged && motion.rotation.outside == 0.;
+    }
+  } // namespace
+
+
+
   template <int dim>
   SupportedMotion<dim>
   find_motion(BlockSurroundings<dim> &around,
@@ -196,11 +230,12 @@ namespace Keyblock
     if (support.shotcrete_load.norm() > 0.)
       forces.push_back({support.shotcrete_center, support.shotcrete_load});
     BlockSupport<dim> all = support;
+    const std::vector<PointForce<dim>> pressed =
+      forces_of_pressure(free_faces, pressure);
     if (pressure > 0.)
       {
-        for (const PointForce<dim> &face : free_faces)
-          forces.push_back({face.place, -pressure * face.force});
-        const Tensor<1, dim> pushed = -pressure * sum_of(free_faces);
+        forces.insert(forces.end(), pressed.begin(), pressed.end());
+        const Tensor<1, dim> pushed = sum_of(pressed);
         all.pulls.emplace_back();
         all.pulls.back().along = pushed / pushed.norm();
         all.pulls.back().force = pushed.norm();
@@ -212,9 +247,11 @@ namespace Keyblock
                                            is_passive);
     motion.limit.orient(around.loads.weight);
     motion.factor_of_sliding = motion.limit.factor;
-    // in 3D it changes nothing, see judge_rotation()
-    if (dim == 2 || pressure == 0.)
-      motion.rotation = judge_rotation<dim>(around.faces, forces, motion.limit);
+    motion.rotation = judge_rotation<dim>(around.faces, forces, motion.limit);
+    if (pressure == 0. && motion.limit.factor >= 1. &&
+        !is_judged_by_base(motion))
+      motion.rotation.is_unbalanced = !balances_moments<dim>(
+        around, support, is_passive, {}, motion.limit.direction, 1.);
     return motion;
   }
 
@@ -234,41 +271,66 @@ namespace Keyblock
     demand.factor = factor;
     const bool is_passive =
       ground.scene.safety.bolt_convention == BoltConvention::passive;
-    const auto limit_with = [&](const BlockSupport<dim> &bolts,
-                                const std::vector<PointForce<dim>> &faces,
-                                const double pressure) {
+    const auto motion_with = [&](const BlockSupport<dim> &bolts,
+                                 const std::vector<PointForce<dim>> &faces,
+                                 const double pressure) {
       BlockSurroundings<dim> own = around;
-      return find_motion(own, bolts, is_passive, faces, pressure).limit;
+      return find_motion(own, bolts, is_passive, faces, pressure);
     };
-    const LimitEquilibrium<dim> bare = limit_with(support, {}, 0.);
-    if (bare.factor >= factor)
+    const LimitEquilibrium<dim> bare = motion_with(support, {}, 0.).limit;
+    const auto is_held               = [&](const SupportedMotion<dim> &motion) {
+      // so much that it lifts the block is none
+      return motion.limit.factor >= factor &&
+             (motion.limit.mode != Mode::lifting || bare.mode == Mode::lifting);
+    };
+    const auto does = [&](const BlockSupport<dim> &bolts,
+                          const std::vector<PointForce<dim>> &faces,
+                          const double pressure) {
+      const SupportedMotion<dim> motion = motion_with(bolts, faces, pressure);
+      return is_held(motion) &&
+             (is_judged_by_base(motion) ||
+              balances_moments<dim>(around,
+                                    bolts,
+                                    is_passive,
+                                    forces_of_pressure(faces, pressure),
+                                    motion.limit.direction,
+                                    factor));
+    };
+    if (does(support, {}, 0.))
       return demand;
     const std::vector<PointForce<dim>> free_faces = supported_faces(
       ground, free, block, around.free_area_ratio, bare.direction);
-    const double area = sum_of(free_faces).norm();
-    const auto does   = [&](const LimitEquilibrium<dim> &limit) {
-      // so much that it lifts the block is none
-      return limit.factor >= factor &&
-             (limit.mode != Mode::lifting || bare.mode == Mode::lifting);
-    };
-    const auto is_enough = [&](const double force) {
-      return does(limit_with(support, free_faces, force / area));
-    };
+    const double area         = sum_of(free_faces).norm();
     const Tensor<1, dim> load = around.loads.without_water();
     Tensor<1, dim> resultant  = load;
     for (const BlockFace<dim> &face : around.faces)
       resultant += face.water_force * face.inward;
     const double most = most_demand * std::max(load.norm(), resultant.norm());
-    demand.force      = least_force(is_enough,
-                               least_demand * resultant.norm(),
-                               area > 0. ? most : 0.);
-    demand.pressure   = area > 0. ? demand.force / area : demand.force;
+    const double against_sliding = least_force(
+      [&](const double force) {
+        return is_held(motion_with(support, free_faces, force / area));
+      },
+      least_demand * resultant.norm(),
+      area > 0. ? most : 0.,
+      1.1);
+    const auto is_enough = [&](const double force) {
+      return does(support, free_faces, force / area);
+    };
+    demand.force =
+      std::isfinite(against_sliding) && is_enough(against_sliding)
+        ? against_sliding
+        : least_force(is_enough,
+                      against_sliding,
+                      most_moment *
+                        std::max(against_sliding, around.loads.weight.norm()),
+                      1.02);
+    demand.pressure = area > 0. ? demand.force / area : demand.force;
     for (unsigned int set = 0; set < ground.scene.bolts.size(); ++set)
       if (n_bolts_of(support, set) > 0)
         demand.numbers.emplace_back(
           ground.scene.bolts[set]->name,
           least_number([&](const unsigned int n) {
-            return does(limit_with(with_more_bolts(support, set, n), {}, 0.));
+            return does(with_more_bolts(support, set, n), {}, 0.);
           }));
       else if (const unsigned int n =
                  number_of_new_bolts(ground, set, demand.force);

@@ -131,6 +131,9 @@ namespace Keyblock
         using Mode = typename LimitEquilibrium<dim>::Mode;
         if (limit.mode == Mode::one_plane && !rotation.is_judged)
           add() << "rotation not judged: its base is not plane";
+        if (rotation.is_unbalanced)
+          add() << "it rotates: forces on its faces cannot balance the moment "
+                   "of what acts";
         if (rotation.outside == 0.)
           return;
         add() << "the resultant passes " << rotation.outside

@@ -128,8 +128,10 @@ namespace Keyblock
       return;
     out << "Limit equilibrium of rigid blocks between fixed neighbours, "
         << (has_initial_stress(scene) ? "without the in-situ stress, " : "")
-        << "in kN" << (dim == 2 ? "/m" : "") << "; rotation is judged on one "
-        << (dim == 2 ? "plane only" : "plane only, as an indication")
+        << "in kN" << (dim == 2 ? "/m" : "")
+        << "; rotation is judged on one plane"
+        << (dim == 2 ? "" : ", as an indication,")
+        << " and by the moments that faces of a block that holds can balance"
         << "\n  id  after           factor  mode and forces\n"
         << rows.str();
   }

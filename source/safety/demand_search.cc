@@ -4,6 +4,7 @@
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/safety/pressure_bracket.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Keyblock
@@ -22,6 +23,16 @@ namespace Keyblock
                                      std::abs(nearest->factor - wanted)))
           nearest = &trial;
       return nearest == nullptr ? 0. : nearest->unbalanced;
+    }
+
+    /** Capacity of bolts that do what an active force of @p demand does at the
+     * wanted factor, which divides what passive ones bear [N]. */
+    double
+    capacity_for(const TriedDemand &demand, const SafetySettings &safety)
+    {
+      return demand.force() * (safety.bolt_convention == BoltConvention::passive
+                                 ? std::max(1., safety.wanted)
+                                 : 1.);
     }
   } // namespace
 
@@ -120,7 +131,7 @@ namespace Keyblock
                               tried.block,
                               run.step.time,
                               run.conditions.broken_segments()),
-        demand.force());
+        capacity_for(demand, scene.safety));
   }
 
 

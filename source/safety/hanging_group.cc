@@ -3,6 +3,7 @@
 #include <keyblock/safety/hanging_group.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -15,6 +16,9 @@ namespace Keyblock
 
     /** Factors that differ by less are the same [-]. */
     constexpr double same_factor = 1e-9;
+
+    /** Halvings of the share of a demand. */
+    constexpr unsigned int n_share_steps = 50;
 
     /** The block on the other side of a trace. */
     template <int dim>
@@ -75,11 +79,14 @@ namespace Keyblock
     }
 
     /** Limit equilibrium of @p members as one body: of their faces, bolts and
-     * shotcrete those towards rock and other blocks, under all of their loads;
-     * the first one's faces by the indices of its own. */
+     * shotcrete those towards rock and other blocks, under all of their loads,
+     * and a force @p pressed on them [N]; the first one's faces by the indices
+     * of its own. */
     template <int dim>
     LimitEquilibrium<dim>
-    solve_as_one(const std::vector<Member<dim>> &members, const bool is_passive)
+    solve_as_one(const std::vector<Member<dim>> &members,
+                 const bool is_passive,
+                 const Tensor<1, dim> &pressed = Tensor<1, dim>())
     {
       std::set<unsigned int> blocks;
       for (const Member<dim> &member : members)
@@ -116,11 +123,150 @@ namespace Keyblock
           load += around.loads.without_water();
           weight += around.loads.weight;
         }
+      if (pressed.norm() > 0.)
+        {
+          support.pulls.emplace_back();
+          support.pulls.back().along = pressed / pressed.norm();
+          support.pulls.back().force = pressed.norm();
+        }
       LimitEquilibrium<dim> limit =
         solve_with_support<dim>(faces, load, support, is_passive);
       limit.orient(weight);
       keep_first(own, limit);
       return limit;
+    }
+
+    /** Add to @p members, the first of which is there, one block after the
+     * other that the same shotcrete is sprayed on and that would move without
+     * support at less than @p factor, which @p visit, called after each, may
+     * lower. */
+    template <int dim, typename Visit>
+    void
+    add_neighbors(const Ground<dim> &ground,
+                  const FreeFaces<dim> &free,
+                  const Blocks<dim> &blocks,
+                  const double time,
+                  const BrokenSegments &broken,
+                  const double &factor,
+                  std::vector<Member<dim>> &members,
+                  const Visit &visit)
+    {
+      std::set<unsigned int> seen{members[0].block};
+      for (unsigned int m = 0; m < members.size(); ++m)
+        {
+          const auto sections      = members[m].support.sections;
+          const unsigned int on_it = members[m].block;
+          for (const auto &section : sections)
+            if (const unsigned int b = other_side(section.trace, on_it);
+                can_hang(blocks, b) && members.size() < most_blocks &&
+                seen.insert(b).second)
+              {
+                const auto around =
+                  look_around(ground, free, blocks.blocks[b], time);
+                if (!(bare_factor(around) < factor))
+                  continue;
+                members.push_back(
+                  {b, around, find_support_of_block(ground, b, time, broken)});
+                visit();
+              }
+        }
+    }
+
+    /** What @p factor asks for of a block, but for the shotcrete on traces
+     * whose other side is a block that moves without support at less than that
+     * factor. */
+    template <int dim>
+    SupportDemand
+    demand_without_shared(const Ground<dim> &ground,
+                          const FreeFaces<dim> &free,
+                          const Blocks<dim> &blocks,
+                          const Member<dim> &member,
+                          const double time,
+                          const double factor)
+    {
+      BlockSupport<dim> support = member.support;
+      std::map<unsigned int, bool> is_loose;
+      const auto is_shared = [&](const auto &section) {
+        const unsigned int b = other_side(section.trace, member.block);
+        if (!can_hang(blocks, b))
+          return false;
+        const auto [found, is_new] = is_loose.emplace(b, false);
+        if (is_new)
+          found->second =
+            bare_factor(look_around(ground, free, blocks.blocks[b], time)) <
+            factor;
+        return found->second;
+      };
+      std::vector<typename BlockSupport<dim>::Section> kept;
+      for (const auto &section : support.sections)
+        if (is_shared(section))
+          {
+            support.shotcrete_strength -= section.strength;
+            support.shotcrete_length -= section.trace.length;
+          }
+        else
+          kept.push_back(section);
+      support.sections = kept;
+      if (kept.empty())
+        support.shotcrete_strength = support.shotcrete_length = 0.;
+      return find_demand(
+        ground, free, member.block, member.around, support, factor);
+    }
+
+    /** The force of a demand on a block, as it is pressed; none if it is out of
+     * reach. */
+    template <int dim>
+    Tensor<1, dim>
+    pressed_by(const Ground<dim> &ground,
+               const FreeFaces<dim> &free,
+               const Member<dim> &member,
+               const SupportDemand &demand)
+    {
+      BlockSurroundings<dim> around = member.around;
+      const Tensor<1, dim> way =
+        solve_with_laws<dim>(around.faces, around.loads.without_water())
+          .direction;
+      Tensor<1, dim> area;
+      for (const CellFace &f :
+           list_supported_faces(ground, free, member.block, way))
+        area += ground.split.mesh.face_area_vector(f.cell, f.face);
+      return std::isfinite(demand.force) && area.norm() > 0.
+               ? -demand.force / area.norm() * area
+               : Tensor<1, dim>();
+    }
+
+    /** The least share of @p pressed, which is what each of the @p members
+     * needs without the others, with which they have a @p factor as one [-]. */
+    template <int dim>
+    double
+    needed_share(const std::vector<Member<dim>> &members,
+                 const bool is_passive,
+                 const Tensor<1, dim> &pressed,
+                 const double factor)
+    {
+      const auto is_enough = [&](const double share) {
+        return solve_as_one(members, is_passive, share * pressed).factor >=
+               factor;
+      };
+      if (is_enough(0.))
+        return 0.;
+      double low = 0., high = 1.;
+      for (unsigned int i = 0; i < n_share_steps; ++i)
+        {
+          const double middle              = 0.5 * (low + high);
+          (is_enough(middle) ? high : low) = middle;
+        }
+      return high;
+    }
+
+    /** Lessen a demand to a @p share of it. */
+    void
+    scale(const double share, SupportDemand &demand)
+    {
+      demand.force *= share;
+      demand.pressure *= share;
+      for (auto &[set, number] : demand.numbers)
+        number = std::ceil(share * number - 1e-9);
     }
   } // namespace
 
@@ -142,32 +288,16 @@ namespace Keyblock
     const bool is_passive =
       ground.scene.safety.bolt_convention == BoltConvention::passive;
     std::vector<Member<dim>> members{{block, statics.around, statics.support}};
-    std::set<unsigned int> seen{block};
-    for (unsigned int m = 0; m < members.size(); ++m)
-      {
-        const auto sections      = members[m].support.sections;
-        const unsigned int on_it = members[m].block;
-        for (const auto &section : sections)
-          if (const unsigned int b = other_side(section.trace, on_it);
-              can_hang(blocks, b) && members.size() < most_blocks &&
-              seen.insert(b).second)
-            {
-              const auto around =
-                look_around(ground, free, blocks.blocks[b], time);
-              if (!(bare_factor(around) < factor))
-                continue;
-              members.push_back(
-                {b, around, find_support_of_block(ground, b, time, broken)});
-              const auto limit = solve_as_one(members, is_passive);
-              if (!(limit.factor < (1. - same_factor) * factor))
-                continue;
-              factor      = limit.factor;
-              least.limit = limit;
-              least.others.clear();
-              for (unsigned int i = 1; i < members.size(); ++i)
-                least.others.push_back(members[i].block);
-            }
-      }
+    add_neighbors(ground, free, blocks, time, broken, factor, members, [&]() {
+      const auto limit = solve_as_one(members, is_passive);
+      if (!(limit.factor < (1. - same_factor) * factor))
+        return;
+      factor      = limit.factor;
+      least.limit = limit;
+      least.others.clear();
+      for (unsigned int i = 1; i < members.size(); ++i)
+        least.others.push_back(members[i].block);
+    });
     return least;
   }
 
@@ -183,32 +313,30 @@ namespace Keyblock
                        const double factor,
                        const BlockStatics<dim> &statics)
   {
-    BlockSupport<dim> support = statics.support;
-    std::map<unsigned int, bool> is_loose;
-    const auto is_shared = [&](const auto &section) {
-      const unsigned int b = other_side(section.trace, block);
-      if (!can_hang(blocks, b))
-        return false;
-      const auto [found, is_new] = is_loose.emplace(b, false);
-      if (is_new)
-        found->second =
-          bare_factor(look_around(ground, free, blocks.blocks[b], time)) <
-          factor;
-      return found->second;
+    const bool is_passive =
+      ground.scene.safety.bolt_convention == BoltConvention::passive;
+    std::vector<Member<dim>> members{{block, statics.around, statics.support}};
+    const auto demand_of = [&](const Member<dim> &member) {
+      return demand_without_shared(ground, free, blocks, member, time, factor);
     };
-    std::vector<typename BlockSupport<dim>::Section> kept;
-    for (const auto &section : support.sections)
-      if (is_shared(section))
-        {
-          support.shotcrete_strength -= section.strength;
-          support.shotcrete_length -= section.trace.length;
-        }
-      else
-        kept.push_back(section);
-    support.sections = kept;
-    if (kept.empty())
-      support.shotcrete_strength = support.shotcrete_length = 0.;
-    return find_demand(ground, free, block, statics.around, support, factor);
+    SupportDemand demand = demand_of(members[0]);
+    if (statics.support.sections.empty() || demand.force == 0. ||
+        !std::isfinite(demand.force))
+      return demand;
+    Tensor<1, dim> pressed = pressed_by(ground, free, members[0], demand);
+    double share           = needed_share(members, is_passive, pressed, factor);
+    // (what has broken of the bolts of others is not known here)
+    add_neighbors(ground, free, blocks, time, {}, factor, members, [&]() {
+      pressed +=
+        pressed_by(ground, free, members.back(), demand_of(members.back()));
+      share =
+        std::max(share, needed_share(members, is_passive, pressed, factor));
+    });
+    if (share == 0.)
+      return find_demand(
+        ground, free, block, statics.around, statics.support, factor);
+    scale(share, demand);
+    return demand;
   }
 
 #define INSTANTIATE(dim)                                                       \

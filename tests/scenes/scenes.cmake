@@ -271,6 +271,8 @@ keyblock_scene(verification/bolted_incline REFERENCES bolted_incline_to_come RAN
   "Safety factor/Bracket=0.002" "Safety factor/Stages=rest"
   "Stages/Names=rest, later" "Stages/later/Kind=quasi-static"
   "Stages/later/Friction angle override=84.2894" "Bolts/anchor/Stage=later")
+# passive bolts that a pressure by trials stands for
+keyblock_scene(verification/passive_bolts RANKS 1)
 keyblock_scene(verification/falling_wedge RANKS 1 2)
 keyblock_scene(verification/falling_wedge REFERENCES falling_wedge_3 ALIKE RANKS 1
   SET "Safety factor/Wanted=3")

@@ -16,6 +16,10 @@ namespace Keyblock
     /** In the plane: what keeps the block from turning about the end of its
      * base; empty: nothing. Not looked at in 3D. */
     std::string obstacle;
+
+    /** A block that holds by forces alone, but no forces on its faces balance
+     * the moment of what acts, see can_balance(). */
+    bool is_unbalanced = false;
   };
 
   /**

@@ -36,7 +36,10 @@ namespace Keyblock
   /** What @p factor asks for of @p block (index) with what is around it and its
    * support in @p statics, but for the shotcrete on traces whose other side is
    * a block that moves without support at less than that factor, and has to be
-   * held, too. */
+   * held, too; of that the greatest share that the block needs by itself or in
+   * one of the groups of find_hanging_group(), where each block of the group
+   * gets the same share of its own. Nothing if it and they have the factor.
+   */
   template <int dim>
   SupportDemand find_unshared_demand(const Ground<dim> &ground,
                                      const FreeFaces<dim> &free,
