@@ -51,9 +51,13 @@ namespace Keyblock
       for (const double percent : percents)
         json["percentiles"][std::to_string(std::lround(percent))] =
           statistics.percentile(0.01 * percent);
-      const double low = statistics.sorted.front(),
+      // rounding errors are no spread
+      const double low   = statistics.sorted.front(),
+                   size  = std::max(std::abs(low),
+                                   std::abs(statistics.sorted.back())),
+                   least = size > 0. ? 1e-9 * size : 1.,
                    width =
-                     std::max(statistics.sorted.back() - low, 1e-300) / n_bins;
+                     std::max(statistics.sorted.back() - low, least) / n_bins;
       std::vector<unsigned int> counts(n_bins, 0);
       for (const double x : values)
         ++counts[std::min<unsigned int>((x - low) / width, n_bins - 1)];

@@ -128,6 +128,7 @@ def limit():
         "Joints/base/Friction angle": [20, 30, 40],
         ("Joints/base/Cohesion", "Joints/base/Residual cohesion"): [0, 1000.]})
     check_that("shape", sweep.factor.shape == (3, 2) and len(sweep.samples) == 6)
+    check_that("a loop gives the samples", list(sweep) == sweep.samples)
     for i, angle in enumerate((20, 30, 40)):
         for j, cohesion in enumerate((0, 1000)):
             check(f"factor at {angle}, {cohesion}", sweep.factor[i, j],

@@ -35,12 +35,19 @@ class Sweep:
     values: their values, a tuple for each axis.
     factor: least factor of all blocks and stages, one number for each
         combination; inf: nothing can move.
-    samples: list of Sample; under mpirun those of this rank.
+    samples: list of Sample; under mpirun those of this rank. Looping over the
+        Sweep gives them, too.
     """
     entries: tuple
     values: tuple
     factor: numpy.ndarray
     samples: list
+
+    def __iter__(self):
+        return iter(self.samples)
+
+    def __len__(self):
+        return len(self.samples)
 
 
 # the kinds of errors that one rank tells the others of; of others there is the text
