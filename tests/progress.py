@@ -58,6 +58,8 @@ def main():
     drawn = re.findall(r"\r((?:Stage \d|Factor  block \d of)[^\r\n]*)", text)
     assert drawn, text
     assert all(len(line) < COLUMNS for line in drawn), drawn
+    shown = [part for line in text.split("\n") for part in line.split("\r")]
+    assert all(len(line) <= COLUMNS for line in shown), max(shown, key=len)
     for line in text.split("\n"):
         shown = line.rsplit("\r", 1)[-1]
         assert not re.match(r"Stage \d|Factor  block \d of", shown), line

@@ -173,7 +173,8 @@ namespace Keyblock
   {
     if (ground.scene.stage_number(traction.stage) > ground.stage_number)
       return {};
-    const Mesh<dim> &mesh = ground.split.mesh;
+    const Mesh<dim> &mesh  = ground.split.mesh;
+    constexpr double reach = 0.8; // to corners that are looked at [-]
     const LoadedRegion<dim> region(traction);
     std::vector<LoadedFace> loaded;
     for (const CellFace &f : free)
@@ -185,16 +186,16 @@ namespace Keyblock
                         return mesh.is_on(f.cell, f.face, name);
                       });
         const Point<dim> center = mesh.face_center(f.cell, f.face);
-        unsigned int n_inside = region.has(center, center), n_places = 1;
+        // (a region that is said with a margin reaches round an edge)
+        bool is_inside = region.has(center, center), is_all_inside = is_inside;
         for (const unsigned int v : mesh.face_vertices(f.cell, f.face))
-          for (const double part : {0.5, 1.})
-            {
-              n_inside +=
-                region.has(center, center + part * (mesh.vertices[v] - center));
-              ++n_places;
-            }
-        if (is_on_boundary || n_inside > 0)
-          loaded.push_back({{f}, is_on_boundary || n_inside == n_places});
+          {
+            const Tensor<1, dim> way = mesh.vertices[v] - center;
+            is_inside = is_inside || region.has(center, center + reach * way);
+            is_all_inside = is_all_inside && region.has(center, center + way);
+          }
+        if (is_on_boundary || is_inside)
+          loaded.push_back({{f}, is_on_boundary || is_all_inside});
       }
     return loaded;
   }

@@ -2,6 +2,7 @@
 // What a command line asks for.
 #include <keyblock/base/last_resort.h>
 #include <keyblock/base/stop_request.h>
+#include <keyblock/run/folded_lines.h>
 #include <keyblock/run/probability_study.h>
 #include <keyblock/run/program.h>
 #include <keyblock/run/progress_line.h>
@@ -53,6 +54,7 @@ namespace Keyblock
               const int argc,
               const char *const argv[])
   {
+    const FoldedLines folded(std::cout, []() { return terminal_width(); });
     try
       {
         const CommandLine arguments(argc, argv);

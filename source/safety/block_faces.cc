@@ -49,13 +49,19 @@ namespace Keyblock
             bare_joints.insert(face.joint);
             return;
           }
-        // (some only the mesh has)
+        const Joint<dim> &joint = *ground.scene.joints[face.joint];
+        const CellFace own      = is_plus
+                                    ? CellFace{face.plus_cell, face.plus_face}
+                                    : CellFace{face.minus_cell, face.minus_face};
         if (block.exact.is_known && block.area_ratio(face.joint) == 0.)
-          return;
-        const Joint<dim> &joint  = *ground.scene.joints[face.joint];
-        const CellFace own       = is_plus
-                                     ? CellFace{face.plus_cell, face.plus_face}
-                                     : CellFace{face.minus_cell, face.minus_face};
+          {
+            add_face_of_crumb(
+              face.joint,
+              is_plus,
+              own,
+              block_of_cell[is_plus ? face.minus_cell : face.plus_cell]);
+            return;
+          }
         const unsigned int entry = joint_entry(face.joint, is_plus);
         const Tensor<1, dim> inward =
           (is_plus ? 1. : -1.) *
@@ -180,19 +186,37 @@ namespace Keyblock
                 const std::shared_ptr<const JointLaw> &law,
                 const unsigned int joint)
       {
-        const StrengthEnvelope strength = law->envelope(JointPointState());
-        BlockFace<dim> face;
-        face.inward           = inward;
-        face.name             = name;
-        face.tangent_friction = strength.static_tangent;
-        face.cohesion         = strength.cohesion;
-        face.tensile_strength = strength.tensile_strength;
-        face.is_reduced       = has_reduced(reduced, joint);
-        if (law->depends_on_pressure())
-          face.law = law;
-        result.faces.push_back(face);
+        result.faces.push_back(
+          make_block_face<dim>(inward, name, law, has_reduced(reduced, joint)));
         result.others.emplace_back();
         return result.faces.size() - 1;
+      }
+
+      /** A face that only the mesh has. */
+      void
+      add_face_of_crumb(const unsigned int j,
+                        const bool is_plus,
+                        const CellFace &own,
+                        const unsigned int other)
+      {
+        const Joint<dim> &joint      = *ground.scene.joints[j];
+        const Tensor<1, dim> inward  = (is_plus ? 1. : -1.) * joint.normal();
+        auto &faces                  = result.faces_of_crumbs;
+        const unsigned int next      = faces.size();
+        const auto [entry, is_first] = crumbs.insert({{j, is_plus}, next});
+        if (is_first)
+          {
+            faces.push_back(make_block_face<dim>(inward,
+                                                 joint.name,
+                                                 make_joint_law(joint),
+                                                 has_reduced(reduced, j)));
+            result.others_of_crumbs.emplace_back();
+          }
+        add_part(faces[entry->second],
+                 result.others_of_crumbs[entry->second],
+                 own,
+                 std::abs(inward * mesh.face_area_vector(own.cell, own.face)),
+                 other);
       }
 
       unsigned int
@@ -216,11 +240,21 @@ namespace Keyblock
                const double area,
                const unsigned int other)
       {
-        result.faces[entry].area += area;
+        add_part(result.faces[entry], result.others[entry], own, area, other);
+      }
+
+      void
+      add_part(BlockFace<dim> &face,
+               std::set<unsigned int> &others,
+               const CellFace &own,
+               const double area,
+               const unsigned int other) const
+      {
+        face.area += area;
         for (const unsigned int v : mesh.face_vertices(own.cell, own.face))
-          result.faces[entry].vertices.push_back(mesh.vertices[v]);
+          face.vertices.push_back(mesh.vertices[v]);
         if (other != none)
-          result.others[entry].insert(other);
+          others.insert(other);
       }
 
       /** The pressure of water in a joint, or none. */
@@ -320,6 +354,9 @@ namespace Keyblock
 
       /** Of faces, by joint and side; free faces come after them. */
       std::map<std::pair<unsigned int, bool>, unsigned int> entries;
+
+      /** The same of faces that only the mesh has. */
+      std::map<std::pair<unsigned int, bool>, unsigned int> crumbs;
     };
   } // namespace
 

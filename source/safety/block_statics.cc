@@ -40,9 +40,10 @@ namespace Keyblock
 
 
 
-    /** Leave out the faces that the mesh has lost where they help to hold the
-     * block: nothing holds it there in a run, and they may be those of a crumb
-     * that went to it. Returns what is to be said of that, empty: nothing. */
+    /** Take the block together with the crumb that went to it, where that holds
+     * less well: without the faces between them, which the mesh has lost, and
+     * with those of the crumb. Returns what is to be said of that, empty:
+     * nothing. */
     template <int dim>
     std::string
     leave_out_lost_faces(BlockStatics<dim> &statics,
@@ -71,6 +72,13 @@ namespace Keyblock
           }
       if (found.faces.size() == statics.around.faces.size())
         return "";
+      const BlockSurroundings<dim> &around = statics.around;
+      found.faces.insert(found.faces.end(),
+                         around.faces_of_crumbs.begin(),
+                         around.faces_of_crumbs.end());
+      found.others.insert(found.others.end(),
+                          around.others_of_crumbs.begin(),
+                          around.others_of_crumbs.end());
       const SupportedMotion<dim> without =
         find_motion<dim>(found, statics.support, is_passive);
       if (!(without.limit.factor < less * motion.limit.factor))

@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(traction_where_its_region_is)
     for (const std::string growth : {"", "*(1+t)"})
       {
         Plate plate("subsection Tractions\n set Names = push\n subsection "
-                    "push\n  set Region = if(x > 1.99, y - " +
+                    "push\n  set Region = if(x > 1.999, y - " +
                     std::to_string(edge) + ", -1)\n  set Traction = 3e3" +
                     growth + "; 0\n end\nend\n" + one_stage);
         const double time  = growth.empty() ? 0. : 2.;

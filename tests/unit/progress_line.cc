@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Times left are those of what ends the stage, or none.
 #include <keyblock/run/factor_progress.h>
+#include <keyblock/run/folded_lines.h>
 #include <keyblock/run/progress_line.h>
 
 #include <boost/test/unit_test.hpp>
@@ -11,10 +12,37 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 BOOST_AUTO_TEST_SUITE(progress_line)
 
 using namespace Keyblock;
+
+BOOST_AUTO_TEST_CASE(lines_are_folded_at_blanks)
+{
+  const std::string row =
+    "Factor  block 1 after dig: 0.5 [0.49, 0.51], sliding on A";
+  BOOST_TEST(fold(row, 0) == row);
+  BOOST_TEST(fold(row, row.size()) == row);
+  BOOST_TEST(fold(row, 45) == "Factor  block 1 after dig: 0.5 [0.49, 0.51],\n"
+                              "        sliding on A");
+  const std::string word(60, 'x');
+  BOOST_TEST(fold("        " + word + " y", 50) ==
+             "        " + word + "\n        y");
+  BOOST_TEST(fold("a" + std::string(60, ' '), 50) == "a");
+
+  std::ostringstream out;
+  {
+    const FoldedLines folded(out, []() { return 45; });
+    out << row << std::endl << "\rprogress " + word << std::flush;
+    out << "\r" << row << '\n'
+        << word.substr(0, 30) << std::flush << " cut " << word << "\n";
+  }
+  out << row;
+  const std::string twice = fold(row, 45);
+  BOOST_TEST(out.str() == twice + "\n\rprogress " + word + "\r" + twice + "\n" +
+                            word.substr(0, 30) + " cut " + word + "\n" + row);
+}
 
 BOOST_AUTO_TEST_CASE(time_left_by_steps)
 {

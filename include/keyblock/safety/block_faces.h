@@ -21,6 +21,11 @@ namespace Keyblock
     /** Blocks across each of the faces, by index. */
     std::vector<std::set<unsigned int>> others;
 
+    /** Joints that only the mesh has it touch, where the block is known
+     * exactly: those of a crumb that went to it. And blocks across them. */
+    std::vector<BlockFace<dim>> faces_of_crumbs;
+    std::vector<std::set<unsigned int>> others_of_crumbs;
+
     BlockLoads<dim> loads;
 
     /** Of a face against its joint's plane [deg]. */
@@ -35,6 +40,16 @@ namespace Keyblock
     bool is_on_fill    = false;
     bool has_free_face = false; ///< that touches another one
   };
+
+  /** A face with the strength of a joint that has not slipped, without area or
+   * corners.
+   * @param inward unit normal, into the block
+   * @param is_reduced strength reduction divides its strength */
+  template <int dim>
+  BlockFace<dim> make_block_face(const Tensor<1, dim> &inward,
+                                 const std::string &name,
+                                 const std::shared_ptr<const JointLaw> &law,
+                                 const bool is_reduced);
 
   /**
    * What @p block touches and what acts on it at @p time. Water and tractions

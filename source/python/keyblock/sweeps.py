@@ -46,9 +46,6 @@ class Sweep:
     def __iter__(self):
         return iter(self.samples)
 
-    def __len__(self):
-        return len(self.samples)
-
 
 # the kinds of errors that one rank tells the others of; of others there is the text
 _KINDS = (_core.Error, _core.ComputationError, RuntimeError)

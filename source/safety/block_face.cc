@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/law/joint_law.h>
+#include <keyblock/safety/block_faces.h>
+
+namespace Keyblock
+{
+  template <int dim>
+  BlockFace<dim>
+  make_block_face(const Tensor<1, dim> &inward,
+                  const std::string &name,
+                  const std::shared_ptr<const JointLaw> &law,
+                  const bool is_reduced)
+  {
+    const StrengthEnvelope strength = law->envelope(JointPointState());
+    BlockFace<dim> face;
+    face.inward           = inward;
+    face.name             = name;
+    face.tangent_friction = strength.static_tangent;
+    face.cohesion         = strength.cohesion;
+    face.tensile_strength = strength.tensile_strength;
+    face.is_reduced       = is_reduced;
+    if (law->depends_on_pressure())
+      face.law = law;
+    return face;
+  }
+
+  template BlockFace<2> make_block_face(const Tensor<1, 2> &,
+                                        const std::string &,
+                                        const std::shared_ptr<const JointLaw> &,
+                                        const bool);
+  template BlockFace<3> make_block_face(const Tensor<1, 3> &,
+                                        const std::string &,
+                                        const std::shared_ptr<const JointLaw> &,
+                                        const bool);
+} // namespace Keyblock
