@@ -185,6 +185,10 @@ namespace Keyblock
                       [&](const std::string &name) {
                         return mesh.is_on(f.cell, f.face, name);
                       });
+        if (is_on_boundary)
+          loaded.push_back({{f}, true});
+        if (is_on_boundary || traction.region.empty())
+          continue;
         const Point<dim> center = mesh.face_center(f.cell, f.face);
         // (a region that is said with a margin reaches round an edge)
         bool is_inside = region.has(center, center), is_all_inside = is_inside;
@@ -194,8 +198,8 @@ namespace Keyblock
             is_inside = is_inside || region.has(center, center + reach * way);
             is_all_inside = is_all_inside && region.has(center, center + way);
           }
-        if (is_on_boundary || is_inside)
-          loaded.push_back({{f}, is_on_boundary || is_all_inside});
+        if (is_inside)
+          loaded.push_back({{f}, is_all_inside});
       }
     return loaded;
   }

@@ -161,7 +161,9 @@ namespace Keyblock
         result.lower   = holds;
         result.upper   = fails;
       }
-    result.failure_mode = result.limit_mode;
+    // how it went is not looked at
+    result.failure_mode =
+      std::isfinite(result.limit_factor) ? result.limit_mode : "";
     result.held_by.clear();
     if (model.scene.safety.is_demand_tried())
       result.tried_demand.outcome = TriedDemand::Outcome::undecided;

@@ -13,6 +13,7 @@
 #include <keyblock/run/wanted_blocks.h>
 #include <keyblock/run/wave_resolution.h>
 #include <keyblock/safety/block_theory.h>
+#include <keyblock/scene/given.h>
 #include <keyblock/step/initial_tension.h>
 #include <keyblock/step/roller_shear.h>
 #include <keyblock/step/step_spread.h>
@@ -54,9 +55,7 @@ namespace Keyblock
       std::string reasons = "infinite or not closed";
       if (report.n_lost_blocks > 0 || !report.thin_rock.empty())
         reasons += ", too small for the cells";
-      if (std::any_of(scene.materials.begin(),
-                      scene.materials.end(),
-                      [](const auto &m) { return m->is_rigid(); }))
+      if (has_rigid_material(scene))
         reasons += ", or hold cells of a rigid material";
       return "All joints stay welded, with 0 pairs, because the blocks beside "
              "them are " +

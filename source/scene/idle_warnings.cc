@@ -3,6 +3,7 @@
 // such as are hardly ever meant.
 #include <keyblock/base/expression.h>
 #include <keyblock/base/number_text.h>
+#include <keyblock/scene/given.h>
 #include <keyblock/scene/gravity.h>
 #include <keyblock/scene/idle_entries.h>
 #include <keyblock/scene/unit_warnings.h>
@@ -15,54 +16,19 @@ namespace Keyblock
 {
   namespace
   {
-    bool
-    is_level(const std::string &text)
-    {
-      return !text.empty() && text != no_water;
-    }
-
-    /** Whether any joint has water at some time by its own entries; by levels
-     * of the scene. */
-    template <int dim>
-    bool
-    has_pressures(const Scene<dim> &scene)
-    {
-      return std::any_of(scene.joints.begin(),
-                         scene.joints.end(),
-                         [](const auto &joint) {
-                           return !joint->water_pressure.empty();
-                         });
-    }
-
-    template <int dim>
-    bool
-    has_levels(const Scene<dim> &scene)
-    {
-      return is_level(scene.water.level) ||
-             std::any_of(scene.joints.begin(),
-                         scene.joints.end(),
-                         [](const auto &joint) {
-                           return is_level(joint->water_level);
-                         }) ||
-             std::any_of(scene.stages.begin(),
-                         scene.stages.end(),
-                         [](const auto &stage) {
-                           return is_level(stage->water_level);
-                         });
-    }
-
     template <int dim>
     void
     look_at_water(const Scene<dim> &scene, std::vector<std::string> &found)
     {
-      const bool levels = has_levels(scene);
+      const bool levels = has_water_levels(scene);
       if (!levels && scene.water.unit_weight != WaterSettings().unit_weight)
         found.push_back("The entry 'Water/Unit weight' is " +
                         text_of(scene.water.unit_weight) +
                         " N/m3, but there is no water level, so that it has no "
                         "effect; set 'Water/Level', or leave it out.");
       for (const auto &stage : scene.stages)
-        if (!stage->drained_joints.empty() && !levels && !has_pressures(scene))
+        if (!stage->drained_joints.empty() && !levels &&
+            !has_water_pressures(scene))
           found.push_back("The entry 'Stages/" + stage->name +
                           "/Drained joints' names '" +
                           stage->drained_joints[0] +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Scenes that lack what loads the rock, or what holds it, are warned of.
+#include <keyblock/scene/given.h>
 #include <keyblock/scene/gravity.h>
 #include <keyblock/scene/unit_warnings.h>
 
@@ -9,24 +10,6 @@ namespace Keyblock
 {
   namespace
   {
-    template <int dim>
-    bool
-    has_water(const Scene<dim> &scene)
-    {
-      return !scene.water.level.empty() ||
-             std::any_of(scene.joints.begin(),
-                         scene.joints.end(),
-                         [](const auto &joint) {
-                           return !joint->water_pressure.empty() ||
-                                  !joint->water_level.empty();
-                         }) ||
-             std::any_of(scene.stages.begin(),
-                         scene.stages.end(),
-                         [](const auto &stage) {
-                           return !stage->water_level.empty();
-                         });
-    }
-
     template <int dim>
     bool
     has_gravity(const Scene<dim> &scene)
@@ -41,21 +24,11 @@ namespace Keyblock
     is_loaded(const Scene<dim> &scene)
     {
       const InitialState<dim> &state = scene.initial_state;
-      return has_gravity(scene) || has_water(scene) || !state.stress.empty() ||
+      return has_gravity(scene) || has_water_levels(scene) ||
+             has_water_pressures(scene) || !state.stress.empty() ||
              !state.measured_points.empty() || state.has_depth_stress() ||
              state.surface_stress != 0. || !scene.tractions.empty() ||
              !scene.bolts.empty();
-    }
-
-    template <int dim>
-    bool
-    has_rigid_material(const Scene<dim> &scene)
-    {
-      return std::any_of(scene.materials.begin(),
-                         scene.materials.end(),
-                         [](const auto &material) {
-                           return material->is_rigid();
-                         });
     }
 
     template <int dim>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/scene/given.h>
 #include <keyblock/scene/stage_defaults.h>
 
 #include <algorithm>
@@ -17,9 +18,7 @@ namespace Keyblock
   void
   damp_beside_rigid_bodies(Scene<dim> &scene)
   {
-    if (std::none_of(scene.materials.begin(),
-                     scene.materials.end(),
-                     [](const auto &material) { return material->is_rigid(); }))
+    if (!has_rigid_material(scene))
       return;
     for (const auto &stage : scene.stages)
       if (stage->is_quasi_static() && stage->local_damping > 0.)
