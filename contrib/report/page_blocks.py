@@ -84,6 +84,16 @@ def gravity_note(run):
     return None
 
 
+def by_trials_note(run, rows):
+    """How the pressure by trials acts, where there is one."""
+    if not any(r["tried_demand"] for r in rows):
+        return ""
+    convention = run.entries.get("Safety factor/Bolt convention", "active")
+    return (" By trials: an active pressure, which the factor does not divide"
+            + ("." if convention == "active" else
+               f"; that by limit equilibrium is {convention}, as the bolts."))
+
+
 def blocks_section(run, rows, has_view, files):
     """The table of blocks, with footnotes on what is not known."""
     if not rows:
@@ -146,7 +156,8 @@ def blocks_section(run, rows, has_view, files):
         notes.append("Support it needs: the least force against its free faces "
                      "with which limit equilibrium, without in-situ stress, "
                      "has the wanted factor; also as bolts of each set. Of "
-                     "all stages the largest is shown.")
+                     "all stages the largest is shown."
+                     + by_trials_note(run, rows))
     if "moving at the end of" not in empty:
         notes.append("Moving at the end of: the last stage that ended while "
                      "the block still moved, by its remark; it may come to "

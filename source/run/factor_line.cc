@@ -129,7 +129,8 @@ namespace Keyblock
     void
     print_demand(std::ostream &out,
                  const SafetyFactor &factor,
-                 const Blocks<dim> &blocks)
+                 const Blocks<dim> &blocks,
+                 const Scene<dim> &scene)
     {
       using Outcome             = TriedDemand::Outcome;
       const TriedDemand &demand = factor.tried_demand;
@@ -149,8 +150,7 @@ namespace Keyblock
         out << ", undecided from " << 1e-3 * demand.undecided_lower << " to "
             << 1e-3 * demand.undecided_upper << " kPa";
       for (const auto &[set, number] : demand.numbers)
-        out << ", or " << number << (number == 1 ? " bolt" : " bolts")
-            << " of the set " << set << (dim == 2 ? " in each ring" : "");
+        out << ", or " << describe_bolts(scene, set, number);
       out << ", for a factor of " << factor.support_demand.factor;
       if (by_statics == 0.)
         out << "; limit equilibrium asks for none";
@@ -273,7 +273,7 @@ namespace Keyblock
     out << std::endl;
     if (factor.tried_demand.outcome != TriedDemand::Outcome::not_sought &&
         factor.tried_demand.outcome != TriedDemand::Outcome::met)
-      print_demand(out, factor, blocks);
+      print_demand(out, factor, blocks, scene);
   }
 
   template void

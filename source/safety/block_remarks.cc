@@ -18,6 +18,10 @@ namespace Keyblock
     /** Faces bent by less are not worth a remark [deg]. */
     constexpr double least_bend = 1.;
 
+    /** Way over the size of a block beyond which it has no number: what
+     * balances almost passes anywhere [-]. */
+    constexpr double far_outside = 10.;
+
     /** From which on it may lock a block between its faces [degrees]. */
     constexpr double locking_bend = 5.;
 
@@ -116,12 +120,8 @@ namespace Keyblock
                                          name);
                 continue;
               }
-            last << (is_in_reach ? ", or " : ", but of ") << number
-                 << (number == 1 ? " bolt" : " bolts") << " of the set "
-                 << name;
-            for (const auto &set : scene.bolts)
-              if (dim == 2 && set->name == name)
-                last << " every " << set->spacing.back() << " m of tunnel";
+            last << (is_in_reach ? ", or " : ", but of ")
+                 << describe_bolts(scene, name, number);
           }
       }
 
@@ -136,8 +136,12 @@ namespace Keyblock
                    "of what acts";
         if (rotation.outside == 0.)
           return;
-        add() << "the resultant passes " << rotation.outside
-              << " m outside the base";
+        add() << "the resultant passes ";
+        if (rotation.outside > far_outside * block.size)
+          last << "far";
+        else
+          last << rotation.outside << " m";
+        last << " outside the base";
         if (limit.mode == Mode::rotating)
           last << ", which no friction prevents; sliding alone "
                << factor_of_sliding;

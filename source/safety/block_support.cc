@@ -282,6 +282,21 @@ namespace Keyblock
       .direction;
   }
 
+  template <int dim>
+  std::string
+  describe_bolts(const Scene<dim> &scene,
+                 const std::string &set,
+                 const unsigned int number)
+  {
+    std::ostringstream out;
+    out << number << (number == 1 ? " bolt" : " bolts") << " of the set "
+        << set;
+    for (const auto &bolts : scene.bolts)
+      if (dim == 2 && bolts->name == set)
+        out << " every " << bolts->spacing.back() << " m of tunnel";
+    return out.str();
+  }
+
 #define INSTANTIATE(dim)                                                       \
   template struct BlockSupport<dim>;                                           \
   template BlockSupport<dim> find_support_of_block(const Ground<dim> &,        \
@@ -293,7 +308,10 @@ namespace Keyblock
                                               const Blocks<dim> &,             \
                                               const unsigned int,              \
                                               const double);                   \
-  template double mean_bolt_capacity(const Ground<dim> &, const unsigned int);
+  template double mean_bolt_capacity(const Ground<dim> &, const unsigned int); \
+  template std::string describe_bolts(const Scene<dim> &,                      \
+                                      const std::string &,                     \
+                                      const unsigned int);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -92,6 +92,13 @@ namespace Keyblock
   template <int dim>
   double mean_bolt_capacity(const Ground<dim> &ground, const unsigned int set);
 
+  /** A @p number of bolts of a @p set in words, in 2D with the metres of tunnel
+   * that they are for. */
+  template <int dim>
+  std::string describe_bolts(const Scene<dim> &scene,
+                             const std::string &set,
+                             const unsigned int number);
+
   /**
    * Limit equilibrium of a block on @p faces under @p load with its support.
    * Active: the pulls of bolts are a part of the load, as is what dowels and
