@@ -18,6 +18,10 @@ namespace Keyblock
      * in them, over the skin [-]. */
     constexpr unsigned int slow_steps = 20;
     constexpr double slow_way         = 0.125;
+
+    /** Sine of the angle to the direction in which a node is held, squared, up
+     * to which a normal has it [-]. */
+    constexpr double along_support = 1e-4;
   } // namespace
 
 
@@ -83,6 +87,36 @@ namespace Keyblock
 
   template <int dim>
   bool
+  ContactDetection<dim>::stays_pair(const unsigned int pair) const
+  {
+    const Vector<dim> &normal = memory.normal[pair];
+    const auto is_held        = [&](const unsigned int node) {
+      const double *p = nodes.view.projection_of(node);
+      double free     = nodes.inverse_mass[node] > 0. && p == nullptr ? 1. : 0.;
+      for (int d = 0; d < dim && p != nullptr; ++d)
+        for (int e = 0; e < dim; ++e)
+          free += normal[d] * p[dim * d + e] * normal[e];
+      return free <= along_support;
+    };
+    const Pair<dim> &ends = interface.pairs[pair];
+    bool has_free         = false;
+    for (const unsigned int v : {ends.minus, ends.plus})
+      {
+        const unsigned int node = surface.node_of_vertex[v];
+        if (!is_held(node))
+          return false;
+        for (const unsigned int f : surface.faces_of_node[node])
+          if (interface.surface[f].joint == ends.joint)
+            for (const unsigned int other : surface.nodes_of_face[f])
+              has_free = has_free || !is_held(other);
+      }
+    return has_free;
+  }
+
+
+
+  template <int dim>
+  bool
   ContactDetection<dim>::convert_slid_pairs()
   {
     bool has_slid = false;
@@ -94,7 +128,7 @@ namespace Keyblock
         const unsigned int minus =
           numbering.local_node(interface.pairs[p].minus);
         const unsigned int plus = numbering.local_node(interface.pairs[p].plus);
-        if (minus == none || plus == none)
+        if (minus == none || plus == none || stays_pair(p))
           continue;
         Vector<dim> slip;
         for (int d = 0; d < dim; ++d)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Closed forms of plane waves that meet an interface.
+#include <keyblock/law/joint_law.h>
 #include <keyblock/verification/tools.h>
 
 namespace Keyblock
@@ -177,10 +178,14 @@ namespace Keyblock
     for (const auto &monitor : input.scene.monitors)
       if (monitor->kind == MonitorKind::point)
         points.push_back(monitor.get());
-    const Material<dim> &rock = *input.scene.materials.front();
-    const double speed        = rock.s_wave_speed();
-    const double impedance    = rock.density * speed;
-    const Joint<dim> &joint   = *input.scene.joints[joints.front()];
+    const Material<dim> &rock       = *input.scene.materials.front();
+    const double speed              = rock.s_wave_speed();
+    const double impedance          = rock.density * speed;
+    const Joint<dim> &joint         = *input.scene.joints[joints.front()];
+    const StrengthEnvelope envelope = make_joint_law(joint)->envelope({});
+    const double strength           = // [Pa]; the joint is level
+      envelope.cohesion -
+      envelope.static_tangent * initial_stress(input, joint.point)[dim - 1];
     const Expression<dim> wave(base->velocity, dim, "Supports/*/Velocity");
     const double bottom    = input.scene.domain.corner[dim - 1];
     const double joint_way = joint.point[dim - 1] - bottom;
@@ -200,7 +205,7 @@ namespace Keyblock
         const double t = time[i] - half;
         const double v = incident(t, joint_way);
         const double passed =
-          std::copysign(std::min(std::abs(v), joint.cohesion / impedance), v);
+          std::copysign(std::min(std::abs(v), strength / impedance), v);
         in += v * v;
         clipped += passed * passed;
         cut += (v - passed) * (v - passed);

@@ -98,6 +98,10 @@ keyblock_scene(verification/joint_wave REFERENCES joint_wave_tenth RANKS 1
 # the same from every fourth step
 keyblock_scene(verification/joint_wave REFERENCES joint_wave_rows RANKS 1
   SET "Output/History interval=4")
+# friction alone, and nodes of the joint held along its normal beside others
+keyblock_scene(verification/joint_wave REFERENCES joint_wave_friction RANKS 1 2
+  SET "Domain/Size=1.6, 80" "Mesh/Cells=4, 200"
+      "Joints/joint/Friction angle=2.8624052261" "Joints/joint/Cohesion=0")
 keyblock_scene(verification/joint_wave REFERENCES joint_wave_fiftieth RANKS 1
   SET "Joints/joint/Cohesion=2e3")
 keyblock_scene(verification/joint_wave REFERENCES joint_wave_sticks RANKS 1

@@ -38,6 +38,12 @@ namespace Keyblock
     void search_again();
 
   private:
+    /** Whether a pair is none of faces however far it slides: both nodes are
+     * held along its normal, and others of their faces are not. The little that
+     * the motion of these closes would be kept open by an impulse without
+     * bounds, and with it friction. */
+    bool stays_pair(const unsigned int pair) const;
+
     /** @return whether one has slid on this rank. */
     bool convert_slid_pairs();
 
