@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/run/moving_blocks.h>
 #include <keyblock/safety/block_stiffness.h>
-#include <keyblock/step/block_balance.h>
 #include <keyblock/step/guided_blocks.h>
 
 namespace Keyblock
@@ -12,6 +11,16 @@ namespace Keyblock
      * driven [-]. */
     constexpr double driving_ratio = 1e-2;
   } // namespace
+
+
+
+  template <int dim>
+  bool
+  is_driven(const BlockBalance<dim> &balance, const Vector<dim> &velocity)
+  {
+    return balance.unbalanced_ratio() > driving_ratio &&
+           dot<dim>(velocity, balance.unbalanced_force) > 0.;
+  }
 
 
 
@@ -37,8 +46,7 @@ namespace Keyblock
         const Vector<dim> &velocity = velocities[b].shift;
         const BlockBalance<dim> balance =
           measure_balance(model.fields, nodes[b], model.communicator);
-        if (balance.unbalanced_ratio() > driving_ratio &&
-            dot<dim>(velocity, balance.unbalanced_force) > 0. &&
+        if (is_driven<dim>(balance, velocity) &&
             norm<dim>(velocity) * duration >
               compression_of_block(model.conditions->active_cells.ground(),
                                    b,
@@ -49,6 +57,8 @@ namespace Keyblock
     return false;
   }
 
+  template bool is_driven<2>(const BlockBalance<2> &, const Vector<2> &);
+  template bool is_driven<3>(const BlockBalance<3> &, const Vector<3> &);
   template bool is_any_block_moving_off(const Model<2> &, const unsigned int);
   template bool is_any_block_moving_off(const Model<3> &, const unsigned int);
 } // namespace Keyblock

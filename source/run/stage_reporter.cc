@@ -4,8 +4,10 @@
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/output/liner_output.h>
 #include <keyblock/run/bolt_warnings.h>
+#include <keyblock/run/moving_blocks.h>
 #include <keyblock/run/stage_reporter.h>
 #include <keyblock/run/static_stage.h>
+#include <keyblock/safety/block_stiffness.h>
 #include <keyblock/step/guided_blocks.h>
 
 #include <algorithm>
@@ -90,10 +92,10 @@ namespace Keyblock
         motions.measure(progress.way_in_stage(model.fields));
       const auto velocities            = motions.measure(model.fields.velocity);
       const std::vector<bool> is_there = find_present_blocks(model);
-      const std::vector<bool> is_guided = mark_guided_blocks(
-        model.fields,
-        owned_nodes_of_blocks(model.split, *model.numbering, is_there.size()),
-        model.communicator);
+      const auto nodes =
+        owned_nodes_of_blocks(model.split, *model.numbering, is_there.size());
+      const std::vector<bool> is_guided =
+        mark_guided_blocks(model.fields, nodes, model.communicator);
       for (unsigned int b = 0; b < is_there.size(); ++b)
         {
           const Block<dim> &block = model.blocks.blocks[b];
@@ -109,12 +111,24 @@ namespace Keyblock
             progress.slips.motion_since(b, progress.n_done, way);
           const bool creeps =
             !progress.is_converged && motion.way > least_creep * block.size;
-          if (goes_off || creeps || way > long_way * block.size)
-            movers.push_back(
-              {b,
-               way,
-               goes_off || creeps,
-               creeps ? motion.way / (motion.n_steps * model.step->dt) : 0.});
+          // or has only begun to, farther than its load deforms it
+          const BlockBalance<dim> balance =
+            measure_balance(model.fields, nodes[b], model.communicator);
+          const bool begins =
+            !progress.is_converged && !goes_off && !creeps &&
+            is_driven<dim>(balance, velocities[b].shift) &&
+            way > compression_of_block(model.conditions->active_cells.ground(),
+                                       b,
+                                       block,
+                                       balance.load);
+          if (goes_off || creeps || begins || way > long_way * block.size)
+            movers.push_back({b,
+                              way,
+                              goes_off || creeps || begins,
+                              creeps
+                                ? motion.way / (motion.n_steps * model.step->dt)
+                              : begins ? norm<dim>(velocities[b].shift)
+                                       : 0.});
         }
       std::stable_sort(movers.begin(),
                        movers.end(),

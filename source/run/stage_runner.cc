@@ -28,13 +28,22 @@ namespace Keyblock
     /** Steps from check to check whether the run is to be saved or stopped. */
     constexpr unsigned int save_interval = 10;
 
-    /** Way over the size in the second half of the time so far, at a steady
-     * speed, by which a block has failed [-]. */
-    constexpr double steady_slip = 1e-3;
+    /** How a block goes on that has failed. */
+    struct Failure
+    {
+      double share;        ///< of its former speed, at least [-]
+      double way;          ///< over its size, at least [-]
+      double compressions; ///< and over its compression by its load [-]
+    };
 
-    /** And over the compression of the block by its load: soft blocks that rock
-     * on a corner until they rest go this far, slender ones [-]. */
-    constexpr double steady_compressions = 50.;
+    /** Whatever drives it. What decays, or goes with the root of time, slows
+     * down more from a quarter of the time to the half after it; soft blocks
+     * that rock on a corner until they rest go this far, slender ones. */
+    constexpr Failure goes_on = {0.75, 1e-3, 50.};
+
+    /** One that forces drive all the while, as damping takes up what they do:
+     * what decays so little goes seven times as far as in that half. */
+    constexpr Failure is_driven_on = {0.9, 3e-4, 7.};
   } // namespace
 
 
@@ -230,20 +239,28 @@ namespace Keyblock
     const std::vector<bool> is_caught =
       mark_caught_blocks(progress.support, support, loads, sizes);
     progress.support = support;
+    const auto velocities =
+      model.contact->motions().measure(model.fields.velocity);
     for (unsigned int b = 0; b < ways.size(); ++b)
       {
-        const Block<dim> &block = model.blocks.blocks[b];
-        const double least      = steady_slip * block.size;
-        is_steady[b] = !is_caught[b] && progress.slips.is_steady(b, least) &&
-                       progress.slips.is_steady(
-                         b,
-                         std::max(least,
-                                  steady_compressions *
-                                    compression_of_block(
-                                      model.conditions->active_cells.ground(),
-                                      b,
-                                      block,
-                                      loads[b])));
+        if (is_caught[b])
+          continue;
+        const Block<dim> &block  = model.blocks.blocks[b];
+        const double compression = compression_of_block(
+          model.conditions->active_cells.ground(), b, block, loads[b]);
+        const auto moves_as = [&](const Failure &failure) {
+          return progress.slips.is_steady(b,
+                                          std::max(failure.way * block.size,
+                                                   failure.compressions *
+                                                     compression),
+                                          failure.share);
+        };
+        is_steady[b] = moves_as(goes_on) ||
+                       (moves_as(is_driven_on) &&
+                        is_driven<dim>(measure_balance(model.fields,
+                                                       nodes[b],
+                                                       model.communicator),
+                                       velocities[b].shift));
       }
     return is_steady;
   }

@@ -6,11 +6,6 @@ namespace Keyblock
   namespace
   {
     constexpr unsigned int most_records = 3, first_record = 400;
-
-    /** Share of the former speed at which a motion is steady [-]: one that
-     * decays, or goes with the root of time, slows down more from a quarter of
-     * the time to the half after it. */
-    constexpr double steady_share = 0.75;
   } // namespace
 
 
@@ -45,15 +40,16 @@ namespace Keyblock
 
 
   bool
-  SlipRecord::is_steady(const unsigned int block, const double way) const
+  SlipRecord::is_steady(const unsigned int block,
+                        const double way,
+                        const double share) const
   {
     if (steps.size() < most_records)
       return false;
     const double late  = slip_at(0, block) - slip_at(1, block);
     const double early = slip_at(1, block) - slip_at(2, block);
     return early > 0. && late > way &&
-           late * (steps[1] - steps[2]) >
-             steady_share * early * (steps[0] - steps[1]);
+           late * (steps[1] - steps[2]) > share * early * (steps[0] - steps[1]);
   }
 
 

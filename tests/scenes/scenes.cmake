@@ -178,6 +178,10 @@ keyblock_scene(verification/light_wedge REFERENCES light_wedge_falls RANKS 1
 # where it has fallen it stays, and not because stress clamps it
 keyblock_scene(verification/roof_block_falls REFERENCES roof_block_fallen ALIKE
   RANKS 1 2 SET "Safety factor/Blocks=all")
+# one that creeps under damping, and one that would only just
+keyblock_scene(verification/creeping_slide RANKS 1 2)
+keyblock_scene(verification/creeping_slide REFERENCES creeping_slide_holds
+  RANKS 1 SET "Joints/plane/Friction angle=35.3")
 # of two blocks that slide past each other the one that moves is taken away
 foreach(friction 10 20 25)
   keyblock_scene(verification/passing_slab REFERENCES passing_slab_${friction}

@@ -264,8 +264,8 @@ BOOST_AUTO_TEST_CASE(steady_slip_is_told_from_creep)
     bool result = false;
     for (unsigned int step = 1100; step <= 20000; step += 100)
       if (record.offer(step, {0., way_after(step - 1000.)}))
-        result = result || record.is_steady(1, 0.01);
-    BOOST_TEST(!record.is_steady(0, 0.01));
+        result = result || record.is_steady(1, 0.01, 0.75);
+    BOOST_TEST(!record.is_steady(0, 0.01, 0.75));
     return result;
   };
   BOOST_TEST(is_steady([](const double n) { return 1e-4 * n; }));

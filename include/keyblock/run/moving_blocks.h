@@ -3,9 +3,15 @@
 #define keyblock_run_moving_blocks_h
 
 #include <keyblock/run/model.h>
+#include <keyblock/step/block_balance.h>
 
 namespace Keyblock
 {
+  /** Whether a block moves at @p velocity [m/s] as forces drive it: its
+   * @p balance leaves a notable share of its own load along that. */
+  template <int dim>
+  bool is_driven(const BlockBalance<dim> &balance, const Vector<dim> &velocity);
+
   /**
    * Whether any finite block moves off, though forces may be in balance over
    * the whole of the model: a small block weighs next to nothing beside what an

@@ -24,9 +24,11 @@ namespace Keyblock
     bool offer(const std::uint64_t n_steps, const std::vector<double> &ways);
 
     /** Whether a block went on, in the half of the time that ended with the
-     * last record, by at least @p way [m] and three quarters as fast as in the
+     * last record, by at least @p way [m] and at a @p share of its speed in the
      * quarter before. */
-    bool is_steady(const unsigned int block, const double way) const;
+    bool is_steady(const unsigned int block,
+                   const double way,
+                   const double share) const;
 
     /** Way of a block since the last record but one [m], and steps, up to now;
      * zero without records. */
