@@ -9,6 +9,7 @@
 #include <cctype>
 #include <map>
 #include <regex>
+#include <vector>
 
 namespace Keyblock
 {
@@ -113,6 +114,29 @@ namespace Keyblock
       return is_flat && name.back() == 'z' ? 1 : letter->second;
     }
 
+    /** A quantity, as names of columns tell it. */
+    struct Quantity
+    {
+      std::string name, si_unit;
+      std::regex pattern;
+    };
+
+    /** Those that the small letters of a @p name tell: a word, or a letter with
+     * that of an axis, as vx; displacements fit nowhere. Null: none. */
+    const Quantity *
+    quantity_of(const std::string &name)
+    {
+      static const std::vector<Quantity> known = {
+        {"a velocity", "m/s", std::regex("velocity|^vel|vel$|^v[xyz123]$")},
+        {"an acceleration", "m/s2", std::regex("accel|^acc|acc$|^a[xyz123]$")},
+        {"a stress", "Pa", std::regex("stress|^sigma|^tau|^s[xyz]{1,2}$")},
+        {"a displacement", "m", std::regex("displacement|^disp|^[ud][xyz]$")}};
+      for (const Quantity &quantity : known)
+        if (std::regex_search(name, quantity.pattern))
+          return &quantity;
+      return nullptr;
+    }
+
     std::string
     known_names(const unsigned int n_axes)
     {
@@ -162,6 +186,16 @@ namespace Keyblock
                                "; put it into the first one."));
         if (i == 0)
           continue;
+        const Quantity *quantity = quantity_of(title.name);
+        AssertThrow(quantity == nullptr || quantity->si_unit == si_unit,
+                    InputError(where + "names the column '" + titles[i] +
+                               "', by which it is no " +
+                               (si_unit == "Pa"     ? "stress"
+                                : si_unit == "m/s2" ? "acceleration"
+                                                    : "velocity") +
+                               " but " + quantity->name +
+                               "; give 'History quantity' or the name as it "
+                               "is."));
         axes.push_back(axis_of(title.name, n_axes));
         AssertThrow(axes.back() < n_axes,
                     InputError(where + "names the column '" + titles[i] +

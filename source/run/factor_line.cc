@@ -15,15 +15,50 @@ namespace Keyblock
 {
   namespace
   {
+    /** Blocks 1, 2. */
+    std::string
+    list_group(const SafetyFactor &factor)
+    {
+      std::string text = "blocks ";
+      for (unsigned int i = 0; i < factor.group.size(); ++i)
+        text += (i > 0 ? ", " : "") + std::to_string(factor.group[i]);
+      return text;
+    }
+
+
+
+    /** Faces that the pressure of its demand by trials acts on: those of a
+     * group if that lacks the wanted factor, found for it or for another. */
+    std::string
+    describe_pressed(const SafetyFactor &factor)
+    {
+      const bool is_of_group =
+        !factor.group.empty() &&
+        factor.group_lower < factor.support_demand.factor &&
+        (factor.has_own_group() || factor.tried_demand.trials.empty());
+      return is_of_group ? "free faces of " + list_group(factor)
+                         : "its free faces";
+    }
+
+
+
+    bool
+    asks_for_support(const SafetyFactor &factor)
+    {
+      return factor.tried_demand.outcome != TriedDemand::Outcome::not_sought &&
+             factor.tried_demand.outcome != TriedDemand::Outcome::met;
+    }
+
+
+
     std::string
     describe_group(const SafetyFactor &factor)
     {
       std::ostringstream text;
       text << std::setprecision(5)
-           << (factor.has_own_group() ? "blocks " : "in the group of blocks ");
-      for (unsigned int i = 0; i < factor.group.size(); ++i)
-        text << (i > 0 ? ", " : "") << factor.group[i];
-      text << (factor.has_own_group() ? " move together: " : ": ")
+           << (factor.has_own_group() ? "" : "in the group of ")
+           << list_group(factor)
+           << (factor.has_own_group() ? " move together: " : ": ")
            << factor.value_of_group() << " [" << factor.group_lower << ", "
            << factor.group_upper << "]";
       if (factor.group_undecided_upper > 0.)
@@ -141,9 +176,9 @@ namespace Keyblock
       if (demand.outcome == Outcome::bracketed)
         out << 1e-3 * demand.pressure() << " kPa [" << 1e-3 * demand.lower
             << ", " << 1e-3 * demand.upper << "], " << 1e-3 * demand.force()
-            << per << " against its free faces";
+            << per << " against " << describe_pressed(factor);
       else if (demand.outcome == Outcome::out_of_reach)
-        out << "no pressure on its free faces is enough";
+        out << "no pressure on " << describe_pressed(factor) << " is enough";
       else
         out << "undecided";
       if (demand.undecided_upper > 0.)
@@ -159,9 +194,11 @@ namespace Keyblock
       double seconds = 0.;
       for (const Trial &trial : demand.trials)
         seconds += trial.seconds;
-      out << "; " << demand.trials.size()
-          << (demand.trials.size() == 1 ? " trial, " : " trials, ")
-          << std::setprecision(3) << seconds << " s" << std::endl;
+      if (!demand.trials.empty())
+        out << "; " << demand.trials.size()
+            << (demand.trials.size() == 1 ? " trial, " : " trials, ")
+            << std::setprecision(3) << seconds << " s";
+      out << std::endl;
     }
 
 
@@ -183,10 +220,14 @@ namespace Keyblock
   void
   print_group(std::ostream &out,
               const SafetyFactor &factor,
-              const Blocks<dim> &blocks)
+              const Blocks<dim> &blocks,
+              const Scene<dim> &scene)
   {
     begin_line(out, factor, blocks);
     out << describe_group(factor) << std::endl;
+    // what its group asks for
+    if (factor.tried_demand.trials.empty() && asks_for_support(factor))
+      print_demand(out, factor, blocks, scene);
   }
 
 
@@ -271,15 +312,18 @@ namespace Keyblock
           << (factor.trials.size() == 1 ? " trial, " : " trials, ")
           << std::setprecision(3) << seconds << " s";
     out << std::endl;
-    if (factor.tried_demand.outcome != TriedDemand::Outcome::not_sought &&
-        factor.tried_demand.outcome != TriedDemand::Outcome::met)
+    if (asks_for_support(factor))
       print_demand(out, factor, blocks, scene);
   }
 
-  template void
-  print_group(std::ostream &, const SafetyFactor &, const Blocks<2> &);
-  template void
-  print_group(std::ostream &, const SafetyFactor &, const Blocks<3> &);
+  template void print_group(std::ostream &,
+                            const SafetyFactor &,
+                            const Blocks<2> &,
+                            const Scene<2> &);
+  template void print_group(std::ostream &,
+                            const SafetyFactor &,
+                            const Blocks<3> &,
+                            const Scene<3> &);
   template void print_factor(std::ostream &,
                              const SafetyFactor &,
                              const Blocks<2> &,

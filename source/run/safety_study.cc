@@ -250,7 +250,7 @@ namespace Keyblock
              "too"
           << std::endl;
     for (const unsigned int i : told)
-      print_group(out, record.safety_factors[i], model.blocks);
+      print_group(out, record.safety_factors[i], model.blocks, model.scene);
   }
 
 

@@ -18,6 +18,9 @@ namespace Keyblock
      * most. */
     constexpr double most_moment = 10.;
 
+    /** Factor up to which moments are looked at [-]. */
+    constexpr double most_factor = 1e3;
+
     /** Bolts of a set more than which are none. */
     constexpr unsigned int most_bolts = 4096;
 
@@ -205,7 +208,7 @@ namespace Keyblock
     }
 
     /** Whether the line of the resultant, which passes within the base, tells
-     * that moments are balanced. */
+     * that moments are balanced with all that acts undivided. */
     template <int dim>
     bool
     is_judged_by_base(const SupportedMotion<dim> &motion)
@@ -248,10 +251,24 @@ namespace Keyblock
     motion.limit.orient(around.loads.weight);
     motion.factor_of_sliding = motion.limit.factor;
     motion.rotation = judge_rotation<dim>(around.faces, forces, motion.limit);
-    if (pressure == 0. && motion.limit.factor >= 1. &&
-        !is_judged_by_base(motion))
-      motion.rotation.is_unbalanced = !balances_moments<dim>(
-        around, support, is_passive, {}, motion.limit.direction, 1.);
+    if (pressure > 0. || motion.limit.factor < 1.)
+      return motion;
+    const Tensor<1, dim> &way = motion.limit.direction;
+    motion.rotation.is_unbalanced =
+      !is_judged_by_base(motion) &&
+      !balances_moments<dim>(around, support, is_passive, {}, way, 1.);
+    if (is_passive && !support.pulls.empty() && !motion.rotation.is_unbalanced)
+      {
+        const double most = std::min(motion.limit.factor, most_factor);
+        if (const double factor =
+              greatest_balanced_factor<dim>(around, support, way, most);
+            factor < most)
+          {
+            motion.rotation.is_of_divided = true;
+            motion.limit.mode   = LimitEquilibrium<dim>::Mode::rotating;
+            motion.limit.factor = factor;
+          }
+      }
     return motion;
   }
 
@@ -287,8 +304,10 @@ namespace Keyblock
                           const std::vector<PointForce<dim>> &faces,
                           const double pressure) {
       const SupportedMotion<dim> motion = motion_with(bolts, faces, pressure);
+      const bool has_divided =
+        is_passive && (pressure > 0. || !bolts.pulls.empty());
       return is_held(motion) &&
-             (is_judged_by_base(motion) ||
+             ((is_judged_by_base(motion) && !has_divided) ||
               balances_moments<dim>(around,
                                     bolts,
                                     is_passive,
@@ -305,12 +324,13 @@ namespace Keyblock
     Tensor<1, dim> resultant  = load;
     for (const BlockFace<dim> &face : around.faces)
       resultant += face.water_force * face.inward;
-    const double most = most_demand * std::max(load.norm(), resultant.norm());
+    const double most  = most_demand * std::max(load.norm(), resultant.norm());
+    const double first = least_demand * resultant.norm();
     const double against_sliding = least_force(
       [&](const double force) {
         return is_held(motion_with(support, free_faces, force / area));
       },
-      least_demand * resultant.norm(),
+      first,
       area > 0. ? most : 0.,
       1.1);
     const auto is_enough = [&](const double force) {
@@ -320,7 +340,7 @@ namespace Keyblock
       std::isfinite(against_sliding) && is_enough(against_sliding)
         ? against_sliding
         : least_force(is_enough,
-                      against_sliding,
+                      std::max(against_sliding, first),
                       most_moment *
                         std::max(against_sliding, around.loads.weight.norm()),
                       1.02);

@@ -3,11 +3,17 @@
 #include <keyblock/safety/moment_balance.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Keyblock
 {
   namespace
   {
+    /** Part of a factor that moments may take off it without being told [-],
+     * and halvings by which they are found. */
+    constexpr double least_loss              = 1e-4;
+    constexpr unsigned int n_factor_halvings = 40;
+
     /** Whether limit equilibrium knows all that may balance moments on a block:
      * not of one that is joined to others, nor what sheared support or tensile
      * strength do, nor friction by the stress on it. */
@@ -74,13 +80,40 @@ namespace Keyblock
     return can_balance<dim>(around.faces, forces, bolts, way, factor);
   }
 
+
+
+  template <int dim>
+  double
+  greatest_balanced_factor(const BlockSurroundings<dim> &around,
+                           const BlockSupport<dim> &support,
+                           const Tensor<1, dim> &way,
+                           const double most)
+  {
+    const auto balances = [&](const double factor) {
+      return balances_moments<dim>(around, support, true, {}, way, factor);
+    };
+    if (balances((1. - least_loss) * most))
+      return most;
+    double low = 1., high = most;
+    for (unsigned int i = 0; i < n_factor_halvings; ++i)
+      {
+        const double middle             = std::sqrt(low * high);
+        (balances(middle) ? low : high) = middle;
+      }
+    return low;
+  }
+
 #define INSTANTIATE(dim)                                                       \
   template bool balances_moments(const BlockSurroundings<dim> &,               \
                                  const BlockSupport<dim> &,                    \
                                  const bool,                                   \
                                  const std::vector<PointForce<dim>> &,         \
                                  const Tensor<1, dim> &,                       \
-                                 const double);
+                                 const double);                                \
+  template double greatest_balanced_factor(const BlockSurroundings<dim> &,     \
+                                           const BlockSupport<dim> &,          \
+                                           const Tensor<1, dim> &,             \
+                                           const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

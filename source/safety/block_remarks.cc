@@ -142,7 +142,7 @@ namespace Keyblock
         else
           last << rotation.outside << " m";
         last << " outside the base";
-        if (limit.mode == Mode::rotating)
+        if (limit.mode == Mode::rotating && !rotation.is_of_divided)
           last << ", which no friction prevents; sliding alone "
                << factor_of_sliding;
         else if (dim == 2)
@@ -180,9 +180,9 @@ namespace Keyblock
         std::set<std::string> names;
         for (unsigned int i = 0; i < limit.n_pressed; ++i)
           names.insert(around.faces[limit.faces[i]].name);
-        const unsigned int n_planes =
-          limit.mode == LimitEquilibrium<dim>::Mode::two_planes ? 2 : 1;
-        if (names.size() > n_planes)
+        using Mode = typename LimitEquilibrium<dim>::Mode;
+        if (limit.mode != Mode::rotating &&
+            names.size() > (limit.mode == Mode::two_planes ? 2U : 1U))
           add() << "parallel faces share the normal force by their areas";
         if (around.has_free_face)
           add() << "free faces that touch have the default friction angle";

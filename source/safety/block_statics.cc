@@ -40,6 +40,25 @@ namespace Keyblock
 
 
 
+    /** What is said of a block that turns once its passive bolts are divided by
+     * more than its factor. */
+    std::string
+    remark_on_divided(const double factor_of_sliding)
+    {
+      std::ostringstream out;
+      out.precision(4);
+      out
+        << "passive bolts, divided by more, cannot balance the moment of what "
+           "acts; ";
+      if (std::isfinite(factor_of_sliding))
+        out << "sliding alone " << factor_of_sliding;
+      else
+        out << "stable by forces alone";
+      return out.str();
+    }
+
+
+
     /** Take the block together with the crumb that went to it, where that holds
      * less well: without the faces between them, which the mesh has lost, and
      * with those of the crumb. Returns what is to be said of that, empty:
@@ -122,6 +141,8 @@ namespace Keyblock
       group_remark);
     add_remarks<dim>(
       ground, free, blocks, block, time, motion, lost_remark, statics);
+    if (motion.rotation.is_of_divided)
+      statics.remarks.push_back(remark_on_divided(motion.factor_of_sliding));
     if (!group_remark.empty())
       statics.remarks.insert(statics.remarks.begin(), group_remark);
     return statics;

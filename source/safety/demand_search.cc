@@ -89,7 +89,7 @@ namespace Keyblock
         sum += area.norm();
       }
     // those on both ends cancel each other
-    if (pressed.area.norm() <= 1e-6 * sum)
+    if (pressed.area.norm() <= PressureSearch::no_area * sum)
       return pressed;
     TriedBlocks alone;
     alone.block = result.block;
@@ -163,14 +163,16 @@ namespace Keyblock
           tried.companions.push_back(id - 1);
     const double unstable = group_fails ? result.group_upper : result.upper;
     PressureState now;
-    now.is_at_rest    = result.outcome != Outcome::falls_freely;
-    now.fails_without = unstable > 0. && unstable <= wanted;
-    search_pressure(tried,
-                    press_on_block(result),
-                    number,
-                    known.start,
-                    now,
-                    result.tried_demand);
+    now.is_at_rest            = result.outcome != Outcome::falls_freely;
+    now.fails_without         = unstable > 0. && unstable <= wanted;
+    PressedBlock<dim> pressed = press_on_block(result);
+    if (group_fails && pressed.unit == 0.)
+      pressed =
+        PressureSearch::press_on_group(*this,
+                                       tried,
+                                       unbalanced_in_failure(result, wanted));
+    search_pressure(
+      tried, pressed, number, known.start, now, result.tried_demand);
   }
 
 

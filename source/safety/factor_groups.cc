@@ -3,6 +3,7 @@
 #include <keyblock/safety/safety_factor.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace Keyblock
 {
@@ -15,6 +16,35 @@ namespace Keyblock
              return trial.is_of_group && trial.factor == group_upper;
            });
   }
+
+
+
+  namespace
+  {
+    /** By which of two demands tell how much they ask for. */
+    std::pair<int, double>
+    size_of(const TriedDemand &demand)
+    {
+      using Outcome = TriedDemand::Outcome;
+      return {demand.outcome == Outcome::out_of_reach ? 3
+              : demand.outcome == Outcome::undecided  ? 2
+              : demand.outcome == Outcome::bracketed  ? 1
+                                                      : 0,
+              demand.force()};
+    }
+
+    /** Let the @p member of a group that lacks the wanted factor ask for what
+     * the group asks for. */
+    void
+    share_demand(const SafetyFactor &finder, SafetyFactor &member)
+    {
+      if (finder.group_lower >= finder.support_demand.factor ||
+          size_of(finder.tried_demand) <= size_of(member.tried_demand))
+        return;
+      member.tried_demand = finder.tried_demand;
+      member.tried_demand.trials.clear();
+    }
+  } // namespace
 
 
 
@@ -38,6 +68,7 @@ namespace Keyblock
           (!is_same && member.outcome == SafetyFactor::Outcome::bracketed &&
            member.upper < finder.group_lower))
         return false;
+      share_demand(finder, member);
       member.group                 = finder.group;
       member.group_lower           = finder.group_lower;
       member.group_upper           = finder.group_upper;

@@ -283,7 +283,7 @@ namespace Keyblock
         case Mode::two_planes:
           return "sliding on " + names(all);
         case Mode::rotating:
-          return "rotating on " + names(all);
+          return n_pressed == 0 ? "rotating" : "rotating on " + names(all);
       }
     return "";
   }

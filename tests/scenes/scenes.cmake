@@ -475,6 +475,9 @@ keyblock_scene(verification/lined_tunnel_3d RANKS 1 2)
 keyblock_scene(verification/bolted_roof_3d RANKS 1 2)
 # slabs one under the other on the same bolts
 keyblock_scene(verification/hanging_slabs RANKS 1 2)
+# both ask for what their group does
+keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_demand RANKS 1 2
+  SET "Safety factor/Wanted=2" "Safety factor/Wanted by=strength reduction")
 # hard rock on soft bolts: a swing takes much longer than waves through the block
 keyblock_scene(verification/hanging_slabs REFERENCES hanging_slabs_hard RANKS 1 2
   SET "Materials/rock/Young modulus=1e11")

@@ -105,6 +105,11 @@ BOOST_AUTO_TEST_CASE(time_series_units)
   BOOST_TEST(
     refusal("t (h), v\n0, 1\n1, 2\n").find("times may be in s or ms") !=
     std::string::npos);
+  // names of another quantity
+  for (const std::string name :
+       {"ax", "acceleration", "a_x", "sxy", "stress x", "ux", "ax (m/s)"})
+    BOOST_TEST(refusal("t," + name + "\n0,1\n1,2\n")
+                 .find("by which it is no velocity") != std::string::npos);
   BOOST_TEST(refusal("t, v (g)\n0, 1\n1, 2\n").find("'v (g)' a unit") !=
              std::string::npos);
 }
@@ -121,7 +126,7 @@ BOOST_AUTO_TEST_CASE(time_series_order_of_axes)
     BOOST_TEST(TimeSeries::read(write(names + "\n0,1,2\n1,3,4\n"), entry, 2)
                  .value(0., 0) == 2.);
   for (const std::string names :
-       {"t,up,east,north", "t,vertical,E,N", "time,U,EW,NS", "t,a_z,a_x,a_y"})
+       {"t,up,east,north", "t,vertical,E,N", "time,U,EW,NS", "t,v_z,v_x,v_y"})
     for (unsigned int d = 0; d < 3; ++d)
       BOOST_TEST(
         TimeSeries::read(write(names + "\n0,3,1,2\n1,0,0,0\n"), entry, 3)

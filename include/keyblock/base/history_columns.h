@@ -13,8 +13,8 @@ namespace Keyblock
     /** Read it from the header: units in brackets behind names, and axes by
      * names: x, y, z, also as their last letters, or east, north, up and the
      * like. Throws InputError for units that are not known or are none of
-     * times or of values in @p si_unit (m/s, m/s2, Pa), for names that are not
-     * known and for an axis that is there twice. */
+     * times or of values in @p si_unit (m/s, m/s2, Pa), for names of another
+     * quantity or that are not known, and for an axis that is there twice. */
     HistoryColumns(const DelimitedText &table,
                    const std::string &si_unit,
                    const std::string &entry);

@@ -93,11 +93,13 @@ namespace Keyblock
     RunRecord<dim> &record;
   };
 
-  /** The line about a block whose group's factor was found after its own. */
+  /** The lines about a block whose group's factor was found after its own, and
+   * with it what the group asks for. */
   template <int dim>
   void print_group(std::ostream &out,
                    const SafetyFactor &factor,
-                   const Blocks<dim> &blocks);
+                   const Blocks<dim> &blocks,
+                   const Scene<dim> &scene);
 
   /** The line about a factor on the screen. */
   template <int dim>

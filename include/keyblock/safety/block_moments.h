@@ -24,6 +24,14 @@ namespace Keyblock
                         const std::vector<PointForce<dim>> &pressed,
                         const Tensor<1, dim> &way,
                         const double factor);
+
+  /** The greatest factor from 1 to @p most for which balances_moments(), which
+   * holds at 1, does in the passive convention. */
+  template <int dim>
+  double greatest_balanced_factor(const BlockSurroundings<dim> &around,
+                                  const BlockSupport<dim> &support,
+                                  const Tensor<1, dim> &way,
+                                  const double most);
 } // namespace Keyblock
 
 #endif

@@ -47,7 +47,7 @@ namespace Keyblock
       lifting, ///< leaves all faces, against it
       one_plane,
       two_planes,
-      rotating ///< turns about an edge of the one plane it is pressed on
+      rotating ///< turns, as about an edge of the one plane it is pressed on
     };
     Mode mode = Mode::stable;
 
@@ -66,7 +66,8 @@ namespace Keyblock
     double fixed_resistance   = 0.; ///< of faces that are not reduced
 
     /** Number by which the reduced resistance is divided when both together
-     * are the driving force; 0 if rotating, infinite if stable or held by faces
+     * are the driving force; 0 if rotating, but for what
+     * passive bolts balance, infinite if stable or held by faces
      * that are not reduced [-]. */
     double factor = 0.;
 
