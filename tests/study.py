@@ -97,6 +97,28 @@ def faults_of_groups(keyblock, scene, folder):
     return faults
 
 
+def faults_of_leaning(keyblock, scene, folder):
+    """What is wrong where a block fails that a failing one has held."""
+    table, results = study(
+        keyblock, str(pathlib.Path(scene).with_name("factor_group.prm")),
+        folder / "leaning", "Study/Names=friction", "Study/Samples=1",
+        "Study/friction/Entry=Joints/lower/Friction angle",
+        "Study/friction/Distribution=sequence", "Study/friction/Minimum=25")
+    header, row = table.splitlines()[1:3]
+    values = dict(zip(header.split(","), row.split(",")))
+    faults = []
+    # each by itself, 25 and 20 degrees on 30
+    exact = [math.tan(math.radians(phi)) / math.tan(math.radians(30))
+             for phi in (20, 25)]
+    found = sorted(float(values[name] or "inf") for name in ("factor_1", "factor_2"))
+    if max(abs(f - e) for f, e in zip(found, exact)) > 1e-6:
+        faults.append(f"blocks that fall one after the other have {found}")
+    if values["failed_blocks"] != "2" or any(
+            block["probability"]["value"] != 1 for block in results["blocks"]):
+        faults.append("a block that falls after another one has not failed")
+    return faults
+
+
 def faults_of_joints(keyblock, folder):
     """What is wrong where variables are strengths of a set, of a bent joint and
     of a pattern, which are changed in place: samples are those of scenes that
@@ -255,6 +277,7 @@ def main():
     faults += faults_of_runs(keyblock, scene, folder)
     faults += faults_of_stages(keyblock, scene, folder)
     faults += faults_of_groups(keyblock, scene, folder)
+    faults += faults_of_leaning(keyblock, scene, folder)
     if faults:
         sys.exit("; ".join(faults))
 

@@ -57,7 +57,7 @@ def probability_section(study):
     text = "".join(f"<tr><td>{name}</td><td class=n>{size}</td>{band(p)}</tr>"
                    for name, size, p in rows)
     means = facts([
-        ("failed blocks per sample",
+        ("failed blocks per sample, with those that fall once others have gone",
          number(results.get("failed_blocks_per_sample"))),
         (f"failed {'area' if study.is_plane else 'volume'} per sample",
          f"{number(results.get('failed_volume_per_sample'))} {unit}"),

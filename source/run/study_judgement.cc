@@ -51,24 +51,20 @@ namespace Keyblock
       [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
         auto &now = factors[ground.stage_number];
         now.resize(all.size());
-        for (unsigned int b = 0; b < all.size(); ++b)
+        // what falls once others have gone falls, too
+        for (const JudgedBlock<dim> &one :
+             judge_exposed_blocks(ground, free, g.blocks, 0.))
           {
-            const auto &classes = all[b].class_of_stage;
-            if (classes[std::min<std::size_t>(ground.stage_number,
-                                              classes.size() - 1)] ==
-                BlockClass::exposed)
-              {
-                const double factor =
-                  judge_block(ground, free, g.blocks, b, 0.).limit.factor;
-                AssertThrow(!std::isnan(factor),
-                            InputError("Block " + std::to_string(all[b].id) +
-                                       " of a sample of 'Study' has no factor, "
-                                       "as a formula for its water or loads "
-                                       "has no value there; correct the "
-                                       "formula, or the range of what it "
-                                       "depends on."));
-                now[b] = factor;
-              }
+            AssertThrow(!std::isnan(one.statics.limit.factor) &&
+                          !std::isnan(one.least_factor),
+                        InputError("Block " +
+                                   std::to_string(all[one.block].id) +
+                                   " of a sample of 'Study' has no factor, "
+                                   "as a formula for its water or loads "
+                                   "has no value there; correct the "
+                                   "formula, or the range of what it "
+                                   "depends on."));
+            now[one.block] = one.least_factor;
           }
       });
     BlockFactors found{

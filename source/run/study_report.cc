@@ -231,7 +231,8 @@ namespace Keyblock
         << scene.study.threshold << "): " << probability_of(results.size())
         << " with 95 %\n        failed blocks per sample " << mean_failed
         << ", " << (dim == 2 ? "area " : "volume ") << mean_volume
-        << (dim == 2 ? " m2" : " m3");
+        << (dim == 2 ? " m2" : " m3")
+        << ", with those that fall once others have gone";
     if (dim == 3 && length > 0.)
       out << ", per metre of tunnel " << mean_failed / length << " and "
           << mean_volume / length << " m3";

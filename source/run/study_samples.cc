@@ -138,7 +138,9 @@ namespace Keyblock
   {
     std::string text =
       "# study " +
-      digest_of(entries_of_samples(list_entries(scene.used_entries()))) +
+      // results without what falls once others have gone are of another study
+      digest_of("with others gone\n" +
+                entries_of_samples(list_entries(scene.used_entries()))) +
       "\nsample";
     for (const auto &variable : scene.study_variables)
       text += "," + variable->name;

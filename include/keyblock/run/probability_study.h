@@ -56,7 +56,8 @@ namespace Keyblock
     /** Overrides that make a sample of the scene. */
     std::vector<std::string> overrides_of(const unsigned int index) const;
 
-    /** Factors of blocks by limit equilibrium, and the stages of the least. */
+    /** Factors of blocks by limit equilibrium, once those that fail have gone,
+     * and the stages of the least. */
     struct BlockFactors
     {
       std::vector<double> factor;      ///< by block; infinite: it cannot move
