@@ -31,6 +31,16 @@ namespace Keyblock
              !scene.bolts.empty();
     }
 
+    /** Whether blocks are judged that stand free: by factors, by a study, or by
+     * the table of limit equilibrium. */
+    template <int dim>
+    bool
+    judges_blocks(const Scene<dim> &scene)
+    {
+      return scene.safety.is_wanted() || !scene.study_variables.empty() ||
+             (!scene.joints.empty() && !scene.excavations.empty());
+    }
+
     template <int dim>
     bool
     is_to_rest(const Scene<dim> &scene)
@@ -62,6 +72,12 @@ namespace Keyblock
       found.push_back("Nothing loads the rock, neither gravity nor stress nor "
                       "water nor a traction, so that every block is stable; "
                       "give 'Initial state/Gravity', or 'Ground/Depth'.");
+    else if (!has_gravity(scene) && judges_blocks(scene))
+      found.push_back(std::string("Blocks have no weight in limit equilibrium, "
+                                  "trials and steps, whatever stress the rock "
+                                  "is under, so that none falls or slides by "
+                                  "itself; give 'Initial state/Gravity', as ") +
+                      (dim == 2 ? "'0; -9.81'." : "'0; 0; -9.81'."));
     if (!is_held && has_gravity(scene) && is_to_rest(scene))
       found.push_back("Nothing holds the model, neither a support nor a rigid "
                       "material, so that it falls as a whole and comes to no "

@@ -872,6 +872,11 @@ def hardly_meant():
                       "Safety factor/Blocks=exposed", "Supports/Names=rest",
                       "Supports/rest/Boundaries=bottom"],
              ["Nothing loads the rock, neither gravity nor stress nor water"]),
+            (ROOF, ["Initial state/Gravity=0; 0", "Safety factor/Blocks=none"],
+             ["Blocks have no weight in limit equilibrium", "as '0; -9.81'."]),
+            (incline, ["Initial state/Gravity=0; 0", "Tractions/Names=p",
+                       "Tractions/p/Boundaries=top", "Tractions/p/Traction=0; -1e3"],
+             ["Blocks have no weight in limit equilibrium"]),
             (radians, [], ["'Joints/J1/Dip' is 1.13 degrees, and no dip of the scene is "
                            "above 1.6: are they in radians? That would be 64.7"]),
             (ROOF, [], []),
