@@ -877,6 +877,13 @@ def hardly_meant():
             (incline, ["Initial state/Gravity=0; 0", "Tractions/Names=p",
                        "Tractions/p/Boundaries=top", "Tractions/p/Traction=0; -1e3"],
              ["Blocks have no weight in limit equilibrium"]),
+            (cavern, ["Tractions/Names=road", "Tractions/road/Boundaries=top",
+                      "Tractions/road/Traction=0; -20e3"],
+             ["MPa along the vertical, and what loads the top from the start (road) is "
+              "0.02 MPa"]),
+            (cavern, ["Initial state/Stress=-1e6; -1e6; -1e6; 0"],
+             ["is 1 MPa along the vertical, and what loads the top from the start "
+              "(overburden)"]),
             (radians, [], ["'Joints/J1/Dip' is 1.13 degrees, and no dip of the scene is "
                            "above 1.6: are they in radians? That would be 64.7"]),
             (ROOF, [], []),
