@@ -54,6 +54,8 @@ namespace Keyblock
       bool
       next(DelimitedText::Row &row)
       {
+        if (place == 0)
+          take_separator_line();
         while (place < text.size())
           {
             if (is_comment())
@@ -102,10 +104,29 @@ namespace Keyblock
         ++line;
       }
 
+      /** Skip a first line 'sep=;', by which spreadsheets are told what
+       * separates fields. */
+      void
+      take_separator_line()
+      {
+        std::string first = text.substr(0, text.find('\n'));
+        first.erase(std::remove(first.begin(), first.end(), '"'), first.end());
+        if (first.size() < 5 ||
+            (first.compare(0, 4, "sep=") != 0 &&
+             first.compare(0, 4, "SEP=") != 0) ||
+            first.find_first_not_of(" ;,\t", 5) != std::string::npos ||
+            std::string(";,\t").find(first[4]) == std::string::npos)
+          return;
+        given = first[4];
+        skip_line();
+      }
+
       /** What separates the fields of the present line. */
       char
       find_separator() const
       {
+        if (given != '\0')
+          return given;
         bool is_quoted = false, has_semicolon = false;
         for (std::size_t i = place;
              i < text.size() && (text[i] != '\n' || is_quoted);
@@ -185,6 +206,7 @@ namespace Keyblock
       std::size_t place = 0;
       unsigned int line = 1;
       bool has_header   = false;
+      char given        = '\0'; ///< by a line 'sep='
     };
 
     /** Drop empty fields at the end down to @p n of them. */
@@ -212,6 +234,8 @@ namespace Keyblock
                            "columns."));
     splitter.keep_separator();
     drop_empty_end(table.header.fields, 0);
+    for (std::string &title : table.header.fields)
+      std::replace(title.begin(), title.end(), '\n', ' ');
     const std::size_t n_columns = table.header.fields.size();
     for (DelimitedText::Row row; splitter.next(row);)
       {

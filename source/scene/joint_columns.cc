@@ -160,6 +160,11 @@ namespace Keyblock
     std::string
     normalized(std::string text)
     {
+      // effective strength has a prime, and friction a Greek letter
+      for (const char *prime : {"'", "\xE2\x80\x99", "\xE2\x80\xB2"})
+        boost::erase_all(text, prime);
+      for (const char *letter : {"\xCF\x86", "\xCF\x95", "\xCE\xA6"})
+        boost::replace_all(text, letter, "phi");
       // the superscript 2 in UTF-8 and in Latin-1, as the sign of degrees
       for (const char *sign : degree_signs)
         boost::replace_all(text, sign, " deg");
@@ -365,6 +370,20 @@ namespace Keyblock
         places[known->column] = ColumnPlace{i, unit};
       }
     return places;
+  }
+
+
+
+  bool
+  is_line_of_units(const DelimitedText::Row &row)
+  {
+    bool has_unit = false;
+    for (const std::string &field : row.fields)
+      if (known_units().count(normalized(field)) > 0)
+        has_unit = true;
+      else if (field.find_first_of("0123456789") != std::string::npos)
+        return false;
+    return has_unit;
   }
 
 

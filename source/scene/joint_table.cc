@@ -270,7 +270,7 @@ namespace Keyblock
       const std::string &text = row.text(C::water_pressure);
       double pressure         = 0.;
       if (read_number(text, row.table.has_decimal_comma(), pressure))
-        strength.water_pressure = exact_text(unit * pressure);
+        strength.water_pressure = exact_text(row.number(C::water_pressure));
       else
         strength.water_pressure =
           unit == 1. ? text : exact_text(unit) + " * (" + text + ")";
@@ -351,13 +351,20 @@ namespace Keyblock
     const DelimitedText table = read_delimited_text(file_name, "Joints/File");
     const Columns columns     = find_joint_columns(table);
     check_columns<dim>(table, columns);
-    const bool has_commas = has_decimal_commas(table);
+    AssertThrow(table.rows.empty() || !is_line_of_units(table.rows[0]),
+                InputError("Line " + std::to_string(table.rows[0].line) +
+                           " of the table '" + table.file_name +
+                           "' has units instead of a joint; delete it, and "
+                           "write units into the header, as 'dip (deg)'."));
+    const bool has_commas = has_decimal_commas(table),
+               has_points = has_decimal_points(table, columns);
     std::vector<std::unique_ptr<Joint<dim>>> joints;
     joints.reserve(table.rows.size());
     std::vector<bool> has_name;
     for (unsigned int i = 0; i < table.rows.size(); ++i)
       {
-        const RowReader row(table, columns, table.rows[i], has_commas);
+        const RowReader row(
+          table, columns, table.rows[i], has_commas, has_points);
         joints.push_back(std::make_unique<Joint<dim>>());
         Joint<dim> &joint = *joints.back();
         joint.origin      = row.place();

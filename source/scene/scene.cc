@@ -259,7 +259,7 @@ namespace Keyblock
     for (const auto &joint : joints)
       if (dim == 3 && joint->extent == JointShape::polygon)
         tidy_corners(joint->vertices, "Joints/" + joint->name + "/Vertices");
-    for (const auto &warnings : {warnings_of_table(*this),
+    for (const auto &warnings : {warnings_of_table(*this, text),
                                  warnings_of_sets(*this),
                                  warnings_of_drawings(*this),
                                  warnings_of_nested_solids(*this)})

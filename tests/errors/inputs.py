@@ -260,6 +260,25 @@ def table_without_rows():
           "has a header and no rows")
 
 
+def table_without_friction():
+    """A joint of a table that nothing gives a friction angle has the default one."""
+    table = pathlib.Path("a.csv").resolve()
+    header, rows = "name,dip,dip direction,x,y", ("A,40,270,0,0", "B,60,90,1,0")
+    for title, cells, settings, sentence in (
+            ("", ("", ""), [], "has no column of friction: the default, 30 degrees"),
+            (",phi", (",20", ","), [], "no friction in 1 row (line 3): the default, 30"),
+            (",phi", (",20", ",25"), [], ""),
+            (",phi'", (",20", ","), ["Joints/B/Friction angle=30"], "")):
+        table.write_text("\n".join((header + title, rows[0] + cells[0],
+                                    rows[1] + cells[1], "")), encoding="utf-8")
+        told = [text for text in warnings_of(validate(
+            PRM / "tutorial" / "first_tunnel.prm",
+            [f"Joints/File={table}", "Joint sets/Names=",
+                                         "Study/Names="] + settings))
+                if "friction" in text]
+        assert len(told) == bool(sentence) and all(sentence in t for t in told), told
+
+
 def other_units():
     """Values that look as if they were in another unit."""
     valid(validate(INCLINE))

@@ -63,6 +63,40 @@ namespace
   }
 } // namespace
 
+BOOST_AUTO_TEST_CASE(headers_of_effective_strength)
+{
+  for (const std::string header :
+       {"phi',c'",
+        "phi' (deg),c' (Pa)",
+        "\xCF\x86 (\xC2\xB0),c (Pa)",
+        "\"\xCF\x86\xE2\x80\xB2\n(deg)\",c\xE2\x80\x99"})
+    {
+      const auto joints =
+        read<3>("dip,dip direction,x,y,z," + header + "\n50,30,0,0,0,20,1e4\n");
+      BOOST_TEST(joints[0]->friction_angle == 20.);
+      BOOST_TEST(joints[0]->cohesion == 1e4);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(commas_between_thousands)
+{
+  const std::string header = "dip;dip direction;x;y;z;c\n";
+  check_refused<3>(header + "50;30;0.5;0;0;12,000\n",
+                   {"Line 2", "'cohesion'", "'12,000' may be"});
+  const auto joints = read<3>(header + "50;30;0,5;0;0;12,000\n");
+  BOOST_TEST(joints[0]->cohesion == 12.);
+}
+
+BOOST_AUTO_TEST_CASE(lines_of_spreadsheets)
+{
+  const auto joints =
+    read<3>("sep=;\ndip;dip direction;x;y;z\n50;30;0,5;0;0\n");
+  BOOST_TEST(joints[0]->point[0] == 0.5);
+  BOOST_TEST(joints[0]->origin.find("Line 3 ") == 0u);
+  check_refused<3>("dip,dip direction,x,y,z\ndeg,\xC2\xB0,m,m,m\n50,30,0,0,0\n",
+                   {"Line 2", "has units instead of a joint; delete it"});
+}
+
 BOOST_AUTO_TEST_CASE(table_of_discs)
 {
   const auto joints = read<3>("dip,dip_direction,x,y,z,radius,phi,c\n"

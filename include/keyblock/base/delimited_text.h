@@ -30,8 +30,9 @@ namespace Keyblock
   };
 
   /**
-   * Read a table from @p file_name. The header tells what separates fields: a
-   * tab, else ';', else ','. Fields may be quoted ("a ""quoted"" field"); a
+   * Read a table from @p file_name. A first line 'sep=;' tells what separates
+   * fields, else the header: a tab, else ';', else ','. Line breaks in quoted
+   * titles are blanks. Fields may be quoted ("a ""quoted"" field"); a
    * byte order mark, CR LF, empty lines and lines that begin with '#' do not
    * count, nor do empty fields at the end of a row. Throws InputError, with
    * the line, for files that cannot be read, quotes without an end, and rows

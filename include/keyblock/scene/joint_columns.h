@@ -72,13 +72,17 @@ namespace Keyblock
 
   /**
    * Find out what the columns of @p table are: upper and lower case, spaces,
-   * '_' and '-' are the same, units follow the name or stand in brackets.
+   * '_' and '-' are the same, units follow the name or stand in brackets,
+   * primes do not count.
    * Columns that are not known are left out, unless a word of theirs, as it is
    * or misspelt, is one of a known column's. Throws InputError for these, and
    * for columns that stand twice or have a unit that does not fit.
    */
   std::map<JointColumn, ColumnPlace>
   find_joint_columns(const DelimitedText &table);
+
+  /** Whether a row has no numbers, but units. */
+  bool is_line_of_units(const DelimitedText::Row &row);
 
   /** The titles of the columns that find_joint_columns() leaves out. */
   std::vector<std::string> columns_left_out(const DelimitedText &table);

@@ -33,9 +33,10 @@ namespace Keyblock
                    const std::map<std::string, JointStrength> &strength_of_set);
 
   /** What is allowed and probably not meant of the scene's table, as long as
-   * its joints are as they were read. */
+   * its joints are as they were read, by the scene's @p text. */
   template <int dim>
-  std::vector<std::string> warnings_of_table(const Scene<dim> &scene);
+  std::vector<std::string> warnings_of_table(const Scene<dim> &scene,
+                                             const SceneText &text);
 
   /** Throws InputError if @p name (of what @p owner says) has letters that
    * lists and paths of entries are parted by. */

@@ -34,6 +34,23 @@ namespace Keyblock
     return false;
   }
 
+  /** Whether some number of the table has a decimal point where it may have a
+   * comma. */
+  inline bool
+  has_decimal_points(const DelimitedText &table, const Columns &columns)
+  {
+    double number = 0.;
+    if (table.has_decimal_comma())
+      for (const auto &[column, place] : columns)
+        if (column != C::name && column != C::set && column != C::comment)
+          for (const DelimitedText::Row &row : table.rows)
+            if (const std::string &field = row.fields[place.index];
+                field.find('.') != std::string::npos &&
+                read_number(field, true, number))
+              return true;
+    return false;
+  }
+
   /** One row of a table, and sentences about it. */
   class RowReader
   {
@@ -41,11 +58,13 @@ namespace Keyblock
     RowReader(const DelimitedText &table,
               const Columns &columns,
               const DelimitedText::Row &row,
-              const bool has_commas)
+              const bool has_commas,
+              const bool has_points)
       : table(table)
       , columns(columns)
       , row(row)
       , has_commas(has_commas)
+      , has_points(has_points)
     {}
 
     /** `Line 7 of the table 'joints.csv'`. */
@@ -98,7 +117,14 @@ namespace Keyblock
               "'" + text(column) +
                 "' is not a number; write digits with a decimal point (or "
                 "comma, if ';' or tabs separate the columns).");
-      require(!has_commas || !may_have_thousands_points(digits),
+      require(!has_points || !may_have_thousands(digits, ","),
+              column,
+              "'" + text(column) +
+                "' may be a number with a decimal comma or one with commas "
+                "between thousands, as other numbers of the table have a "
+                "decimal point; write it without commas, or all numbers with "
+                "decimal commas.");
+      require(!has_commas || !may_have_thousands(digits, "."),
               column,
               "'" + text(column) +
                 "' may be a number with a decimal point or one with points "
@@ -141,6 +167,7 @@ namespace Keyblock
     const Columns &columns;
     const DelimitedText::Row &row;
     const bool has_commas; ///< some number of the table has a decimal comma
+    const bool has_points; ///< some has a decimal point where it may have those
 
   private:
     /** What stands in the column; of an angle in degrees without their sign.*/
@@ -159,13 +186,13 @@ namespace Keyblock
       return digits;
     }
 
-    /** Whether points may part thousands: all groups behind the first one have
-     * three digits. */
+    /** Whether a @p sign may part thousands: all groups behind the first one
+     * have three digits. */
     static bool
-    may_have_thousands_points(const std::string &digits)
+    may_have_thousands(const std::string &digits, const std::string &sign)
     {
       std::vector<std::string> groups;
-      boost::split(groups, digits, boost::is_any_of("."));
+      boost::split(groups, digits, boost::is_any_of(sign));
       return groups.size() > 1 &&
              std::all_of(groups.begin(), groups.end(), [&](const auto &group) {
                const bool is_first = &group == &groups.front();
