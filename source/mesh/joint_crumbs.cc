@@ -55,6 +55,29 @@ namespace Keyblock
 
 
 
+    /** Pieces with a face on an outline, that of an excavation as cells stand
+     * on both sides of it. */
+    template <int dim>
+    std::set<unsigned int>
+    pieces_on_outlines(const SimplexMesh<dim> &mesh, const Pieces<dim> &pieces)
+    {
+      std::set<unsigned int> found;
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        if (mesh.cells[c].is_alive)
+          for (unsigned int i = 0; i <= dim; ++i)
+            if (const auto marks = mesh.marks.find(mesh.facet(c, i));
+                mesh.neighbor(c, i) != no_index && marks != mesh.marks.end() &&
+                std::any_of(marks->second.begin(),
+                            marks->second.end(),
+                            [&mesh](const auto &mark) {
+                              return !mesh.surfaces[mark.surface].is_joint();
+                            }))
+              found.insert(pieces.of_cell[c]);
+      return found;
+    }
+
+
+
     /** One pass; whether there were any. */
     template <int dim>
     bool
@@ -85,6 +108,7 @@ namespace Keyblock
               common[pair] += mesh.measure(facet);
               facets.push_back({facet, pair});
             }
+      const std::set<unsigned int> exposed = pieces_on_outlines(mesh, pieces);
       std::set<PiecePair> dissolved;
       for (unsigned int p = 0; p < pieces.volume.size(); ++p)
         {
@@ -97,6 +121,8 @@ namespace Keyblock
           ++report.n_lost_blocks;
           report.lost_rock.push_back(
             {pieces.center[p], std::pow(pieces.volume[p], 1. / dim)});
+          if (exposed.count(p) > 0)
+            report.lost_exposed.push_back({pieces.volume[p], pieces.center[p]});
           if (pieces.volume[p] > report.largest_lost_volume)
             {
               report.largest_lost_volume = pieces.volume[p];

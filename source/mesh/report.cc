@@ -249,16 +249,40 @@ namespace Keyblock
     {
       if (report.n_lost_blocks == 0)
         return;
+      const auto describe =
+        [](std::ostream &out, const double volume, const Point<dim> &place) {
+          out << volume << (dim == 2 ? " m2" : " m3") << " at (" << place
+              << ") m";
+        };
       const bool is_one      = report.n_lost_blocks == 1;
       std::ostringstream out = begin_sentence();
       out << count_text(report.n_lost_blocks, "block")
           << " smaller than a fifth of a triangle or tetrahedron went to "
           << (is_one ? "its" : "their") << " neighbours, "
-          << (is_one ? "" : "the largest ") << "of "
-          << report.largest_lost_volume << (dim == 2 ? " m2" : " m3") << " at ("
-          << report.largest_lost_place
-          << ") m; lower 'Mesh/Size' there to keep "
-          << (is_one ? "it." : "them.");
+          << (is_one ? "" : "the largest ") << "of ";
+      describe(out, report.largest_lost_volume, report.largest_lost_place);
+      out << "; lower 'Mesh/Size' there to keep " << (is_one ? "it." : "them.");
+      auto exposed = report.lost_exposed;
+      std::sort(exposed.begin(),
+                exposed.end(),
+                [](const auto &a, const auto &b) {
+                  return a.volume > b.volume;
+                });
+      constexpr std::size_t most_told = 5;
+      const std::size_t n_told        = std::min(exposed.size(), most_told);
+      if (is_one && n_told > 0)
+        out << " It is at an excavation, where it may fall, and is not judged.";
+      for (std::size_t i = 0; i < n_told && !is_one; ++i)
+        {
+          out << (i > 0 ? "; "
+                        : " At an excavation, where they may fall, and "
+                          "not judged: ");
+          describe(out, exposed[i].volume, exposed[i].place);
+        }
+      if (exposed.size() > n_told)
+        out << "; and " << exposed.size() - n_told << " smaller";
+      if (!is_one && n_told > 0)
+        out << '.';
       found.push_back(out.str());
     }
   } // namespace

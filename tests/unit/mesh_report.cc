@@ -51,6 +51,15 @@ BOOST_AUTO_TEST_CASE(one_block_that_went_to_its_neighbours)
   BOOST_TEST(has(text(1), "to keep it.\n"));
   BOOST_TEST(has(text(2), "2 blocks smaller than a fifth"));
   BOOST_TEST(has(text(2), "to keep them.\n"));
+  // each of those at an excavation
+  report.lost_exposed.push_back({0.25, {1., 2.}});
+  BOOST_TEST(
+    has(text(1),
+        "to keep it. It is at an excavation, where it may fall, and is "
+        "not judged.\n"));
+  report.lost_exposed.push_back({0.5, {3., 4.}});
+  BOOST_TEST(
+    has(text(3), "and not judged: 0.5 m2 at (3, 4) m; 0.25 m2 at (1, 2) m.\n"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

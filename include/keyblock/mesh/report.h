@@ -67,6 +67,14 @@ namespace Keyblock
     double largest_lost_volume = 0.; ///< [m^dim]
     Point<dim> largest_lost_place;
 
+    /** Those of them with a face on an excavation, in whatever order. */
+    struct LostBlock
+    {
+      double volume; ///< [m^dim]
+      Point<dim> place;
+    };
+    std::vector<LostBlock> lost_exposed;
+
     /** Rock between joints that became no block of its own. */
     struct LostRock
     {
