@@ -128,7 +128,7 @@ namespace Keyblock
         const unsigned int minus =
           numbering.local_node(interface.pairs[p].minus);
         const unsigned int plus = numbering.local_node(interface.pairs[p].plus);
-        if (minus == none || plus == none || stays_pair(p))
+        if (minus == none || plus == none)
           continue;
         Vector<dim> slip;
         for (int d = 0; d < dim; ++d)
@@ -137,7 +137,8 @@ namespace Keyblock
         slip =
           add<dim>(slip, -dot<dim>(slip, memory.normal[p]), memory.normal[p]);
         if (norm<dim>(slip) >
-            scene.contact.slip_tolerance * interface.pairs[p].face_size)
+              scene.contact.slip_tolerance * interface.pairs[p].face_size &&
+            !stays_pair(p))
           {
             memory.state[p].is_converted = true;
             has_slid                     = true;

@@ -55,29 +55,6 @@ namespace Keyblock
 
 
 
-    /** Pieces with a face on an outline, that of an excavation as cells stand
-     * on both sides of it. */
-    template <int dim>
-    std::set<unsigned int>
-    pieces_on_outlines(const SimplexMesh<dim> &mesh, const Pieces<dim> &pieces)
-    {
-      std::set<unsigned int> found;
-      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-        if (mesh.cells[c].is_alive)
-          for (unsigned int i = 0; i <= dim; ++i)
-            if (const auto marks = mesh.marks.find(mesh.facet(c, i));
-                mesh.neighbor(c, i) != no_index && marks != mesh.marks.end() &&
-                std::any_of(marks->second.begin(),
-                            marks->second.end(),
-                            [&mesh](const auto &mark) {
-                              return !mesh.surfaces[mark.surface].is_joint();
-                            }))
-              found.insert(pieces.of_cell[c]);
-      return found;
-    }
-
-
-
     /** One pass; whether there were any. */
     template <int dim>
     bool
@@ -87,20 +64,26 @@ namespace Keyblock
       using Facet = typename SimplexMesh<dim>::Facet;
       std::map<PiecePair, double> common;
       std::vector<std::pair<Facet, PiecePair>> facets;
+      std::set<unsigned int> exposed; // pieces with a face on an excavation
       for (unsigned int c = 0; c < mesh.cells.size(); ++c)
         if (mesh.cells[c].is_alive)
           for (unsigned int i = 0; i <= dim; ++i)
             {
               const Facet facet = mesh.facet(c, i);
               const auto found  = mesh.marks.find(facet);
-              if (found == mesh.marks.end() ||
-                  std::any_of(found->second.begin(),
+              if (found == mesh.marks.end())
+                continue;
+              const unsigned int other = mesh.neighbor(c, i);
+              if (std::any_of(found->second.begin(),
                               found->second.end(),
                               [&mesh](const auto &mark) {
                                 return !mesh.surfaces[mark.surface].is_joint();
                               }))
-                continue;
-              const unsigned int other = mesh.neighbor(c, i);
+                {
+                  if (other != no_index) // else the outer boundary
+                    exposed.insert(pieces.of_cell[c]);
+                  continue;
+                }
               const PiecePair pair =
                 std::minmax(pieces.of_cell[c], pieces.of_cell[other]);
               if (other < c || pair.first == pair.second)
@@ -108,7 +91,6 @@ namespace Keyblock
               common[pair] += mesh.measure(facet);
               facets.push_back({facet, pair});
             }
-      const std::set<unsigned int> exposed = pieces_on_outlines(mesh, pieces);
       std::set<PiecePair> dissolved;
       for (unsigned int p = 0; p < pieces.volume.size(); ++p)
         {

@@ -112,15 +112,19 @@ namespace Keyblock
           const bool creeps =
             !progress.is_converged && motion.way > least_creep * block.size;
           // or has only begun to, farther than its load deforms it
-          const BlockBalance<dim> balance =
-            measure_balance(model.fields, nodes[b], model.communicator);
-          const bool begins =
-            !progress.is_converged && !goes_off && !creeps &&
-            is_driven<dim>(balance, velocities[b].shift) &&
-            way > compression_of_block(model.conditions->active_cells.ground(),
+          bool begins = false;
+          if (!progress.is_converged && !goes_off && !creeps)
+            {
+              const BlockBalance<dim> balance =
+                measure_balance(model.fields, nodes[b], model.communicator);
+              begins =
+                is_driven<dim>(balance, velocities[b].shift) &&
+                way >
+                  compression_of_block(model.conditions->active_cells.ground(),
                                        b,
                                        block,
                                        balance.load);
+            }
           if (goes_off || creeps || begins || way > long_way * block.size)
             movers.push_back({b,
                               way,

@@ -25,6 +25,42 @@ namespace Keyblock
       return nearest == nullptr ? 0. : nearest->unbalanced;
     }
 
+    /** Sum of areas over their sizes that is none [-]. */
+    constexpr double no_area = 1e-6;
+
+    /** Let the pressure of trials act on @p faces of blocks with a @p load [N];
+     * those on both ends may cancel each other, which leaves no unit. */
+    template <int dim>
+    PressedBlock<dim>
+    press_on(const RunParts<dim> &run,
+             const SplitMesh<dim> &split,
+             const std::vector<CellFace> &faces,
+             const double load)
+    {
+      run.conditions.trial_pressure.press_on(faces);
+      PressedBlock<dim> pressed;
+      double sum = 0.;
+      for (const CellFace &f : faces)
+        {
+          const Tensor<1, dim> area =
+            split.mesh.face_area_vector(f.cell, f.face);
+          pressed.area += area;
+          sum += area.norm();
+        }
+      if (pressed.area.norm() > no_area * sum)
+        pressed.unit = load / pressed.area.norm();
+      return pressed;
+    }
+
+    /** A pressure that does what @p unbalanced of the load does, if that is
+     * known [Pa]. */
+    template <int dim>
+    double
+    guess_pressure(const PressedBlock<dim> &pressed, const double unbalanced)
+    {
+      return pressed.unit * (unbalanced > 0. ? unbalanced : 1.);
+    }
+
     /** Capacity of bolts that do what an active force of @p demand does at the
      * wanted factor, which divides what passive ones bear [N]. */
     double
@@ -76,34 +112,54 @@ namespace Keyblock
     if (way.norm() == 0.)
       for (unsigned int d = 0; d < dim; ++d)
         way[d] = trials.failure.way()[d];
-    const std::vector<CellFace> faces =
-      list_supported_faces(ground, free, result.block, way);
-    run.conditions.trial_pressure.press_on(faces);
-
-    PressedBlock<dim> pressed;
-    double sum = 0.;
-    for (const CellFace &f : faces)
-      {
-        const Tensor<1, dim> area = split.mesh.face_area_vector(f.cell, f.face);
-        pressed.area += area;
-        sum += area.norm();
-      }
-    // those on both ends cancel each other
-    if (pressed.area.norm() <= PressureSearch::no_area * sum)
-      return pressed;
     TriedBlocks alone;
     alone.block = result.block;
+    PressedBlock<dim> pressed =
+      press_on(run,
+               split,
+               list_supported_faces(ground, free, result.block, way),
+               trials.measures.motion(alone).load);
+    if (pressed.unit == 0.)
+      return pressed;
     pressed.area_of_force =
       statics.around.free_area_ratio * pressed.area.norm();
-    pressed.unit = trials.measures.motion(alone).load / pressed.area.norm();
     if (std::isfinite(statics.demand.pressure))
       pressed.by_statics = statics.demand.pressure;
-    const double unbalanced =
-      unbalanced_in_failure(result, scene.safety.wanted);
     pressed.first_guess =
       pressed.by_statics > 0.
         ? pressed.by_statics
-        : pressed.unit * (unbalanced > 0. ? unbalanced : 1.);
+        : guess_pressure(pressed,
+                         unbalanced_in_failure(result, scene.safety.wanted));
+    return pressed;
+  }
+
+
+
+  template <int dim>
+  PressedBlock<dim>
+  StrengthReductionSearch<dim>::PressureSearch::press_on_group(
+    StrengthReductionSearch &owner,
+    const TriedBlocks &tried,
+    const double unbalanced)
+  {
+    const Ground<dim> ground = owner.run.conditions.active_cells.ground();
+    const FreeFaces<dim> free(ground);
+    Tensor<1, dim> way;
+    for (unsigned int d = 0; d < dim; ++d)
+      way[d] = owner.trials.failure.way()[d];
+    std::vector<CellFace> faces;
+    double load = 0.;
+    for (const unsigned int b : tried.all())
+      {
+        TriedBlocks alone;
+        alone.block = b;
+        load += owner.trials.measures.motion(alone).load;
+        const auto own = list_supported_faces(ground, free, b, way);
+        faces.insert(faces.end(), own.begin(), own.end());
+      }
+    PressedBlock<dim> pressed = press_on(owner.run, owner.split, faces, load);
+    pressed.area_of_force     = pressed.area.norm();
+    pressed.first_guess       = guess_pressure(pressed, unbalanced);
     return pressed;
   }
 

@@ -39,44 +39,9 @@ namespace Keyblock
     /** Let the pressure act on the free faces of all blocks that are @p tried,
      * for one whose own cancel each other.
      * @param unbalanced first guess of the pressure over their load [-] */
-    static PressedBlock<dim>
-    press_on_group(StrengthReductionSearch &owner,
-                   const TriedBlocks &tried,
-                   const double unbalanced)
-    {
-      const Ground<dim> ground = owner.run.conditions.active_cells.ground();
-      const FreeFaces<dim> free(ground);
-      Tensor<1, dim> way;
-      for (unsigned int d = 0; d < dim; ++d)
-        way[d] = owner.trials.failure.way()[d];
-      std::vector<CellFace> faces;
-      PressedBlock<dim> pressed;
-      double load = 0., sum = 0.;
-      for (const unsigned int b : tried.all())
-        {
-          TriedBlocks alone;
-          alone.block = b;
-          load += owner.trials.measures.motion(alone).load;
-          for (const CellFace &f : list_supported_faces(ground, free, b, way))
-            {
-              const Tensor<1, dim> area =
-                owner.split.mesh.face_area_vector(f.cell, f.face);
-              pressed.area += area;
-              sum += area.norm();
-              faces.push_back(f);
-            }
-        }
-      owner.run.conditions.trial_pressure.press_on(faces);
-      if (pressed.area.norm() <= no_area * sum)
-        return pressed;
-      pressed.area_of_force = pressed.area.norm();
-      pressed.unit          = load / pressed.area.norm();
-      pressed.first_guess = pressed.unit * (unbalanced > 0. ? unbalanced : 1.);
-      return pressed;
-    }
-
-    /** Sum of areas over their sizes that is none [-]. */
-    static constexpr double no_area = 1e-6;
+    static PressedBlock<dim> press_on_group(StrengthReductionSearch &owner,
+                                            const TriedBlocks &tried,
+                                            const double unbalanced);
 
     /** @param fails_without whether the block is known to fail without */
     TriedDemand::Outcome
