@@ -6,7 +6,7 @@
 
 #include <keyblock/base/expression.h>
 #include <keyblock/base/number_text.h>
-#include <keyblock/scene/boundary_names.h>
+#include <keyblock/scene/box_sides.h>
 #include <keyblock/scene/check.h>
 #include <keyblock/scene/entries.h>
 #include <keyblock/scene/gravity.h>
@@ -50,59 +50,6 @@ namespace Keyblock
       items.back()->declare(prm);
       prm.leave_subsection();
       prm.leave_subsection();
-    }
-
-    /** Places on a side of the box, none of them on its edges. */
-    template <int dim>
-    std::vector<Point<dim>>
-    places_on(const Domain<dim> &box, const std::string &side)
-    {
-      constexpr unsigned int n_along        = 16;
-      const std::vector<std::string> &sides = boundary_names<dim>();
-      const unsigned int s =
-        std::find(sides.begin(), sides.end(), side) - sides.begin();
-      const unsigned int n = dim == 2 ? n_along : n_along * n_along;
-      std::vector<Point<dim>> places;
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          Point<dim> place;
-          unsigned int rest = i;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              double share = s % 2;
-              if (d != s / 2)
-                {
-                  share = (rest % n_along + 0.5) / n_along;
-                  rest /= n_along;
-                }
-              place[d] = box.corner[d] + share * box.size[d];
-            }
-          places.push_back(place);
-        }
-      return places;
-    }
-
-    /** Whether a support or a traction is on a side: it names it, or its
-     * region has a part of it. */
-    template <int dim, typename Item>
-    bool
-    is_on_side(const Item &item,
-               const std::string &section,
-               const Domain<dim> &box,
-               const std::string &side)
-    {
-      for (const std::string &name : item.boundaries)
-        if (name == side || name == "all")
-          return true;
-      if (item.region.empty())
-        return false;
-      const Expression<dim> inside(item.region,
-                                   1,
-                                   section + "/" + item.name + "/Region");
-      const std::vector<Point<dim>> places = places_on(box, side);
-      return std::any_of(places.begin(), places.end(), [&](const auto &place) {
-        return inside.value(place, 0., 0) > 0.;
-      });
     }
 
     /** Whether the initial stress has horizontal shear on the sides of a box,
@@ -330,9 +277,7 @@ namespace Keyblock
       {
         complete_stress(
           *prm, text, ground, top, unit_weight, rock.density * gravity);
-        pressure = initial_state.surface_stress +
-                   initial_state.vertical_stress_gradient *
-                     (initial_state.surface_elevation - top);
+        pressure = vertical_stress_at(initial_state, top);
       }
     complete_supports(*prm, *this);
     const bool is_loaded =

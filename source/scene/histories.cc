@@ -229,7 +229,8 @@ namespace Keyblock
                                  warnings_of_water(*this),
                                  warnings_of_mistakes(*this),
                                  warnings_of_missing_entries(*this),
-                                 warnings_of_ground(*this)})
+                                 warnings_of_ground(*this),
+                                 warnings_of_ground_top(*this)})
       found.insert(found.end(), warnings.begin(), warnings.end());
     for (const auto &material : materials)
       if (material->is_plastic() &&

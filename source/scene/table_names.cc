@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 
 namespace Keyblock
 {
@@ -40,10 +41,12 @@ namespace Keyblock
                       const Joint<dim> &joint)
     {
       const std::string entry = "Friction angle";
-      const auto gives        = [&](const JointPassage &passage) {
+      static const std::regex assignment("(^|\\n)[ \\t]*set[ \\t]+" + entry +
+                                         "[ \\t]*=");
+      const auto gives = [&](const JointPassage &passage) {
         return (matches_name(passage.joint, joint.name) ||
                 matches_name(passage.joint, joint.set)) &&
-               passage.text.find("set " + entry) != std::string::npos;
+               std::regex_search(passage.text, assignment);
       };
       return std::any_of(text.joint_subsections.begin(),
                          text.joint_subsections.end(),

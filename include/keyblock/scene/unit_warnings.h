@@ -30,6 +30,11 @@ namespace Keyblock
   template <int dim>
   std::vector<std::string> warnings_of_ground(const Scene<dim> &scene);
 
+  /** A sentence if what loads the top of a domain by Ground/Depth from the
+   * start is not the initial stress there. */
+  template <int dim>
+  std::vector<std::string> warnings_of_ground_top(const Scene<dim> &scene);
+
   /** Drawings (ASCII DXF) of excavations and joints whose header names another
    * unit ($INSUNITS) than the scene's Scale, one sentence each; before the
    * joints are parted into facets, which do not name their file. */
