@@ -76,10 +76,17 @@ namespace Keyblock
       return nearest;
     }
 
+    /** Change of parameters that is the last: the next is smaller by the gap
+     * over the radius to which faces are warped [-]. */
+    constexpr double last_change = 1e-11;
+
+    /** Iterations for feet further from a face than half its width. */
+    constexpr int most_outside = 2;
+
     /** Parameters of the point of a bilinear face nearest to @p p, not clamped:
      * Gauss-Newton from the point that covers it, which is exact on plane
-     * faces. It may fail outside of warped faces, and of faces that are not
-     * convex. */
+     * faces. It may fail outside of warped faces, where it is given up, and of
+     * faces that are not convex. */
     std::array<double, 2>
     nearest_parameters(const std::array<Vector<3>, 4> &x, const Vector<3> &p)
     {
@@ -94,12 +101,15 @@ namespace Keyblock
             difference<3>(p, combine<3, 4>(x, bilinear_weights(s, t)));
           const double aa = dot<3>(a, a), ab = dot<3>(a, b), bb = dot<3>(b, b);
           const double ra = dot<3>(r, a), rb = dot<3>(r, b);
-          const double det = aa * bb - ab * ab;
-          const double ds  = (bb * ra - ab * rb) / det;
-          const double dt  = (aa * rb - ab * ra) / det;
-          s                = std::clamp(s + ds, -10., 10.);
-          t                = std::clamp(t + dt, -10., 10.);
-          if (std::abs(ds) + std::abs(dt) < 1e-13)
+          const double det    = aa * bb - ab * ab;
+          const double ds     = (bb * ra - ab * rb) / det;
+          const double dt     = (aa * rb - ab * ra) / det;
+          s                   = std::clamp(s + ds, -10., 10.);
+          t                   = std::clamp(t + dt, -10., 10.);
+          const bool is_found = std::abs(ds) + std::abs(dt) < last_change;
+          const bool is_far =
+            std::max(std::abs(s - 0.5), std::abs(t - 0.5)) > 1.;
+          if (is_found || (is_far && iteration >= most_outside))
             break;
         }
       return {{s, t}};

@@ -100,6 +100,15 @@ namespace Keyblock
     // and slide in turns: steps of this share end it
     constexpr double relaxation_of_cycles = 0.5;
 
+    // a point that opens so often in the sweeps of one solve, though its
+    // cohesion would hold it while it is closed, loses that: with it no sweep
+    // ends them
+    constexpr unsigned char most_openings = 3;
+
+    // a leap has failed if changes are larger by this after it; where they are
+    // creep, that is as far as it goes
+    constexpr double failed_leap = 1.01;
+
     // a point is visited again when a node of it has changed by this share of
     // what ends the sweeps
     constexpr double stale_share = 0.1;
@@ -215,8 +224,14 @@ namespace Keyblock
             const SolverSettings &settings)
     {
       double largest = 0., impulse_change = 0., relaxation = 1.;
-      const auto visit = [&](ContactPoint<dim> &point) {
+      std::vector<unsigned char> n_openings(points.size(), 0);
+      const auto visit = [&](const unsigned int p) {
+        ContactPoint<dim> &point    = points[p];
         PointResponse<dim> response = respond<dim>(point, nodes, settings.step);
+        if (response.status == ContactStatus::open &&
+            point.status != ContactStatus::open && !point.is_intact &&
+            n_openings[p] < most_openings && ++n_openings[p] == most_openings)
+          point.strength.cohesion = point.strength.tension = 0.;
         Vector<dim> difference = add<dim>(response.impulse, -1., point.impulse);
         if (relaxation != 1.)
           {
@@ -233,7 +248,7 @@ namespace Keyblock
       SolverReport report;
       if (points.size() == 1)
         {
-          visit(points[0]);
+          visit(0);
           report.n_iterations = 1;
           return report;
         }
@@ -250,7 +265,7 @@ namespace Keyblock
             if (group.is_due(points[p], p))
               {
                 group.touch(points[p], p);
-                visit(points[p]);
+                visit(p);
               }
           const double change =
             group.end_sweep(stale_share * settings.tolerance * largest);
@@ -258,20 +273,22 @@ namespace Keyblock
           if (change <= settings.tolerance * largest ||
               (is_small && change <= creep_share * impulse_change))
             return report;
-          if (is_extrapolated &&
-              report.n_iterations % extrapolation.interval == 2 &&
-              change > change_before_leap)
-            {
-              extrapolation.undo();
-              group.renew();
-            }
           extrapolation.record(report.n_iterations);
           if (report.n_iterations % extrapolation.interval == 0)
             {
-              change_before_leap = change;
-              is_extrapolated    = extrapolation.go();
-              if (is_extrapolated)
-                group.renew();
+              if (is_extrapolated && change > failed_leap * change_before_leap)
+                {
+                  extrapolation.undo();
+                  is_extrapolated = false;
+                  if (change_before_leap <= creep_tolerance * largest)
+                    return report;
+                }
+              else
+                {
+                  change_before_leap = change;
+                  is_extrapolated    = extrapolation.go();
+                }
+              group.renew();
             }
           if (report.n_iterations % creep_interval == 0)
             {

@@ -4,16 +4,20 @@
 
 #include <keyblock/contact/solver.h>
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
 namespace Keyblock
 {
-  /** Limit of sweeps over the points of a group that shrink slowly, each the
-   * same way as the one before: that of the geometric sequence which the last
-   * two changes of the impulses begin (Aitken's, with the rate of the vectors);
-   * and the way back from it. */
+  /**
+   * Limit of sweeps over the points of a group that shrink slowly: where the
+   * impulses change from sweep to sweep by a matrix with few eigenvalues near
+   * one, the combination of the last iterates whose change is least (reduced
+   * rank extrapolation, Sidi 2017, Vector Extrapolation Methods; with one mode
+   * Aitken's step with the rate of the vectors). Where they change by the same
+   * in each sweep, as from one of two points that do the same to the other, as
+   * far as the first point opens. And the way back from it.
+   */
   template <int dim>
   class ImpulseExtrapolation
   {
@@ -22,72 +26,42 @@ namespace Keyblock
     static constexpr unsigned int interval = 8;
 
     ImpulseExtrapolation(std::vector<ContactPoint<dim>> &points,
-                         const ContactNodes<dim> &nodes)
-      : points(points)
-      , nodes(nodes)
-    {}
+                         const ContactNodes<dim> &nodes);
 
     /** A sweep has ended, the first one being 1. */
-    void
-    record(const unsigned int sweep)
-    {
-      const unsigned int phase = sweep % interval;
-      if (phase == 0 || phase + 2 >= interval)
-        {
-          std::vector<Vector<dim>> &kept =
-            impulses[phase == 0 ? 2 : phase + 2 - interval];
-          kept.resize(points.size());
-          for (unsigned int p = 0; p < points.size(); ++p)
-            kept[p] = points[p].impulse;
-        }
-    }
+    void record(const unsigned int sweep);
 
     /** Move all points to the limit; whether there is one to move to. To be
      * called after the sweeps that interval divides. */
-    bool
-    go()
-    {
-      double product = 0., square = 0.;
-      for (unsigned int p = 0; p < points.size(); ++p)
-        for (int d = 0; d < dim; ++d)
-          {
-            const double first = impulses[1][p][d] - impulses[0][p][d];
-            const double last  = impulses[2][p][d] - impulses[1][p][d];
-            product += first * last;
-            square += first * first;
-          }
-      if (product <= slow_rate * square || product >= square)
-        return false;
-      const double n_sweeps = std::min(product / (square - product), longest);
-      for (unsigned int p = 0; p < points.size(); ++p)
-        move(p, n_sweeps, add<dim>(impulses[2][p], -1., impulses[1][p]));
-      return true;
-    }
+    bool go();
 
     /** Back to where go() started. */
-    void
-    undo()
-    {
-      for (unsigned int p = 0; p < points.size(); ++p)
-        move(p, 1., add<dim>(impulses[2][p], -1., points[p].impulse));
-    }
+    void undo();
 
   private:
-    static constexpr double slow_rate = 0.5; ///< least share left by a sweep
-    static constexpr double longest   = 1e4; ///< sweeps that are passed over
+    static constexpr unsigned int n_modes = 3; ///< that are taken out at most
+    static constexpr unsigned int n_kept  = n_modes + 2; ///< iterates
+    static_assert(n_kept <= interval, "an extrapolation uses its own sweeps");
 
     std::vector<ContactPoint<dim>> &points;
     const ContactNodes<dim> &nodes;
-    std::array<std::vector<Vector<dim>>, 3> impulses; ///< the last ones
+    std::array<std::vector<Vector<dim>>, n_kept> impulses; ///< the last ones
+    std::vector<Vector<dim>> start; ///< impulses before the last leap
 
-    void
-    move(const unsigned int p, const double factor, Vector<dim> change)
-    {
-      for (double &component : change)
-        component *= factor;
-      apply_impulse<dim>(points[p], change, nodes);
-      points[p].impulse = add<dim>(points[p].impulse, 1., change);
-    }
+    /** Points whose impulses differ in the kept iterates. */
+    std::vector<unsigned int> changing;
+
+    /** Change of the impulses from kept iterate @p i to the next, or that of
+     * its change with @p order 2 [N s]; dim entries a point of changing, as
+     * in all that follow. */
+    std::vector<double> difference(const unsigned int i,
+                                   const unsigned int order) const;
+
+    /** Sweeps, each with @p change, until a point's normal impulse ends [-]. */
+    double sweeps_to_first_opening(const std::vector<double> &change) const;
+
+    /** Add @p factor times @p direction to the impulses; true. */
+    bool move(const std::vector<double> &direction, const double factor);
   };
 } // namespace Keyblock
 
