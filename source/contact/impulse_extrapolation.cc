@@ -103,6 +103,7 @@ namespace Keyblock
     const std::vector<double> first = difference(n_modes - 1, 1);
     const double first_square       = product(first, first);
     const double last_square        = product(last, last);
+    share_left                      = std::sqrt(last_square / first_square);
     std::vector<double> bend        = last;
     add_to(bend, -1., first);
     if (product(bend, bend) <= drift_share * drift_share * last_square)

@@ -105,9 +105,10 @@ namespace Keyblock
     // ends them
     constexpr unsigned char most_openings = 3;
 
-    // a leap has failed if changes are larger by this after it; where they are
-    // creep, that is as far as it goes
-    constexpr double failed_leap = 1.01;
+    // a leap has failed if changes are larger by this after it; where they were
+    // creep, of which a sweep leaves this share, that is as far as it goes
+    constexpr double failed_leap   = 1.01;
+    constexpr double rate_of_creep = 0.9997;
 
     // a point is visited again when a node of it has changed by this share of
     // what ends the sweeps
@@ -280,7 +281,8 @@ namespace Keyblock
                 {
                   extrapolation.undo();
                   is_extrapolated = false;
-                  if (change_before_leap <= creep_tolerance * largest)
+                  if (change_before_leap <= creep_tolerance * largest &&
+                      extrapolation.rate() >= rate_of_creep)
                     return report;
                 }
               else

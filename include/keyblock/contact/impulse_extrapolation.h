@@ -35,6 +35,14 @@ namespace Keyblock
      * called after the sweeps that interval divides. */
     bool go();
 
+    /** Share of the changes of the impulses that the last sweep before go()
+     * left [-]. */
+    double
+    rate() const
+    {
+      return share_left;
+    }
+
     /** Back to where go() started. */
     void undo();
 
@@ -46,6 +54,7 @@ namespace Keyblock
     std::vector<ContactPoint<dim>> &points;
     const ContactNodes<dim> &nodes;
     std::array<std::vector<Vector<dim>>, n_kept> impulses; ///< the last ones
+    double share_left = 0.;                                ///< rate()
     std::vector<Vector<dim>> start; ///< impulses before the last leap
 
     /** Points whose impulses differ in the kept iterates. */
