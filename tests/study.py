@@ -119,6 +119,19 @@ def faults_of_leaning(keyblock, scene, folder):
     return faults
 
 
+def faults_of_notch(keyblock, scene, folder):
+    """What is wrong where a block that no way is free for turns."""
+    results = study(
+        keyblock, str(pathlib.Path(scene).with_name("leaning_notch.prm")),
+        folder / "notch", "Study/Names=friction", "Study/Samples=20",
+        "Study/friction/Entry=Joints/a/Friction angle",
+        "Study/friction/Mean=15", "Study/friction/Deviation=0.001")[1]
+    exact, mean = 0.6252148, results["least_factor"]["mean"]
+    return [] if (math.isclose(mean, exact, rel_tol=1e-3)
+                  and results["probability"]["value"] == 1) else [
+        f"a block that leans in a notch has {mean} for {exact}"]
+
+
 def faults_of_joints(keyblock, folder):
     """What is wrong where variables are strengths of a set, of a bent joint and
     of a pattern, which are changed in place: samples are those of scenes that
@@ -278,6 +291,7 @@ def main():
     faults += faults_of_stages(keyblock, scene, folder)
     faults += faults_of_groups(keyblock, scene, folder)
     faults += faults_of_leaning(keyblock, scene, folder)
+    faults += faults_of_notch(keyblock, scene, folder)
     if faults:
         sys.exit("; ".join(faults))
 

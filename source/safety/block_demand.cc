@@ -213,7 +213,47 @@ namespace Keyblock
     bool
     is_judged_by_base(const SupportedMotion<dim> &motion)
     {
-      return motion.rotation.is_judged && motion.rotation.outside == 0.;
+      return motion.rotation.is_judged && motion.rotation.outside == 0. &&
+             motion.limit.faces.size() == motion.limit.n_pressed;
+    }
+
+
+
+    /** That of a block which does not turn but about its base, under a
+     * @p pressure on free faces besides, which pulls as a bolt does. */
+    template <int dim>
+    SupportedMotion<dim>
+    find_sliding(BlockSurroundings<dim> &around,
+                 const BlockSupport<dim> &support,
+                 const bool is_passive,
+                 const std::vector<PointForce<dim>> &free_faces,
+                 const double pressure)
+    {
+      std::vector<PointForce<dim>> forces = around.loads.all();
+      for (const auto &pull : support.pulls)
+        forces.push_back({pull.place, pull.force * pull.along});
+      if (support.shotcrete_load.norm() > 0.)
+        forces.push_back({support.shotcrete_center, support.shotcrete_load});
+      BlockSupport<dim> all = support;
+      if (pressure > 0.)
+        {
+          const std::vector<PointForce<dim>> pressed =
+            forces_of_pressure(free_faces, pressure);
+          forces.insert(forces.end(), pressed.begin(), pressed.end());
+          const Tensor<1, dim> pushed = sum_of(pressed);
+          all.pulls.emplace_back();
+          all.pulls.back().along = pushed / pushed.norm();
+          all.pulls.back().force = pushed.norm();
+        }
+      SupportedMotion<dim> motion;
+      motion.limit = solve_with_support<dim>(around.faces,
+                                             around.loads.without_water(),
+                                             all,
+                                             is_passive);
+      motion.limit.orient(around.loads.weight);
+      motion.factor_of_sliding = motion.limit.factor;
+      motion.rotation = judge_rotation<dim>(around.faces, forces, motion.limit);
+      return motion;
     }
   } // namespace
 
@@ -223,51 +263,20 @@ namespace Keyblock
   SupportedMotion<dim>
   find_motion(BlockSurroundings<dim> &around,
               const BlockSupport<dim> &support,
-              const bool is_passive,
-              const std::vector<PointForce<dim>> &free_faces,
-              const double pressure)
+              const bool is_passive)
   {
-    std::vector<PointForce<dim>> forces = around.loads.all();
-    for (const auto &pull : support.pulls)
-      forces.push_back({pull.place, pull.force * pull.along});
-    if (support.shotcrete_load.norm() > 0.)
-      forces.push_back({support.shotcrete_center, support.shotcrete_load});
-    BlockSupport<dim> all = support;
-    const std::vector<PointForce<dim>> pressed =
-      forces_of_pressure(free_faces, pressure);
-    if (pressure > 0.)
-      {
-        forces.insert(forces.end(), pressed.begin(), pressed.end());
-        const Tensor<1, dim> pushed = sum_of(pressed);
-        all.pulls.emplace_back();
-        all.pulls.back().along = pushed / pushed.norm();
-        all.pulls.back().force = pushed.norm();
-      }
-    SupportedMotion<dim> motion;
-    motion.limit = solve_with_support<dim>(around.faces,
-                                           around.loads.without_water(),
-                                           all,
-                                           is_passive);
-    motion.limit.orient(around.loads.weight);
-    motion.factor_of_sliding = motion.limit.factor;
-    motion.rotation = judge_rotation<dim>(around.faces, forces, motion.limit);
-    if (pressure > 0. || motion.limit.factor < 1.)
+    SupportedMotion<dim> motion =
+      find_sliding<dim>(around, support, is_passive, {}, 0.);
+    if (is_judged_by_base(motion) && (!is_passive || support.pulls.empty()))
       return motion;
-    const Tensor<1, dim> &way = motion.limit.direction;
-    motion.rotation.is_unbalanced =
-      !is_judged_by_base(motion) &&
-      !balances_moments<dim>(around, support, is_passive, {}, way, 1.);
-    if (is_passive && !support.pulls.empty() && !motion.rotation.is_unbalanced)
+    const double most = std::min(motion.limit.factor, most_factor);
+    if (const double factor = greatest_balanced_factor<dim>(
+          around, support, is_passive, motion.limit.direction, most);
+        factor < most)
       {
-        const double most = std::min(motion.limit.factor, most_factor);
-        if (const double factor =
-              greatest_balanced_factor<dim>(around, support, way, most);
-            factor < most)
-          {
-            motion.rotation.is_of_divided = true;
-            motion.limit.mode   = LimitEquilibrium<dim>::Mode::rotating;
-            motion.limit.factor = factor;
-          }
+        motion.rotation.is_by_moments = true;
+        motion.limit.mode             = LimitEquilibrium<dim>::Mode::rotating;
+        motion.limit.factor           = factor;
       }
     return motion;
   }
@@ -292,7 +301,7 @@ namespace Keyblock
                                  const std::vector<PointForce<dim>> &faces,
                                  const double pressure) {
       BlockSurroundings<dim> own = around;
-      return find_motion(own, bolts, is_passive, faces, pressure);
+      return find_sliding<dim>(own, bolts, is_passive, faces, pressure);
     };
     const LimitEquilibrium<dim> bare = motion_with(support, {}, 0.).limit;
     const auto is_held               = [&](const SupportedMotion<dim> &motion) {
@@ -360,12 +369,9 @@ namespace Keyblock
   }
 
 #define INSTANTIATE(dim)                                                       \
-  template SupportedMotion<dim> find_motion(                                   \
-    BlockSurroundings<dim> &,                                                  \
-    const BlockSupport<dim> &,                                                 \
-    const bool,                                                                \
-    const std::vector<PointForce<dim>> &,                                      \
-    const double);                                                             \
+  template SupportedMotion<dim> find_motion(BlockSurroundings<dim> &,          \
+                                            const BlockSupport<dim> &,         \
+                                            const bool);                       \
   template SupportDemand find_demand(const Ground<dim> &,                      \
                                      const FreeFaces<dim> &,                   \
                                      const unsigned int,                       \

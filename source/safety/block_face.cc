@@ -2,6 +2,8 @@
 #include <keyblock/law/joint_law.h>
 #include <keyblock/safety/block_faces.h>
 
+#include <algorithm>
+
 namespace Keyblock
 {
   template <int dim>
@@ -24,6 +26,24 @@ namespace Keyblock
     return face;
   }
 
+  template <int dim>
+  bool
+  has_facet_beside(const Scene<dim> &scene,
+                   const Block<dim> &block,
+                   const unsigned int joint)
+  {
+    const Joint<dim> &facet = *scene.joints[joint];
+    return !facet.surface.empty() &&
+           std::any_of(block.exact.bent_area.begin(),
+                       block.exact.bent_area.end(),
+                       [&](const auto &other) {
+                         const Joint<dim> &one = *scene.joints[other.first];
+                         return other.second > 0. &&
+                                one.surface == facet.surface &&
+                                one.piece == facet.piece;
+                       });
+  }
+
   template BlockFace<2> make_block_face(const Tensor<1, 2> &,
                                         const std::string &,
                                         const std::shared_ptr<const JointLaw> &,
@@ -32,4 +52,8 @@ namespace Keyblock
                                         const std::string &,
                                         const std::shared_ptr<const JointLaw> &,
                                         const bool);
+  template bool
+  has_facet_beside(const Scene<2> &, const Block<2> &, const unsigned int);
+  template bool
+  has_facet_beside(const Scene<3> &, const Block<3> &, const unsigned int);
 } // namespace Keyblock

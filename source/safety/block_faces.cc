@@ -102,7 +102,7 @@ namespace Keyblock
                 ground.scene.joints[joint]->distance(block.centroid) > 0.;
               BlockFace<dim> &face = result.faces[joint_entry(joint, is_plus)];
               face.area += area;
-              face.is_lost = true;
+              face.is_lost = !has_facet_beside(ground.scene, block, joint);
             }
       }
 

@@ -10,9 +10,9 @@ namespace Keyblock
   namespace
   {
     /** Part of a factor that moments may take off it without being told [-],
-     * and halvings by which they are found. */
-    constexpr double least_loss              = 1e-4;
-    constexpr unsigned int n_factor_halvings = 40;
+     * factors below which are none, and halvings by which they are found. */
+    constexpr double least_loss = 1e-4, least_factor = 1e-3;
+    constexpr unsigned int n_factor_halvings = 32;
 
     /** Whether limit equilibrium knows all that may balance moments on a block:
      * not of one that is joined to others, nor what sheared support or tensile
@@ -86,15 +86,19 @@ namespace Keyblock
   double
   greatest_balanced_factor(const BlockSurroundings<dim> &around,
                            const BlockSupport<dim> &support,
+                           const bool is_passive,
                            const Tensor<1, dim> &way,
                            const double most)
   {
     const auto balances = [&](const double factor) {
-      return balances_moments<dim>(around, support, true, {}, way, factor);
+      return balances_moments<dim>(
+        around, support, is_passive, {}, way, factor);
     };
     if (balances((1. - least_loss) * most))
       return most;
-    double low = 1., high = most;
+    if (most <= least_factor || !balances(least_factor))
+      return 0.;
+    double low = least_factor, high = most;
     for (unsigned int i = 0; i < n_factor_halvings; ++i)
       {
         const double middle             = std::sqrt(low * high);
@@ -112,6 +116,7 @@ namespace Keyblock
                                  const double);                                \
   template double greatest_balanced_factor(const BlockSurroundings<dim> &,     \
                                            const BlockSupport<dim> &,          \
+                                           const bool,                         \
                                            const Tensor<1, dim> &,             \
                                            const double);
   INSTANTIATE(2)

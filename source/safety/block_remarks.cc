@@ -131,9 +131,6 @@ namespace Keyblock
         using Mode = typename LimitEquilibrium<dim>::Mode;
         if (limit.mode == Mode::one_plane && !rotation.is_judged)
           add() << "rotation not judged: its base is not plane";
-        if (rotation.is_unbalanced)
-          add() << "it rotates: forces on its faces cannot balance the moment "
-                   "of what acts";
         if (rotation.outside == 0.)
           return;
         add() << "the resultant passes ";
@@ -142,7 +139,7 @@ namespace Keyblock
         else
           last << rotation.outside << " m";
         last << " outside the base";
-        if (limit.mode == Mode::rotating && !rotation.is_of_divided)
+        if (limit.mode == Mode::rotating && !rotation.is_by_moments)
           last << ", which no friction prevents; sliding alone "
                << factor_of_sliding;
         else if (dim == 2)

@@ -40,16 +40,21 @@ namespace Keyblock
 
 
 
-    /** What is said of a block that turns once its passive bolts are divided by
-     * more than its factor. */
+    /** What is said of a block that turns at a lower factor than it slides. */
     std::string
-    remark_on_divided(const double factor_of_sliding)
+    remark_on_moments(const bool has_passive_bolts,
+                      const double factor,
+                      const double factor_of_sliding)
     {
       std::ostringstream out;
       out.precision(4);
-      out
-        << "passive bolts, divided by more, cannot balance the moment of what "
-           "acts; ";
+      if (has_passive_bolts)
+        out << "passive bolts, divided by more, cannot";
+      else if (factor > 0.)
+        out << "its faces, with less strength, cannot";
+      else
+        out << "its faces, however strong, cannot";
+      out << " balance the moment of what acts; ";
       if (std::isfinite(factor_of_sliding))
         out << "sliding alone " << factor_of_sliding;
       else
@@ -141,8 +146,11 @@ namespace Keyblock
       group_remark);
     add_remarks<dim>(
       ground, free, blocks, block, time, motion, lost_remark, statics);
-    if (motion.rotation.is_of_divided)
-      statics.remarks.push_back(remark_on_divided(motion.factor_of_sliding));
+    if (motion.rotation.is_by_moments)
+      statics.remarks.push_back(
+        remark_on_moments(is_passive && !statics.support.pulls.empty(),
+                          motion.limit.factor,
+                          motion.factor_of_sliding));
     if (!group_remark.empty())
       statics.remarks.insert(statics.remarks.begin(), group_remark);
     return statics;

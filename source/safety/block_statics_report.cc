@@ -131,7 +131,7 @@ namespace Keyblock
         << "in kN" << (dim == 2 ? "/m" : "")
         << "; rotation is judged on one plane"
         << (dim == 2 ? "" : ", as an indication,")
-        << " and by the moments that faces of a block that holds can balance"
+        << " and by the moments that faces can balance"
         << "\n  id  after           factor  mode and forces\n"
         << rows.str();
   }

@@ -233,7 +233,7 @@ namespace Keyblock
   LimitEquilibrium<dim>::pressed_faces(const std::vector<BlockFace<dim>> &all,
                                        const dealii::Tensor<1, dim> &load) const
   {
-    if (mode != Mode::stable)
+    if (mode != Mode::stable && !(mode == Mode::rotating && n_pressed == 0))
       return {faces.begin(), faces.begin() + n_pressed};
     dealii::Tensor<1, dim> drive = load;
     for (const BlockFace<dim> &face : all)

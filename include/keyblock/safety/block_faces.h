@@ -51,6 +51,14 @@ namespace Keyblock
                                  const std::shared_ptr<const JointLaw> &law,
                                  const bool is_reduced);
 
+  /** Whether the mesh has plane parts of a bent joint on a block (known between
+   * its planes) beside the part @p joint: they cut across the corner that this
+   * one rounds. */
+  template <int dim>
+  bool has_facet_beside(const Scene<dim> &scene,
+                        const Block<dim> &block,
+                        const unsigned int joint);
+
   /**
    * What @p block touches and what acts on it at @p time. Water and tractions
    * are summed as Loads does, water by its pressure at the faces'

@@ -25,11 +25,12 @@ namespace Keyblock
                         const Tensor<1, dim> &way,
                         const double factor);
 
-  /** The greatest factor from 1 to @p most for which balances_moments(), which
-   * holds at 1, does in the passive convention. */
+  /** The greatest factor up to @p most for which balances_moments() holds; 0 if
+   * it does for none, whatever the strength. */
   template <int dim>
   double greatest_balanced_factor(const BlockSurroundings<dim> &around,
                                   const BlockSupport<dim> &support,
+                                  const bool is_passive,
                                   const Tensor<1, dim> &way,
                                   const double most);
 } // namespace Keyblock

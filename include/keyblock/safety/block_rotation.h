@@ -17,13 +17,10 @@ namespace Keyblock
      * base; empty: nothing. Not looked at in 3D. */
     std::string obstacle;
 
-    /** A block that holds by forces alone, but no forces on its faces balance
-     * the moment of what acts, see can_balance(). */
-    bool is_unbalanced = false;
-
-    /** The block turns at a lower factor than it slides at: what passive bolts
-     * bear, divided, balances moments up to that one. */
-    bool is_of_divided = false;
+    /** The block turns at a lower factor than it slides at: above that no
+     * forces on its faces balance the moment of what acts, see can_balance().
+     */
+    bool is_by_moments = false;
   };
 
   /**

@@ -19,16 +19,13 @@ namespace Keyblock
     double factor_of_sliding; ///< without rotation
   };
 
-  /** That of a block with @p around and @p support, and with a uniform
-   * @p pressure [Pa] on @p free_faces besides, which pulls as a bolt does.
-   * @param free_faces centres and vector areas, outwards [m, m^(dim-1)] */
+  /** That of a block with @p around and @p support: along faces, about the end
+   * of its base, or where moments are not balanced (balances_moments()),
+   * whichever has the least factor. */
   template <int dim>
-  SupportedMotion<dim>
-  find_motion(BlockSurroundings<dim> &around,
-              const BlockSupport<dim> &support,
-              const bool is_passive,
-              const std::vector<PointForce<dim>> &free_faces = {},
-              const double pressure                          = 0.);
+  SupportedMotion<dim> find_motion(BlockSurroundings<dim> &around,
+                                   const BlockSupport<dim> &support,
+                                   const bool is_passive);
 
   /** Demands over the load of a block that are none, and that are looked at
    * [-]. */

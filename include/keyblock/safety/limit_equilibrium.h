@@ -66,8 +66,8 @@ namespace Keyblock
     double fixed_resistance   = 0.; ///< of faces that are not reduced
 
     /** Number by which the reduced resistance is divided when both together
-     * are the driving force; 0 if rotating, but for what
-     * passive bolts balance, infinite if stable or held by faces
+     * are the driving force; if rotating that up to which moments
+     * are balanced, 0 if none is; infinite if stable or held by faces
      * that are not reduced [-]. */
     double factor = 0.;
 
