@@ -3,6 +3,7 @@
 
 #include <keyblock/base/number_text.h>
 #include <keyblock/blocks/ground.h>
+#include <keyblock/blocks/material_shares.h>
 #include <keyblock/mesh/excavation_region.h>
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/mesh/size_remedy.h>
@@ -369,7 +370,8 @@ namespace Keyblock
           warning_of_volumes(scene, blocks),
           warning_of_lost_corners(scene, blocks),
           warning_of_chords(scene, split.mesh),
-          warning_of_shifted_volumes(split, scene, blocks)})
+          warning_of_shifted_volumes(split, scene, blocks),
+          warning_of_material_shares(scene, split, blocks)})
       if (!warning.empty())
         warnings.push_back(warning);
     return warnings;

@@ -1,44 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Which cells are of which material.
+#include <keyblock/mesh/material_region.h>
 #include <keyblock/mesh/mesh_marks.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <keyblock/base/errors.h>
-#include <keyblock/base/expression.h>
-
-#include <algorithm>
 
 namespace Keyblock
 {
   namespace
   {
-    /** The joints below and above the region `band A B` of a material. */
-    template <int dim>
-    std::array<const Joint<dim> *, 2>
-    find_band(const Scene<dim> &scene, const Material<dim> &material)
-    {
-      const std::vector<std::string> words =
-        dealii::Utilities::split_string_list(material.region, ' ');
-      std::array<const Joint<dim> *, 2> band{};
-      for (unsigned int i = 1; i < std::min<std::size_t>(words.size(), 3); ++i)
-        for (const auto &joint : scene.joints)
-          if (joint->name == words[i])
-            band[i - 1] = joint.get();
-      AssertThrow(words.size() == 3 && band[0] && band[1],
-                  InputError("The entry 'Materials/" + material.name +
-                             "/Region' is '" + material.region +
-                             "'; a band is `band A B` with two names of "
-                             "'Joints/Names'."));
-      // the lower joint first: the upper one's points are above it
-      const Point<dim> upper = band[1]->extent == JointShape::polygon
-                                 ? band[1]->vertices[0]
-                                 : band[1]->point;
-      if (band[0]->distance(upper) < 0.)
-        std::swap(band[0], band[1]);
-      return band;
-    }
-
     template <int dim>
     std::string
     regions_of(const Mesh<dim> &mesh)
@@ -59,24 +31,11 @@ namespace Keyblock
       {
         const std::string &region = scene.materials[m]->region;
         unsigned int n_hits       = 0;
-        const bool is_id          = region.rfind("id ", 0) == 0;
-        const bool is_all         = region == "all";
-        const bool is_band        = region.rfind("band ", 0) == 0;
-        const auto band = is_band ? find_band(scene, *scene.materials[m])
-                                  : std::array<const Joint<dim> *, 2>{};
-        const Expression<dim> inside((is_id || is_all || is_band) ? "1"
-                                                                  : region,
-                                     1,
-                                     "Materials/" + scene.materials[m]->name +
-                                       "/Region");
+        const MaterialRegion<dim> place(scene, *scene.materials[m]);
         for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-          if (is_all ||
-              (is_id &&
-               means_group(region, mesh.region[c], mesh.region_names)) ||
-              (is_band && band[0]->distance(mesh.cell_center(c)) > 0. &&
-               band[1]->distance(mesh.cell_center(c)) < 0.) ||
-              (!is_id && !is_band &&
-               inside.value(mesh.cell_center(c), 0., 0) > 0.))
+          if (place.is_group()
+                ? means_group(region, mesh.region[c], mesh.region_names)
+                : place.contains(mesh.cell_center(c)))
             {
               if (scene.materials[m]->stage.empty())
                 mesh.material[c] = m;
@@ -88,13 +47,14 @@ namespace Keyblock
               ++n_hits;
             }
         AssertThrow(n_hits > 0,
-                    InputError("No cell lies in the region '" + region +
-                               "' of the entry 'Materials/" +
-                               scene.materials[m]->name + "/Region'" +
-                               (is_id ? "; the regions of the mesh are: " +
-                                          regions_of(mesh)
-                                      : "") +
-                               "; correct it or drop the material."));
+                    InputError(
+                      "No cell lies in the region '" + region +
+                      "' of the entry 'Materials/" + scene.materials[m]->name +
+                      "/Region'" +
+                      (place.is_group()
+                         ? "; the regions of the mesh are: " + regions_of(mesh)
+                         : "") +
+                      "; correct it or drop the material."));
       }
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       AssertThrow(

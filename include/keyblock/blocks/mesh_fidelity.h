@@ -15,7 +15,8 @@ namespace Keyblock
    * their cell, volumes that differ by more than 5 % from those between the
    * planes, where these are known (Block::exact), corners that a joint cuts off
    * and the mesh does not, and volumes that differ as much where they are not
-   * known, by the distances of the faces from their joints. Empty: none.
+   * known, by the distances of the faces from their joints; and masses, see
+   * warning_of_material_shares(). Empty: none.
    */
   template <int dim>
   std::vector<std::string> warnings_of_coarse_mesh(const Scene<dim> &scene,
