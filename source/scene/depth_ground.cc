@@ -24,6 +24,10 @@ namespace Keyblock
   {
     using Entries = std::vector<std::pair<std::string, std::string>>;
 
+    /** The top of the domain is the surface if it is so near to it, for the
+     * round-off of decimals that are added [longest side of the domain]. */
+    constexpr double surface_tolerance = 1e-9;
+
     /** Add a named thing to the others of its section, under a name that none
      * of them has, and to the entries. */
     template <typename Item>
@@ -256,7 +260,13 @@ namespace Keyblock
             "The entry 'Ground/Depth' needs a domain that is a box, on which "
             "rollers and overburden stand; set 'Domain/Shape' to box, or leave "
             "'Ground' out.");
-    const double top = domain.corner[dim - 1] + domain.size[dim - 1];
+    double top = domain.corner[dim - 1] + domain.size[dim - 1];
+    const bool is_at_surface =
+      std::abs(top - ground.depth) <=
+      surface_tolerance *
+        *std::max_element(domain.size.begin(), domain.size.end());
+    if (is_at_surface)
+      top = ground.depth;
     require(top <= ground.depth,
             "The domain reaches up to " + text_of(top) +
               " m, above the surface, which the entry 'Ground/Depth' puts at " +
