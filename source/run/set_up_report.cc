@@ -6,6 +6,7 @@
 #include <keyblock/law/joint_stiffness.h>
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/mesh/report_warnings.h>
+#include <keyblock/run/bare_top_warnings.h>
 #include <keyblock/run/bolt_warnings.h>
 #include <keyblock/run/circle_warnings.h>
 #include <keyblock/run/free_field_warnings.h>
@@ -283,6 +284,7 @@ namespace Keyblock
           warnings_of_cut_bolts(model.scene, model.split),
           warnings_of_idle_bolts(model.scene, model.split),
           warnings_of_heads_in_air(model.scene, model.split),
+          warnings_of_bare_top(model.scene, model.split.mesh, model.blocks),
           warnings_of_attached_blocks(model.scene, model.split, model.blocks),
           warnings_of_coarse_mesh(model.scene, model.split, model.blocks)})
       warnings.insert(warnings.end(), more.begin(), more.end());

@@ -211,6 +211,21 @@ namespace Keyblock
       return down;
     }
 
+    /** Count all sides of the box but its top as rock that goes on, where the
+     * scene names none by itself. */
+    template <int dim>
+    void
+    free_surface(ParameterHandler &prm, const Domain<dim> &box)
+    {
+      if (box.truncated_boundaries != Domain<dim>().truncated_boundaries)
+        return;
+      std::string below;
+      for (const std::string &side : boundary_names<dim>())
+        if (side != "top")
+          below += (below.empty() ? "" : ", ") + side;
+      set_entries(prm, "Domain", {{"Truncated boundaries", below}});
+    }
+
     /** Put rollers on the sides and the bottom where nothing else holds. */
     template <int dim>
     void
@@ -266,7 +281,10 @@ namespace Keyblock
       surface_tolerance *
         *std::max_element(domain.size.begin(), domain.size.end());
     if (is_at_surface)
-      top = ground.depth;
+      {
+        top = ground.depth;
+        free_surface(*prm, domain);
+      }
     require(top <= ground.depth,
             "The domain reaches up to " + text_of(top) +
               " m, above the surface, which the entry 'Ground/Depth' puts at " +

@@ -191,6 +191,21 @@ BOOST_AUTO_TEST_CASE(ground_ends_at_the_surface_up_to_round_off)
   BOOST_CHECK_THROW(read<2>("", with("Ground/Depth=23.4649")), InputError);
 }
 
+BOOST_AUTO_TEST_CASE(ground_has_a_free_top_at_the_surface)
+{
+  const auto sides = [](const std::vector<std::string> &overrides) {
+    return list_of(read<2>("", overrides)->domain.truncated_boundaries);
+  };
+  BOOST_TEST(sides({}) == "all");
+  BOOST_TEST(sides({"Ground/Depth=30"}) == "left, right, bottom");
+  BOOST_TEST(sides({"Ground/Depth=30.1"}) == "all");
+  BOOST_TEST(sides({"Ground/Depth=30", "Domain/Truncated boundaries=top"}) ==
+             "top");
+  BOOST_TEST(
+    list_of(read<3>("", {"Ground/Depth=30"})->domain.truncated_boundaries) ==
+    "left, right, front, back, bottom");
+}
+
 BOOST_AUTO_TEST_CASE(ground_holds_sides_without_a_support)
 {
   // each choice of sides, and at random regions in their places
