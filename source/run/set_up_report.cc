@@ -4,6 +4,7 @@
 #include <keyblock/base/number_text.h>
 #include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/law/joint_stiffness.h>
+#include <keyblock/mesh/file_shapes.h>
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/mesh/report_warnings.h>
 #include <keyblock/run/bare_top_warnings.h>
@@ -278,6 +279,7 @@ namespace Keyblock
             model.communicator, model.scene, model.split, model.cells),
           warnings_of_short_waves(model.scene, model.split),
           warnings_of_free_fields(model.scene, model.split),
+          warnings_of_file_shapes(model.scene),
           warnings_of_circles(model.scene, model.split.mesh),
           warnings_of_coarse_bolts(model.scene, model.split),
           warnings_of_brittle_bolts(model.scene, model.split),
@@ -348,6 +350,7 @@ namespace Keyblock
     if (model.n_cells_global > 0)
       print_stable_step(out, model, report);
     print_mesh_report(out, model.mesh_report, model.scene);
+    print_file_shapes(out, model.scene);
     print_liners(out, model);
     out << std::flush;
   }
