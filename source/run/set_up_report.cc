@@ -13,6 +13,7 @@
 #include <keyblock/run/free_field_warnings.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/wanted_blocks.h>
+#include <keyblock/run/water_check.h>
 #include <keyblock/run/wave_resolution.h>
 #include <keyblock/safety/block_theory.h>
 #include <keyblock/scene/given.h>
@@ -286,6 +287,7 @@ namespace Keyblock
           warnings_of_cut_bolts(model.scene, model.split),
           warnings_of_idle_bolts(model.scene, model.split),
           warnings_of_heads_in_air(model.scene, model.split),
+          warnings_of_low_water(model.scene, model.split),
           warnings_of_bare_top(model.scene, model.split.mesh, model.blocks),
           warnings_of_attached_blocks(model.scene, model.split, model.blocks),
           warnings_of_coarse_mesh(model.scene, model.split, model.blocks)})
