@@ -36,22 +36,6 @@ namespace Keyblock::Python
 
 
 
-    StageResult
-    run_stage(const RunPointer &run,
-              const std::optional<Callback> &callback,
-              const unsigned int interval)
-    {
-      const Callback watcher = callback ? *callback : Callback();
-      return computed(run->is_verbose, [&]() {
-        AssertThrow(run->has_stage_left(),
-                    InputError("The run has no stage left to be run; start "
-                               "another one."));
-        return run->run_stage(watcher, interval);
-      });
-    }
-
-
-
     void
     finish(const RunPointer &run)
     {
@@ -60,6 +44,26 @@ namespace Keyblock::Python
           run->finish();
           return true;
         });
+    }
+
+
+
+    /** The next stage; after the last one the results are written. */
+    StageResult
+    run_stage(const RunPointer &run,
+              const std::optional<Callback> &callback,
+              const unsigned int interval)
+    {
+      const Callback watcher  = callback ? *callback : Callback();
+      const StageResult stage = computed(run->is_verbose, [&]() {
+        AssertThrow(run->has_stage_left(),
+                    InputError("The run has no stage left to be run; start "
+                               "another one."));
+        return run->run_stage(watcher, interval);
+      });
+      if (!run->has_stage_left())
+        finish(run);
+      return stage;
     }
 
 
@@ -351,8 +355,10 @@ namespace Keyblock::Python
            run_stage,
            py::arg("callback") = py::none(),
            py::arg("every")    = 100,
-           (std::string("Run the next stage to its end: Stage. Safety factors "
-                        "that the scene wants are found, too.\n\n") +
+           (std::string(
+              "Run the next stage to its end: Stage. Safety factors "
+              "that the scene wants are found, too, and after the last "
+              "stage the results are written.\n\n") +
             callback_text)
              .c_str())
       .def("complete",

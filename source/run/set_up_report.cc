@@ -4,13 +4,16 @@
 #include <keyblock/base/number_text.h>
 #include <keyblock/blocks/mesh_fidelity.h>
 #include <keyblock/law/joint_stiffness.h>
+#include <keyblock/mesh/file_shapes.h>
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/mesh/report_warnings.h>
+#include <keyblock/run/bare_top_warnings.h>
 #include <keyblock/run/bolt_warnings.h>
 #include <keyblock/run/circle_warnings.h>
 #include <keyblock/run/free_field_warnings.h>
 #include <keyblock/run/set_up_report.h>
 #include <keyblock/run/wanted_blocks.h>
+#include <keyblock/run/water_check.h>
 #include <keyblock/run/wave_resolution.h>
 #include <keyblock/safety/block_theory.h>
 #include <keyblock/scene/given.h>
@@ -277,12 +280,15 @@ namespace Keyblock
             model.communicator, model.scene, model.split, model.cells),
           warnings_of_short_waves(model.scene, model.split),
           warnings_of_free_fields(model.scene, model.split),
+          warnings_of_file_shapes(model.scene),
           warnings_of_circles(model.scene, model.split.mesh),
           warnings_of_coarse_bolts(model.scene, model.split),
           warnings_of_brittle_bolts(model.scene, model.split),
           warnings_of_cut_bolts(model.scene, model.split),
           warnings_of_idle_bolts(model.scene, model.split),
           warnings_of_heads_in_air(model.scene, model.split),
+          warnings_of_low_water(model.scene, model.split),
+          warnings_of_bare_top(model.scene, model.split.mesh, model.blocks),
           warnings_of_attached_blocks(model.scene, model.split, model.blocks),
           warnings_of_coarse_mesh(model.scene, model.split, model.blocks)})
       warnings.insert(warnings.end(), more.begin(), more.end());
@@ -346,6 +352,7 @@ namespace Keyblock
     if (model.n_cells_global > 0)
       print_stable_step(out, model, report);
     print_mesh_report(out, model.mesh_report, model.scene);
+    print_file_shapes(out, model.scene);
     print_liners(out, model);
     out << std::flush;
   }

@@ -4,7 +4,12 @@
 #include <keyblock/base/number_text.h>
 #include <keyblock/run/water_check.h>
 
+#include <boost/algorithm/string.hpp>
+
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace Keyblock
 {
@@ -113,6 +118,57 @@ namespace Keyblock
       }
   }
 
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_low_water(const Scene<dim> &scene, const SplitMesh<dim> &split)
+  {
+    constexpr double unknown = std::numeric_limits<double>::max();
+    const Mesh<dim> &mesh    = split.mesh;
+    std::vector<double> lowest(scene.joints.size(), unknown);
+    for (const JointFace &face : split.interface.joint_faces)
+      for (const unsigned int v :
+           mesh.face_vertices(face.minus_cell, face.minus_face))
+        lowest[face.joint] =
+          std::min(lowest[face.joint], mesh.vertices[v][dim - 1]);
+    std::map<std::string, double> lowest_of_entry;
+    for (unsigned int j = 0; j < scene.joints.size(); ++j)
+      for (unsigned int number = 1; number <= scene.stages.size() + 1; ++number)
+        if (lowest[j] < unknown && !scene.water_pressure(j, number).empty())
+          {
+            auto &low =
+              lowest_of_entry
+                .try_emplace(entry_of_water(scene, j, number), unknown)
+                .first->second;
+            low = std::min(low, lowest[j]);
+          }
+    std::vector<std::string> found;
+    const auto look_at = [&](const std::string &level,
+                             const std::string &entry) {
+      const auto low = lowest_of_entry.find(entry);
+      double height  = 0.;
+      if (low == lowest_of_entry.end() ||
+          !read_number(boost::trim_copy(level), false, height) ||
+          height > low->second)
+        return;
+      found.push_back("The entry '" + entry + "' is " + text_of(height) +
+                      " m, below all joints that it is for, which reach down "
+                      "to " +
+                      text_of(low->second, 4) +
+                      " m, so that they are dry: is it a depth? It is the "
+                      "elevation of the water table; for dry joints set none.");
+    };
+    look_at(scene.water.level, "Water/Level");
+    for (const auto &joint : scene.joints)
+      look_at(joint->water_level, "Joints/" + joint->name + "/Water level");
+    for (const auto &stage : scene.stages)
+      look_at(stage->water_level, "Stages/" + stage->name + "/Water level");
+    return found;
+  }
+
   template void check_water(const Scene<2> &, const SplitMesh<2> &);
   template void check_water(const Scene<3> &, const SplitMesh<3> &);
+  template std::vector<std::string> warnings_of_low_water(const Scene<2> &,
+                                                          const SplitMesh<2> &);
+  template std::vector<std::string> warnings_of_low_water(const Scene<3> &,
+                                                          const SplitMesh<3> &);
 } // namespace Keyblock

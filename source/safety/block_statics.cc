@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/number_text.h>
 #include <keyblock/safety/block_remarks.h>
 #include <keyblock/safety/hanging_group.h>
 #include <keyblock/safety/kinetic_friction.h>
@@ -112,6 +113,54 @@ namespace Keyblock
       out << ", which the mesh has lost";
       return out.str();
     }
+
+    /** The motion of a block by itself with its seismic load times @p times. */
+    template <int dim>
+    SupportedMotion<dim>
+    find_motion_shaken(BlockSurroundings<dim> around,
+                       BlockSupport<dim> support,
+                       const bool is_passive,
+                       const double times)
+    {
+      // shotcrete is shaken as the block is
+      const double size = (around.loads.weight + around.loads.seismic).norm();
+      around.loads.seismic *= times;
+      if (size > 0.)
+        support.shotcrete_load = support.shotcrete_load.norm() / size *
+                                 (around.loads.weight + around.loads.seismic);
+      return find_motion<dim>(around, support, is_passive);
+    }
+
+    /** That the seismic coefficient raises the factor of a block, as one that
+     * points into the slope does, or empty. */
+    template <int dim>
+    std::string
+    remark_on_seismic(const BlockStatics<dim> &statics,
+                      const bool is_passive,
+                      const double factor)
+    {
+      constexpr double least = 1.001; // rise of the factor that is told [-]
+      if (statics.around.loads.seismic.norm() == 0.)
+        return "";
+      const auto factor_for = [&](const double times) {
+        return find_motion_shaken(statics.around,
+                                  statics.support,
+                                  is_passive,
+                                  times)
+          .limit.factor;
+      };
+      const double at_rest = factor_for(0.);
+      if (!(factor > least * at_rest))
+        return "";
+      const auto text_for = [](const double value) {
+        return std::isfinite(value) ? text_of(value, 4)
+                                    : std::string("above all");
+      };
+      return "the seismic coefficient raises the factor from " +
+             text_for(at_rest) + " to " + text_for(factor) +
+             ": try the other sign, too, with which it is " +
+             text_for(factor_for(-1.));
+    }
   } // namespace
 
 
@@ -135,6 +184,8 @@ namespace Keyblock
     const std::string lost_remark =
       leave_out_lost_faces(statics, is_passive, motion);
     statics.limit = motion.limit;
+    const std::string seismic_remark =
+      remark_on_seismic(statics, is_passive, motion.limit.factor);
     if (const double wanted = ground.scene.safety.wanted; wanted > 0.)
       statics.demand = find_unshared_demand(
         ground, free, blocks, block, time, wanted, statics);
@@ -151,6 +202,8 @@ namespace Keyblock
         remark_on_moments(is_passive && !statics.support.pulls.empty(),
                           motion.limit.factor,
                           motion.factor_of_sliding));
+    if (!seismic_remark.empty())
+      statics.remarks.insert(statics.remarks.begin(), seismic_remark);
     if (!group_remark.empty())
       statics.remarks.insert(statics.remarks.begin(), group_remark);
     return statics;

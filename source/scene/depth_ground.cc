@@ -24,6 +24,10 @@ namespace Keyblock
   {
     using Entries = std::vector<std::pair<std::string, std::string>>;
 
+    /** The top of the domain is the surface if it is so near to it, for the
+     * round-off of decimals that are added [longest side of the domain]. */
+    constexpr double surface_tolerance = 1e-9;
+
     /** Add a named thing to the others of its section, under a name that none
      * of them has, and to the entries. */
     template <typename Item>
@@ -207,6 +211,21 @@ namespace Keyblock
       return down;
     }
 
+    /** Count all sides of the box but its top as rock that goes on, where the
+     * scene names none by itself. */
+    template <int dim>
+    void
+    free_surface(ParameterHandler &prm, const Domain<dim> &box)
+    {
+      if (box.truncated_boundaries != Domain<dim>().truncated_boundaries)
+        return;
+      std::string below;
+      for (const std::string &side : boundary_names<dim>())
+        if (side != "top")
+          below += (below.empty() ? "" : ", ") + side;
+      set_entries(prm, "Domain", {{"Truncated boundaries", below}});
+    }
+
     /** Put rollers on the sides and the bottom where nothing else holds. */
     template <int dim>
     void
@@ -256,7 +275,16 @@ namespace Keyblock
             "The entry 'Ground/Depth' needs a domain that is a box, on which "
             "rollers and overburden stand; set 'Domain/Shape' to box, or leave "
             "'Ground' out.");
-    const double top = domain.corner[dim - 1] + domain.size[dim - 1];
+    double top = domain.corner[dim - 1] + domain.size[dim - 1];
+    const bool is_at_surface =
+      std::abs(top - ground.depth) <=
+      surface_tolerance *
+        *std::max_element(domain.size.begin(), domain.size.end());
+    if (is_at_surface)
+      {
+        top = ground.depth;
+        free_surface(*prm, domain);
+      }
     require(top <= ground.depth,
             "The domain reaches up to " + text_of(top) +
               " m, above the surface, which the entry 'Ground/Depth' puts at " +

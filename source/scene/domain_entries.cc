@@ -57,7 +57,9 @@ namespace Keyblock
       "Outer boundaries beyond which the rock goes on: a block "
       "that touches one is infinite. Names left, right, bottom, "
       "top, front, back, all, none, or `id N` for a "
-      "boundary of a mesh file (N: number, or name of the physical group).");
+      "boundary of a mesh file (N: number, or name of the physical group). "
+      "Where 'Ground/Depth' puts the surface at the top of the domain, all is "
+      "all but the top.");
     prm.add_parameter("Origin",
                       origin,
                       "Coordinates of the model's origin in the grid of the "

@@ -39,7 +39,9 @@ namespace Keyblock
       "stress that are not given, rollers on the sides and the bottom of the "
       "domain where there is no support (which hold both horizontal directions "
       "where the stress has shear along the sides), and the overburden on its "
-      "top unless a traction is on it from the start. 0: the surface is at "
+      "top unless a traction is on it from the start; where the surface is the "
+      "top of the domain, blocks there are not infinite by it. 0: the surface "
+      "is at "
       "elevation 0. -1: nothing follows.",
       dealii::Patterns::Double(-1.));
     prm.add_parameter(

@@ -14,7 +14,7 @@ namespace Keyblock
   {
     /** Longest side of a shape over that of the domain, below which its unit
      * is doubted [-]. */
-    constexpr double least_of_domain = 1e-3;
+    constexpr double least_of_domain = 1e-2;
   } // namespace
 
 
@@ -69,7 +69,7 @@ namespace Keyblock
   ShapePlace<dim>::require_size() const
   {
     require_that(longest_side(shape) >= least_of_domain * longest_side(domain),
-                 "less than a thousandth of the domain");
+                 "less than a hundredth of the domain");
   }
 
 

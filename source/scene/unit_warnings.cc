@@ -84,11 +84,15 @@ namespace Keyblock
                        std::to_string(usual) + " kg/m3.");
     }
 
-    /** Cohesion of rock or joints. */
+    /** Cohesion, of which @p what has none above @p largest [Pa]. */
     void
-    doubt_cohesion(Doubts &doubts, const double value, const std::string &owner)
+    doubt_cohesion(Doubts &doubts,
+                   const double value,
+                   const std::string &owner,
+                   const double largest,
+                   const std::string &what)
     {
-      constexpr double least = 1., largest = 1e9; // [Pa]
+      constexpr double least = 1.; // [Pa]
       doubt_stress(doubts, value, owner, "Cohesion", least);
       doubts.look_at(value,
                      owner,
@@ -96,8 +100,9 @@ namespace Keyblock
                      largest,
                      endless,
                      "Pa",
-                     "no rock has as much; stresses are in pascals, 1 MPa is "
-                     "1e6.");
+                     "no " + what +
+                       " has as much; stresses are in pascals, 1 MPa is "
+                       "1e6.");
     }
 
     /** Horizontal over vertical stress. */
@@ -125,17 +130,20 @@ namespace Keyblock
                       const std::vector<double> &coefficient,
                       const std::string &owner)
     {
-      constexpr double largest = 2.; // [-]
+      constexpr double largest = 1.; // [-]
+      double square            = 0.;
       for (const double c : coefficient)
-        doubts.look_at(std::abs(c),
-                       owner,
-                       "Seismic coefficient",
-                       largest,
-                       endless,
-                       "[-]",
-                       "is it in m/s2? It is acceleration over 9.81 m/s2: that "
-                       "would be " +
-                         text_of(std::abs(c) / 9.81, 3) + ".");
+        square += c * c;
+      doubts.look_at(
+        std::sqrt(square),
+        owner,
+        "Seismic coefficient",
+        largest,
+        endless,
+        "[-]",
+        "as a vector; is it in m/s2? It is acceleration over 9.81 m/s2: that "
+        "would be " +
+          text_of(std::sqrt(square) / 9.81, 3) + ".");
     }
 
     void
@@ -240,9 +248,10 @@ namespace Keyblock
     void
     doubt_liner(Doubts &doubts, const Liner &liner)
     {
-      constexpr double largest_thickness    = 3.;  // [m]
-      constexpr double least_liner_strength = 1e3; // [Pa]
-      const std::string owner               = "Shotcrete/" + liner.name;
+      constexpr double largest_thickness      = 3.;   // [m]
+      constexpr double least_liner_strength   = 1e3;  // [Pa]
+      constexpr double largest_shear_strength = 20e6; // [Pa]
+      const std::string owner                 = "Shotcrete/" + liner.name;
       doubt_stress(
         doubts, liner.young_modulus, owner, "Young modulus", least_modulus);
       for (const auto &[strength, name] :
@@ -250,6 +259,14 @@ namespace Keyblock
             std::make_pair(liner.compressive_strength, "Compressive strength"),
             std::make_pair(liner.tensile_strength, "Tensile strength")})
         doubt_stress(doubts, strength, owner, name, least_liner_strength);
+      doubts.look_at(liner.shear_strength,
+                     owner,
+                     "Shear strength",
+                     largest_shear_strength,
+                     endless,
+                     "Pa",
+                     "no shotcrete has as much; stresses are in pascals, 1 MPa "
+                     "is 1e6.");
       doubts.look_at(liner.thickness,
                      owner,
                      "Thickness",
@@ -273,7 +290,7 @@ namespace Keyblock
       {
         const std::string owner = "Joints/" + joint->name;
         doubt_angle(doubts, joint->friction_angle, owner, "Friction angle");
-        doubt_cohesion(doubts, joint->cohesion, owner);
+        doubt_cohesion(doubts, joint->cohesion, owner, 5e6, "joint");
         doubt_stiffness(doubts, JointStiffness(*joint), owner);
         doubt_strength(doubts, *joint, owner);
       }
@@ -291,7 +308,7 @@ namespace Keyblock
                           material->friction_angle,
                           owner,
                           "Friction angle");
-              doubt_cohesion(doubts, material->cohesion, owner);
+              doubt_cohesion(doubts, material->cohesion, owner, 1e9, "rock");
             }
           doubt_stress(doubts,
                        material->young_modulus,

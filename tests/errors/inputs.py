@@ -862,7 +862,7 @@ def hardly_meant():
                     "Initial state/Gravity=0; -981", "Stages/*/Seismic coefficient=2.5, 0",
                     "Stages/*/Unbalanced ratio=0.5", "Water/Level=12",
                     "Joints/right/Friction angle=1.55"],
-             ["'Joints/left/Cohesion' is 5e+09 Pa: no rock has as much",
+             ["'Joints/left/Cohesion' is 5e+09 Pa: no joint has as much",
               "'Materials/rock/Young modulus' is 1e+14 Pa: no rock is so stiff",
               "'Materials/rock/Density' is 26487 kg/m3: is it a unit weight",
               "'Initial state/Lateral ratios' is 80 [-]: no ground has so much more "

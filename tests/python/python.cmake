@@ -11,7 +11,7 @@ foreach(case scene blocks limit program)
   keyblock_python(${case} ${PYTHON_OF_MODULE} ${python_tests}/geometry.py ${case}
     ${prm} $<TARGET_FILE:keyblock>)
 endforeach()
-foreach(case column factor several stop restart threads)
+foreach(case column by_hand factor several stop restart threads)
   keyblock_python(${case} ${PYTHON_OF_MODULE} ${python_tests}/runs.py ${case} ${prm}
     ${CMAKE_CURRENT_BINARY_DIR}/python_${case})
 endforeach()

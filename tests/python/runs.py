@@ -12,6 +12,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -57,6 +58,17 @@ def column():
     run.close()
     check_raises(keyblock.Error, ["closed"], lambda: run.displacement)
     check("blocks outlive it", len(blocks.vertices), len(x))
+
+
+def by_hand():
+    """Stages run one by one leave the same files as a loop over the run."""
+    with tempfile.TemporaryDirectory() as folder:
+        run = keyblock.Run(keyblock.Scene(INCLINE), output=folder)
+        while run.has_stage_left:
+            run.run_stage(lambda progress: None)
+        run.close()
+        missing = {"summary.json", "blocks.csv", "history.csv"} - set(os.listdir(folder))
+        check_that(f"results of the last stage are written (not {missing})", not missing)
 
 
 def factor():

@@ -176,6 +176,36 @@ BOOST_AUTO_TEST_CASE(ground_loads_the_top_unless_it_is_loaded)
   BOOST_TEST(tractions("  set Region = y - 29.9\n") == "own");
 }
 
+BOOST_AUTO_TEST_CASE(ground_ends_at_the_surface_up_to_round_off)
+{
+  // -20 + 43.465 is above 23.465 by round-off, which loads nothing
+  const std::vector<std::string> box = {"Domain/Corner=-20, -20",
+                                        "Domain/Size=40, 43.465"};
+  const auto with                    = [&box](const std::string &assignment) {
+    std::vector<std::string> all = box;
+    all.push_back(assignment);
+    return all;
+  };
+  BOOST_TEST(-20. + 43.465 > 23.465);
+  BOOST_TEST(read<2>("", with("Ground/Depth=23.465"))->tractions.empty());
+  BOOST_CHECK_THROW(read<2>("", with("Ground/Depth=23.4649")), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(ground_has_a_free_top_at_the_surface)
+{
+  const auto sides = [](const std::vector<std::string> &overrides) {
+    return list_of(read<2>("", overrides)->domain.truncated_boundaries);
+  };
+  BOOST_TEST(sides({}) == "all");
+  BOOST_TEST(sides({"Ground/Depth=30"}) == "left, right, bottom");
+  BOOST_TEST(sides({"Ground/Depth=30.1"}) == "all");
+  BOOST_TEST(sides({"Ground/Depth=30", "Domain/Truncated boundaries=top"}) ==
+             "top");
+  BOOST_TEST(
+    list_of(read<3>("", {"Ground/Depth=30"})->domain.truncated_boundaries) ==
+    "left, right, front, back, bottom");
+}
+
 BOOST_AUTO_TEST_CASE(ground_holds_sides_without_a_support)
 {
   // each choice of sides, and at random regions in their places

@@ -31,7 +31,7 @@ namespace Keyblock
     /** It is not as long as the domain along all axes. */
     void require_smaller() const;
 
-    /** Its longest side is a thousandth of the domain's, or more. */
+    /** Its longest side is a hundredth of the domain's, or more. */
     void require_size() const;
 
     /** A part of it is in the domain, or, if it @p may_touch, on its outline.
