@@ -254,6 +254,8 @@ foreach(size 0.4 0.6)
   keyblock_scene(verification/bent_roof REFERENCES bent_roof_${size} RANKS 1
     SET "Mesh/Size at excavation=${size}" "Safety factor/Blocks=3")
 endforeach()
+# a hidden one that another uncovers as it falls
+keyblock_scene(verification/uncovered_block RANKS 1)
 # blocks that others push, which reach farther or move more slowly
 keyblock_scene(verification/toe_block RANKS 1 SET "Safety factor/Blocks=2")
 keyblock_scene(verification/column_on_block RANKS 1 SET "Safety factor/Blocks=2")
