@@ -142,6 +142,11 @@ keyblock_scene(verification/slope_crack REFERENCES slope_crack_filled RANKS 1
   SET "Joints/crack/Water level=60"
   "Joints/plane/Water pressure=9810*14.01*max(0, min(1, x/65.680527))"
   "Stages/rest/Seismic coefficient=-0.08, 0")
+# and by a formula in t, which changes nothing, with all water on one rank of two
+keyblock_scene(verification/slope_crack REFERENCES slope_crack_filled RANKS 2
+  SET "Joints/crack/Water level=60 + 0*t"
+  "Joints/plane/Water pressure=9810*14.01*max(0, min(1, x/65.680527)) + 0*t"
+  "Stages/rest/Seismic coefficient=-0.08, 0")
 keyblock_scene(verification/material_change)
 keyblock_scene(verification/geostress RANKS 1 2 4)
 keyblock_scene(verification/order_at_once ALIKE RANKS 1 2)
