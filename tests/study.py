@@ -132,6 +132,22 @@ def faults_of_notch(keyblock, scene, folder):
         f"a block that leans in a notch has {mean} for {exact}"]
 
 
+def faults_of_uncovered(keyblock, scene, folder):
+    """What is wrong where a hidden block fails that a failing one uncovers."""
+    results = study(
+        keyblock, str(pathlib.Path(scene).with_name("uncovered_block.prm")),
+        folder / "uncovered", "Study/Names=strength", "Study/Samples=1",
+        "Study/strength/Entry=Joints/left above/Cohesion",
+        "Study/strength/Distribution=sequence", "Study/strength/Minimum=5e3")[0]
+    header, row = results.splitlines()[1:3]
+    values = dict(zip(header.split(","), row.split(",")))
+    # (5 + 12) / 20 of the weight on the sides of the upper one
+    if (values["failed_blocks"] != "2"
+            or abs(float(values["factor_2"] or "inf") - 0.85) > 1e-6):
+        return ["a hidden block that falls after another one has not failed"]
+    return []
+
+
 def faults_of_joints(keyblock, folder):
     """What is wrong where variables are strengths of a set, of a bent joint and
     of a pattern, which are changed in place: samples are those of scenes that
@@ -292,6 +308,7 @@ def main():
     faults += faults_of_groups(keyblock, scene, folder)
     faults += faults_of_leaning(keyblock, scene, folder)
     faults += faults_of_notch(keyblock, scene, folder)
+    faults += faults_of_uncovered(keyblock, scene, folder)
     if faults:
         sys.exit("; ".join(faults))
 

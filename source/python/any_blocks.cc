@@ -95,6 +95,33 @@ namespace Keyblock::Python
       return "";
     }
 
+    /** What a block that others uncover asks for once they have gone. */
+    template <int dim>
+    SupportDemand
+    demand_of_uncovered(const Ground<dim> &ground,
+                        const Blocks<dim> &blocks,
+                        const JudgedBlock<dim> &judged,
+                        const double time,
+                        const double wanted)
+    {
+      std::vector<bool> is_gone(blocks.blocks.size(), false);
+      for (unsigned int b = 0; b < is_gone.size(); ++b)
+        is_gone[b] = std::count(judged.once_gone.blocks.begin(),
+                                judged.once_gone.blocks.end(),
+                                blocks.blocks[b].id) > 0;
+      const Ground<dim> later{ground.scene,
+                              ground.split,
+                              ground.stage_number,
+                              &is_gone};
+      return find_unshared_demand(later,
+                                  FreeFaces<dim>(later),
+                                  blocks,
+                                  judged.block,
+                                  time,
+                                  wanted,
+                                  judged.statics);
+    }
+
     template <int dim>
     Judgement
     describe(const Ground<dim> &ground,
@@ -124,8 +151,11 @@ namespace Keyblock::Python
       result.remarks = statics.remarks;
       if (wanted > 0.)
         {
-          const SupportDemand demand = find_unshared_demand(
-            ground, free, blocks, block, time, wanted, statics);
+          const SupportDemand demand =
+            judged.is_uncovered && !judged.once_gone.blocks.empty()
+              ? demand_of_uncovered(ground, blocks, judged, time, wanted)
+              : find_unshared_demand(
+                  ground, free, blocks, block, time, wanted, statics);
           result.support_force    = demand.force;
           result.support_pressure = demand.pressure;
           for (const auto &[set, number] : demand.numbers)

@@ -21,8 +21,12 @@ namespace Keyblock
                              &is_removed};
     const FreeFaces<dim> free(ground);
     const BrokenSegments broken = model.conditions->broken_segments();
-    const auto judged           = judge_exposed_blocks(
-      ground, free, model.blocks, model.step->time, broken);
+    const auto judged           = judge_exposed_blocks(ground,
+                                             free,
+                                             model.blocks,
+                                             model.step->time,
+                                             broken,
+                                             record.present.removed_since());
     std::vector<unsigned int> critical;
     for (const unsigned int b : blocks)
       {
@@ -54,9 +58,10 @@ namespace Keyblock
                              record.present.number(),
                              &is_removed};
     const double time = model.step->time;
-    auto judged =
-      judge_exposed_blocks(ground, FreeFaces<dim>(ground), model.blocks, time);
-    note_leaning_blocks(ground, model.blocks, time, judged);
+    const FreeFaces<dim> free(ground);
+    auto judged = judge_exposed_blocks(
+      ground, free, model.blocks, time, {}, record.present.removed_since());
+    note_leaning_blocks(ground, free, model.blocks, time, judged);
     std::vector<SafetyFactor> factors;
     for (const JudgedBlock<dim> &one : judged)
       {

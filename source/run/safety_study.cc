@@ -26,6 +26,28 @@ namespace Keyblock
 
   template <int dim>
   bool
+  SafetyStudy<dim>::is_uncovered(const unsigned int block) const
+  {
+    const SplitMesh<dim> &split = model.split;
+    const auto has_gone         = [&](const unsigned int b) {
+      return b != none && b != block && record.present.removal_stage[b] > 0;
+    };
+    return std::any_of(split.interface.joint_faces.begin(),
+                       split.interface.joint_faces.end(),
+                       [&](const JointFace &face) {
+                         const unsigned int minus =
+                           split.block_of_cell[face.minus_cell];
+                         const unsigned int plus =
+                           split.block_of_cell[face.plus_cell];
+                         return (minus == block && has_gone(plus)) ||
+                                (plus == block && has_gone(minus));
+                       });
+  }
+
+
+
+  template <int dim>
+  bool
   SafetyStudy<dim>::is_class_wanted(const unsigned int block) const
   {
     const Block<dim> &b = model.blocks.blocks[block];
@@ -34,9 +56,11 @@ namespace Keyblock
     const BlockClass now =
       b.class_of_stage[std::min<std::size_t>(record.present.number(),
                                              b.class_of_stage.size() - 1)];
+    // (limit equilibrium lists by itself what others uncover that fail)
     return now == BlockClass::exposed ||
            (now == BlockClass::hidden &&
-            !model.scene.safety.wants_exposed_only());
+            (!model.scene.safety.wants_exposed_only() ||
+             model.scene.safety.is_by_statics() || is_uncovered(block)));
   }
 
 

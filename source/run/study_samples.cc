@@ -138,8 +138,9 @@ namespace Keyblock
   {
     std::string text =
       "# study " +
-      // results without what falls once others have gone are of another study
-      digest_of("with others gone\n" +
+      // results without what falls once others have gone, or have uncovered it,
+      // are of another study
+      digest_of("with others gone, and uncovered\n" +
                 entries_of_samples(list_entries(scene.used_entries()))) +
       "\nsample";
     for (const auto &variable : scene.study_variables)

@@ -3,7 +3,10 @@
 #include <keyblock/safety/block_cascade.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 namespace Keyblock
 {
@@ -24,12 +27,12 @@ namespace Keyblock
     /** Ids of the blocks that are gone among the neighbours of one. */
     template <int dim>
     std::set<unsigned int>
-    gone_beside(const BlockStatics<dim> &statics,
-                const std::vector<bool> &is_gone,
-                const Blocks<dim> &blocks)
+    gone_among(const std::vector<std::set<unsigned int>> &neighbors,
+               const std::vector<bool> &is_gone,
+               const Blocks<dim> &blocks)
     {
       std::set<unsigned int> ids;
-      for (const std::set<unsigned int> &others : statics.around.others)
+      for (const std::set<unsigned int> &others : neighbors)
         for (const unsigned int other : others)
           if (is_gone[other])
             ids.insert(blocks.blocks[other].id);
@@ -44,6 +47,104 @@ namespace Keyblock
         text += (id == ids.front() ? "" : ", ") + std::to_string(id);
       return text + (ids.size() == 1 ? " has gone" : " have gone");
     }
+
+    template <int dim>
+    BlockClass
+    class_now(const Ground<dim> &ground, const Block<dim> &block)
+    {
+      const auto &classes = block.class_of_stage;
+      return classes[std::min<std::size_t>(ground.stage_number,
+                                           classes.size() - 1)];
+    }
+
+    /** Ids of the blocks across joints of one that are gone. */
+    template <int dim>
+    std::set<unsigned int>
+    gone_across_joints(const Ground<dim> &ground,
+                       const FreeFaces<dim> &free,
+                       const std::vector<bool> &is_gone,
+                       const Blocks<dim> &blocks,
+                       const unsigned int block)
+    {
+      std::set<unsigned int> ids;
+      for (const unsigned int i : free.joint_faces_of_block(block))
+        {
+          const JointFace &face = ground.split.interface.joint_faces[i];
+          for (const unsigned int cell : {face.minus_cell, face.plus_cell})
+            if (const unsigned int other = ground.split.block_of_cell[cell];
+                other != none && other != block && is_gone[other])
+              ids.insert(blocks.blocks[other].id);
+        }
+      return ids;
+    }
+
+    /** Judge hidden blocks that have a free face without those that are gone;
+     * one that went with them as it was between what is left.
+     * @param free_now the free faces without them, made where they matter */
+    template <int dim>
+    void
+    add_uncovered(const Ground<dim> &ground,
+                  const std::vector<bool> &is_gone,
+                  const FreeFaces<dim> &free,
+                  std::unique_ptr<FreeFaces<dim>> &free_now,
+                  const Blocks<dim> &blocks,
+                  const double time,
+                  const BrokenSegments &broken,
+                  std::vector<JudgedBlock<dim>> &judged)
+    {
+      const std::vector<bool> before = removed_from(ground, is_gone.size());
+      std::vector<bool> is_asked     = before;
+      for (const JudgedBlock<dim> &one : judged)
+        is_asked[one.block] = true;
+      for (unsigned int b = 0; b < is_gone.size(); ++b)
+        {
+          std::vector<bool> others = is_gone;
+          others[b]                = false;
+          std::set<unsigned int> gone =
+            gone_across_joints(ground, free, others, blocks, b);
+          if (is_asked[b] || gone.empty() ||
+              class_now(ground, blocks.blocks[b]) != BlockClass::hidden)
+            continue;
+          const Ground<dim> later{ground.scene,
+                                  ground.split,
+                                  ground.stage_number,
+                                  &others};
+          std::unique_ptr<FreeFaces<dim>> own;
+          if (auto &faces = is_gone[b] ? own : free_now; !faces)
+            faces = std::make_unique<FreeFaces<dim>>(later);
+          const FreeFaces<dim> &free_later = is_gone[b] ? *own : *free_now;
+          if (free_later.of_block(b).empty())
+            continue;
+          JudgedBlock<dim> one{
+            b, judge_block(later, free_later, blocks, b, time, broken), 0., {}};
+          one.least_factor = one.statics.limit.factor;
+          for (unsigned int other = 0; other < before.size(); ++other)
+            if (before[other])
+              gone.erase(blocks.blocks[other].id);
+          one.is_uncovered = !gone.empty();
+          if (one.is_uncovered && std::isfinite(one.least_factor))
+            one.once_gone = {{gone.begin(), gone.end()},
+                             one.least_factor,
+                             one.statics.mode()};
+          judged.push_back(std::move(one));
+        }
+    }
+
+    /** That a block may lean on one below it, and what it asks for besides. */
+    template <int dim>
+    std::string
+    remark_on_leaning(const unsigned int id,
+                      const BlockStatics<dim> &below,
+                      const BlockStatics<dim> &above)
+    {
+      std::string text =
+        "block " + std::to_string(id) + " may lean on it, left out";
+      if (below.demand.force > 0. && above.demand.force > 0. &&
+          std::isfinite(above.demand.force))
+        text += ", and asks for " + text_of(1e-3 * above.demand.force, 4) +
+                (dim == 2 ? " kN/m" : " kN") + " more";
+      return text;
+    }
   } // namespace
 
 
@@ -54,39 +155,42 @@ namespace Keyblock
                        const FreeFaces<dim> &free,
                        const Blocks<dim> &blocks,
                        const double time,
-                       const BrokenSegments &broken)
+                       const BrokenSegments &broken,
+                       const std::vector<bool> &gone_since)
   {
     std::vector<JudgedBlock<dim>> judged;
     std::vector<bool> is_gone = removed_from(ground, blocks.blocks.size());
     for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+      if (!is_gone[b] &&
+          class_now(ground, blocks.blocks[b]) == BlockClass::exposed)
+        {
+          judged.push_back(
+            {b, judge_block(ground, free, blocks, b, time, broken), 0., {}});
+          judged.back().least_factor = judged.back().statics.limit.factor;
+        }
+    std::unique_ptr<FreeFaces<dim>> free_later;
+    add_uncovered(
+      ground, is_gone, free, free_later, blocks, time, broken, judged);
+    bool is_new = false;
+    for (unsigned int b = 0; b < gone_since.size(); ++b)
+      if (gone_since[b] && !is_gone[b])
+        is_new = is_gone[b] = true;
+    while (true)
       {
-        const auto &classes = blocks.blocks[b].class_of_stage;
-        if (!is_gone[b] && classes[std::min<std::size_t>(ground.stage_number,
-                                                         classes.size() - 1)] ==
-                             BlockClass::exposed)
-          {
-            judged.push_back(
-              {b, judge_block(ground, free, blocks, b, time, broken), 0., {}});
-            judged.back().least_factor = judged.back().statics.limit.factor;
-          }
-      }
-    for (bool is_new = true; is_new;)
-      {
-        is_new = false;
         for (const JudgedBlock<dim> &one : judged)
           if (!is_gone[one.block] && one.least_factor < 1.)
             is_new = is_gone[one.block] = true;
-        if (!is_new)
+        if (!std::exchange(is_new, false))
           break;
         const Ground<dim> later{ground.scene,
                                 ground.split,
                                 ground.stage_number,
                                 &is_gone};
-        std::unique_ptr<FreeFaces<dim>> free_later;
+        free_later.reset();
         for (JudgedBlock<dim> &one : judged)
           {
             const std::set<unsigned int> gone =
-              gone_beside(one.statics, is_gone, blocks);
+              gone_among(one.statics.around.others, is_gone, blocks);
             if (is_gone[one.block] || gone.empty())
               continue;
             if (!free_later)
@@ -100,12 +204,17 @@ namespace Keyblock
                                 then.limit.factor,
                                 then.mode()};
           }
+        add_uncovered(
+          ground, is_gone, free, free_later, blocks, time, broken, judged);
       }
     for (JudgedBlock<dim> &one : judged)
       if (!one.once_gone.blocks.empty())
-        one.statics.remarks.push_back(text_of(one.once_gone.factor, 4) + ", " +
-                                      one.once_gone.mode + ", once " +
-                                      text_of_ids(one.once_gone.blocks));
+        one.statics.remarks.push_back(
+          (one.is_uncovered && one.least_factor == one.statics.limit.factor
+             ? "with a free face only"
+             : text_of(one.once_gone.factor, 4) + ", " + one.once_gone.mode +
+                 ",") +
+          " once " + text_of_ids(one.once_gone.blocks));
     return judged;
   }
 
@@ -114,35 +223,48 @@ namespace Keyblock
   template <int dim>
   void
   note_leaning_blocks(const Ground<dim> &ground,
+                      const FreeFaces<dim> &free,
                       const Blocks<dim> &blocks,
                       const double time,
                       std::vector<JudgedBlock<dim>> &judged)
   {
+    std::map<unsigned int, double> factors; // between all others
+    const auto factor_of = [&](const unsigned int b) {
+      const auto [entry, is_new] = factors.emplace(b, 0.);
+      if (is_new)
+        entry->second = judge_block(ground, free, blocks, b, time).limit.factor;
+      return entry->second;
+    };
+    for (const JudgedBlock<dim> &one : judged)
+      if (!one.is_uncovered)
+        factors[one.block] = one.statics.limit.factor;
     for (JudgedBlock<dim> &below : judged)
       {
         if (below.statics.limit.direction.norm() == 0.)
           continue;
         std::vector<bool> is_gone = removed_from(ground, blocks.blocks.size());
-        is_gone[below.block]      = true;
-        const Ground<dim> later   = {ground.scene,
-                                     ground.split,
-                                     ground.stage_number,
-                                     &is_gone};
-        std::unique_ptr<FreeFaces<dim>> free;
-        for (const JudgedBlock<dim> &other : judged)
+        std::set<unsigned int> neighbors;
+        for (const std::set<unsigned int> &others : below.statics.around.others)
+          neighbors.insert(others.begin(), others.end());
+        is_gone[below.block]    = true;
+        const Ground<dim> later = {ground.scene,
+                                   ground.split,
+                                   ground.stage_number,
+                                   &is_gone};
+        std::unique_ptr<FreeFaces<dim>> free_later;
+        for (const unsigned int other : neighbors)
           {
-            if (other.block == below.block ||
-                gone_beside(other.statics, is_gone, blocks)
-                    .count(blocks.blocks[below.block].id) == 0)
+            const BlockClass kind = class_now(ground, blocks.blocks[other]);
+            if (is_gone[other] ||
+                (kind != BlockClass::exposed && kind != BlockClass::hidden))
               continue;
-            if (!free)
-              free = std::make_unique<FreeFaces<dim>>(later);
-            if (judge_block(later, *free, blocks, other.block, time)
-                  .limit.factor <
-                (1. - least_decrease) * other.statics.limit.factor)
-              below.statics.remarks.push_back(
-                "block " + std::to_string(blocks.blocks[other.block].id) +
-                " may lean on it, left out");
+            if (!free_later)
+              free_later = std::make_unique<FreeFaces<dim>>(later);
+            const BlockStatics<dim> then =
+              judge_block(later, *free_later, blocks, other, time);
+            if (then.limit.factor < (1. - least_decrease) * factor_of(other))
+              below.statics.remarks.push_back(remark_on_leaning(
+                blocks.blocks[other].id, below.statics, then));
           }
       }
   }
@@ -220,6 +342,7 @@ namespace Keyblock
 
 #define INSTANTIATE(dim)                                                       \
   template void note_leaning_blocks(const Ground<dim> &,                       \
+                                    const FreeFaces<dim> &,                    \
                                     const Blocks<dim> &,                       \
                                     const double,                              \
                                     std::vector<JudgedBlock<dim>> &);          \
@@ -228,7 +351,8 @@ namespace Keyblock
     const FreeFaces<dim> &,                                                    \
     const Blocks<dim> &,                                                       \
     const double,                                                              \
-    const BrokenSegments &);                                                   \
+    const BrokenSegments &,                                                    \
+    const std::vector<bool> &);                                                \
   template std::vector<Tensor<1, dim>> find_ways_without_support(              \
     const Ground<dim> &,                                                       \
     const FreeFaces<dim> &,                                                    \

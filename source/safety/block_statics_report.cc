@@ -109,7 +109,7 @@ namespace Keyblock
     for_each_changed_ground<dim>(
       scene, split, [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
         auto judged = judge_exposed_blocks(ground, free, blocks, 0.);
-        note_leaning_blocks(ground, blocks, 0., judged);
+        note_leaning_blocks(ground, free, blocks, 0., judged);
         for (JudgedBlock<dim> &one : judged)
           {
             auto &before = last[one.block];

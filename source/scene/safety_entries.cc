@@ -39,7 +39,8 @@ namespace Keyblock
       blocks,
       "Blocks whose safety factor is looked for at the end of "
       "stages: none; all (finite ones that are not attached); "
-      "exposed (those with a free face); critical (those of "
+      "exposed (those with a free face, also because others "
+      "failed and were taken away); critical (those of "
       "them whose factor by limit equilibrium is below Critical "
       "factor); or their numbers in the block table.");
     prm.add_parameter("Critical factor",

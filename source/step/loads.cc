@@ -3,6 +3,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/step/loads.h>
 
+#include <algorithm>
 #include <map>
 
 namespace Keyblock
@@ -240,6 +241,8 @@ namespace Keyblock
                                         formula, 1, "Joints/*/Water pressure"));
         is_varying.push_back(!formula.empty() && depends_on_time(formula));
       }
+    is_water_varying =
+      std::find(is_varying.begin(), is_varying.end(), true) != is_varying.end();
     for (const JointFace &face : interface.joint_faces)
       {
         if (!water_pressures[face.joint] ||
@@ -268,7 +271,7 @@ namespace Keyblock
   Loads<dim>::set_load(const double time)
   {
     const double left = ramp.share_left();
-    if (is_set && is_constant && varying_water.empty() && left == share_set)
+    if (is_set && is_constant && !is_water_varying && left == share_set)
       return false;
     is_set                 = true;
     share_set              = left;

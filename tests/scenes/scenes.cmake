@@ -144,6 +144,11 @@ keyblock_scene(verification/slope_crack REFERENCES slope_crack_filled RANKS 1
   "Stages/rest/Seismic coefficient=-0.08, 0")
 # a slab up to the surface of the ground
 keyblock_scene(verification/ground_slope RANKS 1)
+# and by a formula in t, which changes nothing, with all water on one rank of two
+keyblock_scene(verification/slope_crack REFERENCES slope_crack_filled RANKS 2
+  SET "Joints/crack/Water level=60 + 0*t"
+  "Joints/plane/Water pressure=9810*14.01*max(0, min(1, x/65.680527)) + 0*t"
+  "Stages/rest/Seismic coefficient=-0.08, 0")
 keyblock_scene(verification/material_change)
 keyblock_scene(verification/geostress RANKS 1 2 4)
 keyblock_scene(verification/order_at_once ALIKE RANKS 1 2)
@@ -256,6 +261,8 @@ foreach(size 0.4 0.6)
   keyblock_scene(verification/bent_roof REFERENCES bent_roof_${size} RANKS 1
     SET "Mesh/Size at excavation=${size}" "Safety factor/Blocks=3")
 endforeach()
+# a hidden one that another uncovers as it falls
+keyblock_scene(verification/uncovered_block RANKS 1)
 # blocks that others push, which reach farther or move more slowly
 keyblock_scene(verification/toe_block RANKS 1 SET "Safety factor/Blocks=2")
 keyblock_scene(verification/column_on_block RANKS 1 SET "Safety factor/Blocks=2")

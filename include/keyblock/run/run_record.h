@@ -67,6 +67,16 @@ namespace Keyblock
         is_removed.push_back(stage > 0 && stage < number());
       return is_removed;
     }
+
+    /** Those that were taken away in it. */
+    std::vector<bool>
+    removed_since() const
+    {
+      std::vector<bool> is_removed;
+      for (const unsigned int stage : removal_stage)
+        is_removed.push_back(stage == number());
+      return is_removed;
+    }
   };
 
   /** What a run has come to. */

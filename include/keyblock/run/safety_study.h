@@ -39,6 +39,9 @@ namespace Keyblock
     list_blocks_of_rank_group(const RankGroups &groups) const;
     bool is_class_wanted(const unsigned int block) const;
 
+    /** Whether a block has a free face because others were taken away. */
+    bool is_uncovered(const unsigned int block) const;
+
     /** Those of @p blocks that limit equilibrium calls critical, if only they
      * are asked for. */
     std::vector<unsigned int>

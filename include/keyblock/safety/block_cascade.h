@@ -7,7 +7,8 @@
 
 namespace Keyblock
 {
-  /** What limit equilibrium says of an exposed block among the others. */
+  /** What limit equilibrium says of a block with a free face among the others.
+   */
   template <int dim>
   struct JudgedBlock
   {
@@ -19,12 +20,18 @@ namespace Keyblock
     double least_factor;
 
     OnceGone once_gone;
+
+    /** Whether it has a free face only once those have gone: all above is of
+     * then. */
+    bool is_uncovered = false;
   };
 
   /**
    * judge_block() for all blocks with a free face at the stage of @p ground.
-   * Those with a factor below 1 fall out, and what rested on them is judged
-   * again without them, until no more fall. The remarks say what that changes.
+   * Those with a factor below 1 fall out, and so do those that a run took away
+   * @p gone_since (by index): what rested on them is judged again without them,
+   * and what they uncover, too, until no more fall. The remarks say what that
+   * changes.
    */
   template <int dim>
   std::vector<JudgedBlock<dim>>
@@ -32,12 +39,14 @@ namespace Keyblock
                        const FreeFaces<dim> &free,
                        const Blocks<dim> &blocks,
                        const double time,
-                       const BrokenSegments &broken = {});
+                       const BrokenSegments &broken        = {},
+                       const std::vector<bool> &gone_since = {});
 
   /** Add remarks to blocks that can move: which others would if it had gone, so
-   * that they may lean on it. */
+   * that they may lean on it, hidden ones, too. */
   template <int dim>
   void note_leaning_blocks(const Ground<dim> &ground,
+                           const FreeFaces<dim> &free,
                            const Blocks<dim> &blocks,
                            const double time,
                            std::vector<JudgedBlock<dim>> &judged);

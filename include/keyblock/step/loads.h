@@ -115,7 +115,7 @@ namespace Keyblock
     bool
     is_load_changing() const
     {
-      return !is_constant || !varying_water.empty() || is_ramping();
+      return !is_constant || is_water_varying || is_ramping();
     }
 
     /** Set fields.load to gravity, water, tractions and ramped forces at
@@ -196,8 +196,12 @@ namespace Keyblock
     std::vector<LoadPoint<dim, double>> varying_tractions;
     std::vector<LoadPoint<dim, Tensor<1, dim>>> varying_water;
     bool is_constant = true; ///< neither traction nor gravity depends on time
-    bool is_set      = false;
-    double share_set = 0.; ///< of the ramped force in the load [-]
+
+    /** Whether a formula for water does now, here or on another rank: steps
+     * that ranks take together go by it. */
+    bool is_water_varying = false;
+    bool is_set           = false;
+    double share_set      = 0.; ///< of the ramped force in the load [-]
   };
 } // namespace Keyblock
 
