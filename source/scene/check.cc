@@ -182,6 +182,7 @@ namespace Keyblock
       }
     for (const auto &joint : joints)
       check_joint(*joint);
+    check_joints_inside(*this);
     require(
       !materials.empty(),
       "The entry 'Materials/Names' is empty; name at least one material.");

@@ -20,7 +20,9 @@ namespace Keyblock
   {
     require(stage.duration > 0. || stage.maximum_steps > 0 || stage.is_static(),
             "The stage '" + stage.name + "' never ends; set 'Stages/" +
-              stage.name + "/Duration' or 'Maximum steps'.");
+              stage.name +
+              "/Kind' to quasi-static, with which it ends in "
+              "balance, as for an excavation, or 'Duration' for shaking.");
     const std::string rayleigh = "Stages/" + stage.name + "/Rayleigh ";
     require(stage.rayleigh_ratio == 0. || stage.rayleigh_frequency > 0.,
             "The entry '" + rayleigh + "ratio' is " +

@@ -28,6 +28,10 @@ namespace Keyblock
   template <int dim>
   void check_joint(const Joint<dim> &joint);
 
+  /** Some joint of a scene lies in its domain. */
+  template <int dim>
+  void check_joints_inside(const Scene<dim> &scene);
+
   void check_stage(const Stage &stage);
 
   template <int dim>
