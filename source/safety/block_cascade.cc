@@ -262,7 +262,14 @@ namespace Keyblock
               free_later = std::make_unique<FreeFaces<dim>>(later);
             const BlockStatics<dim> then =
               judge_block(later, *free_later, blocks, other, time);
-            if (then.limit.factor < (1. - least_decrease) * factor_of(other))
+            // (one tied to it falls with it, and asks for more without it)
+            const bool asks_more =
+              below.statics.demand.force > 0. && then.demand.force > 0. &&
+              std::any_of(judged.begin(), judged.end(), [&](const auto &one) {
+                return one.block == other && one.statics.demand.force == 0.;
+              });
+            if (asks_more ||
+                then.limit.factor < (1. - least_decrease) * factor_of(other))
               below.statics.remarks.push_back(remark_on_leaning(
                 blocks.blocks[other].id, below.statics, then));
           }

@@ -13,7 +13,7 @@ namespace Keyblock
 {
   namespace
   {
-    /** Let a block be judged with others on the same shotcrete where they go at
+    /** Let a block be judged with others on the same support where they go at
      * less than it would by itself, and say so. */
     template <int dim>
     void
@@ -29,8 +29,11 @@ namespace Keyblock
       out << "with block" << (group.others.size() == 1 ? " " : "s ");
       for (const unsigned int b : group.others)
         out << (b == group.others.front() ? "" : ", ") << blocks.blocks[b].id;
-      out << ", which " << (group.others.size() == 1 ? "hangs" : "hang")
-          << " on the same shotcrete; ";
+      if (group.is_by_bolts)
+        out << ", on bolts that reach no other rock; ";
+      else
+        out << ", which " << (group.others.size() == 1 ? "hangs" : "hang")
+            << " on the same shotcrete; ";
       if (std::isfinite(statics.limit.factor))
         out << statics.limit.factor << " by itself";
       else

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Blocks that hang on the same shotcrete.
+// Blocks that hang on the same shotcrete, or on bolts between them.
 #include <keyblock/safety/hanging_group.h>
+#include <keyblock/safety/tied_blocks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,14 +21,6 @@ namespace Keyblock
     /** Halvings of the share of a demand. */
     constexpr unsigned int n_share_steps = 50;
 
-    /** The block on the other side of a trace. */
-    template <int dim>
-    unsigned int
-    other_side(const LinerTrace<dim> &trace, const unsigned int block)
-    {
-      return trace.block[trace.block[0] == block];
-    }
-
     /** Factor of a block with @p around without any support. */
     template <int dim>
     double
@@ -35,14 +28,6 @@ namespace Keyblock
     {
       return solve_with_laws<dim>(around.faces, around.loads.without_water())
         .factor;
-    }
-
-    template <int dim>
-    bool
-    can_hang(const Blocks<dim> &blocks, const unsigned int b)
-    {
-      return b != none && !blocks.blocks[b].is_infinite &&
-             !blocks.blocks[b].is_rigid;
     }
 
     /** One block of a group. */
@@ -61,12 +46,9 @@ namespace Keyblock
     keep_first(const std::vector<unsigned int> &own,
                LimitEquilibrium<dim> &limit)
     {
-      const std::vector<unsigned int> faces = limit.faces;
-      const std::vector<double> forces      = limit.normal_forces;
-      const unsigned int n_pressed          = limit.n_pressed;
-      limit.faces.clear();
-      limit.normal_forces.clear();
-      limit.n_pressed = 0;
+      const std::vector<unsigned int> faces = std::exchange(limit.faces, {});
+      const std::vector<double> forces = std::exchange(limit.normal_forces, {});
+      const unsigned int n_pressed     = std::exchange(limit.n_pressed, 0);
       for (unsigned int i = 0; i < faces.size(); ++i)
         if (faces[i] < own.size())
           {
@@ -114,7 +96,8 @@ namespace Keyblock
             if (!is_inside(pull.other))
               support.pulls.push_back(pull);
           for (const auto &section : member.support.sections)
-            if (!is_inside(other_side(section.trace, member.block)))
+            if (!is_inside(
+                  section.trace.block[section.trace.block[0] == member.block]))
               {
                 support.sections.push_back(section);
                 support.shotcrete_strength += section.strength;
@@ -157,7 +140,8 @@ namespace Keyblock
           const auto sections      = members[m].support.sections;
           const unsigned int on_it = members[m].block;
           for (const auto &section : sections)
-            if (const unsigned int b = other_side(section.trace, on_it);
+            if (const unsigned int b =
+                  section.trace.block[section.trace.block[0] == on_it];
                 can_hang(blocks, b) && members.size() < most_blocks &&
                 seen.insert(b).second)
               {
@@ -169,6 +153,46 @@ namespace Keyblock
                   {b, around, find_support_of_block(ground, b, time, broken)});
                 visit();
               }
+        }
+    }
+
+    /** Add to @p members, the first of which is there, the blocks with which it
+     * is tied by bolts that reach no other rock, and which go with it at less
+     * than @p factor, which @p visit lowers then. */
+    template <int dim, typename Visit>
+    void
+    add_tied(const Ground<dim> &ground,
+             const FreeFaces<dim> &free,
+             const Blocks<dim> &blocks,
+             const double time,
+             const BrokenSegments &broken,
+             const double &factor,
+             std::vector<Member<dim>> &members,
+             const Visit &visit)
+    {
+      std::set<unsigned int> seen{members[0].block};
+      for (unsigned int m = 0;
+           m < std::min<std::size_t>(members.size(), most_blocks);
+           ++m)
+        {
+          const auto pulls = members[m].support.pulls;
+          for (const auto &pull : pulls)
+            {
+              const double before     = factor;
+              const std::size_t known = members.size();
+              for (const unsigned int b :
+                   blocks_tied_by(ground.split, blocks, pull.bolt))
+                if (seen.count(b) == 0)
+                  members.push_back(
+                    {b,
+                     look_around(ground, free, blocks.blocks[b], time),
+                     find_support_of_block(ground, b, time, broken)});
+              visit();
+              if (!(factor < before))
+                members.resize(known);
+              for (std::size_t i = known; i < members.size(); ++i)
+                seen.insert(members[i].block);
+            }
         }
     }
 
@@ -187,7 +211,8 @@ namespace Keyblock
       BlockSupport<dim> support = member.support;
       std::map<unsigned int, bool> is_loose;
       const auto is_shared = [&](const auto &section) {
-        const unsigned int b = other_side(section.trace, member.block);
+        const unsigned int b =
+          section.trace.block[section.trace.block[0] == member.block];
         if (!can_hang(blocks, b))
           return false;
         const auto [found, is_new] = is_loose.emplace(b, false);
@@ -259,15 +284,6 @@ namespace Keyblock
       return high;
     }
 
-    /** Lessen a demand to a @p share of it. */
-    void
-    scale(const double share, SupportDemand &demand)
-    {
-      demand.force *= share;
-      demand.pressure *= share;
-      for (auto &[set, number] : demand.numbers)
-        number = std::ceil(share * number - 1e-9);
-    }
   } // namespace
 
 
@@ -288,16 +304,25 @@ namespace Keyblock
     const bool is_passive =
       ground.scene.safety.bolt_convention == BoltConvention::passive;
     std::vector<Member<dim>> members{{block, statics.around, statics.support}};
-    add_neighbors(ground, free, blocks, time, broken, factor, members, [&]() {
+    bool is_by_bolts = false;
+    const auto visit = [&]() {
       const auto limit = solve_as_one(members, is_passive);
       if (!(limit.factor < (1. - same_factor) * factor))
         return;
-      factor      = limit.factor;
-      least.limit = limit;
+      factor = limit.factor;
+      // (each block of a row that holds has the factor of its own bolts)
+      if (is_by_bolts && factor >= 1.)
+        return;
+      least.limit       = limit;
+      least.is_by_bolts = is_by_bolts;
       least.others.clear();
       for (unsigned int i = 1; i < members.size(); ++i)
         least.others.push_back(members[i].block);
-    });
+    };
+    add_neighbors(ground, free, blocks, time, broken, factor, members, visit);
+    members.resize(1);
+    is_by_bolts = true;
+    add_tied(ground, free, blocks, time, broken, factor, members, visit);
     return least;
   }
 
@@ -316,6 +341,18 @@ namespace Keyblock
     const bool is_passive =
       ground.scene.safety.bolt_convention == BoltConvention::passive;
     std::vector<Member<dim>> members{{block, statics.around, statics.support}};
+    // bolts give nothing with which it fails together with what they end in
+    auto &pulls = members[0].support.pulls;
+    if (const auto group =
+          find_hanging_group(ground, free, blocks, block, time, {}, statics);
+        group.is_by_bolts && group.limit.factor < factor)
+      {
+        const auto is_loose = [&](const auto &pull) {
+          return !blocks_tied_by(ground.split, blocks, pull.bolt).empty();
+        };
+        pulls.erase(std::remove_if(pulls.begin(), pulls.end(), is_loose),
+                    pulls.end());
+      }
     const auto demand_of = [&](const Member<dim> &member) {
       return demand_without_shared(ground, free, blocks, member, time, factor);
     };
@@ -335,7 +372,10 @@ namespace Keyblock
     if (share == 0.)
       return find_demand(
         ground, free, block, statics.around, statics.support, factor);
-    scale(share, demand);
+    demand.force *= share;
+    demand.pressure *= share;
+    for (auto &[set, number] : demand.numbers)
+      number = std::ceil(share * number - 1e-9);
     return demand;
   }
 
