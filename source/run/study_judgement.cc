@@ -11,7 +11,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <optional>
 
 namespace Keyblock
 {
@@ -44,7 +43,13 @@ namespace Keyblock
   {
     const auto &all = g.blocks.blocks;
     // by the numbers of the stages from which on they are so
-    std::map<unsigned int, std::vector<std::optional<double>>> factors;
+    struct Factors
+    {
+      double least    = std::numeric_limits<double>::infinity(),
+             first    = std::numeric_limits<double>::infinity();
+      bool is_exposed = false;
+    };
+    std::map<unsigned int, std::vector<Factors>> factors;
     for_each_changed_ground<dim>(
       sample,
       g.split,
@@ -64,10 +69,14 @@ namespace Keyblock
                                    "has no value there; correct the "
                                    "formula, or the range of what it "
                                    "depends on."));
-            now[one.block] = one.least_factor;
+            now[one.block].least      = one.least_factor;
+            now[one.block].is_exposed = !one.is_uncovered;
+            if (!one.is_uncovered)
+              now[one.block].first = one.statics.limit.factor;
           }
       });
     BlockFactors found{
+      std::vector<double>(all.size(), std::numeric_limits<double>::infinity()),
       std::vector<double>(all.size(), std::numeric_limits<double>::infinity()),
       std::vector<unsigned int>(all.size(), 0),
       std::vector<bool>(all.size(), false)};
@@ -80,15 +89,17 @@ namespace Keyblock
                                              : next->first))
           continue;
         for (unsigned int b = 0; b < all.size(); ++b)
-          if (const std::optional<double> factor = now->second[b])
-            {
+          {
+            const Factors &own = now->second[b];
+            found.factor[b]    = std::min(found.factor[b], own.least);
+            if (own.is_exposed)
               found.is_exposed[b] = true;
-              if (*factor < found.factor[b])
-                {
-                  found.factor[b] = *factor;
-                  found.stage[b]  = now->first;
-                }
-            }
+            if (own.first < found.first[b])
+              {
+                found.first[b] = own.first;
+                found.stage[b] = now->first;
+              }
+          }
       }
     return found;
   }
@@ -118,10 +129,10 @@ namespace Keyblock
     std::vector<bool> is_new(factors.factor.size(), true);
     const auto offer =
       [&](const unsigned int b, const double value, const std::string &stage) {
-        if (is_new[b] || value < factors.factor[b])
+        if (is_new[b] || value < factors.first[b])
           {
-            factors.factor[b] = value;
-            factors.stage[b]  = scene.stage_number(stage);
+            factors.factor[b] = factors.first[b] = value;
+            factors.stage[b]                     = scene.stage_number(stage);
           }
         is_new[b] = false;
       };
@@ -169,21 +180,22 @@ namespace Keyblock
     const auto &all             = g.blocks.blocks;
 
     BlockFactors found = judge_blocks(sample, g);
-    const auto least   = [&]() {
-      return std::min_element(found.factor.begin(), found.factor.end()) -
-             found.factor.begin();
+    // that of the block which goes first: what comes after it falls on nothing
+    const auto least = [&]() {
+      return std::min_element(found.first.begin(), found.first.end()) -
+             found.first.begin();
     };
     SampleResult result;
     result.is_coarse = !g.warnings.empty();
     result.factor    = result.rigid_factor =
       all.empty() ? std::numeric_limits<double>::infinity()
-                     : found.factor[least()];
+                     : found.first[least()];
     if (may_run && scene.study.level == StudyLevel::full &&
         result.rigid_factor < sample.safety.critical_factor)
       run_sample(index, found);
-    if (!all.empty() && std::isfinite(found.factor[least()]))
+    if (!all.empty() && std::isfinite(found.first[least()]))
       {
-        result.factor = found.factor[least()];
+        result.factor = found.first[least()];
         result.block  = all[least()].id;
         result.stage  = found.stage[least()];
       }

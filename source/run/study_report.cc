@@ -232,7 +232,8 @@ namespace Keyblock
         << " with 95 %\n        failed blocks per sample " << mean_failed
         << ", " << (dim == 2 ? "area " : "volume ") << mean_volume
         << (dim == 2 ? " m2" : " m3")
-        << ", with those that fall once others have gone";
+        << ", with those that fall once others have gone, as no stress "
+           "clamps them";
     if (dim == 3 && length > 0.)
       out << ", per metre of tunnel " << mean_failed / length << " and "
           << mean_volume / length << " m3";

@@ -140,7 +140,7 @@ namespace Keyblock
       "# study " +
       // results without what falls once others have gone, or have uncovered it,
       // are of another study
-      digest_of("with others gone, and uncovered\n" +
+      digest_of("with others gone, and uncovered, the first one counts\n" +
                 entries_of_samples(list_entries(scene.used_entries()))) +
       "\nsample";
     for (const auto &variable : scene.study_variables)

@@ -60,8 +60,11 @@ namespace Keyblock
      * and the stages of the least. */
     struct BlockFactors
     {
-      std::vector<double> factor;      ///< by block; infinite: it cannot move
-      std::vector<unsigned int> stage; ///< Scene::stage_number, by block
+      // by block; infinite: it cannot move
+      std::vector<double> factor; ///< the least, once others have gone, too
+      std::vector<double> first;  ///< where none has gone
+
+      std::vector<unsigned int> stage; ///< of first, Scene::stage_number
       std::vector<bool> is_exposed;    ///< in a stage, by block
     };
 
