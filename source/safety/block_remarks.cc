@@ -144,7 +144,7 @@ namespace Keyblock
                << factor_of_sliding;
         else if (dim == 2)
           last << "; " << rotation.obstacle << " keeps it from turning";
-        else
+        else if (!rotation.is_by_moments)
           last << ": it may rotate (an indication only)";
       }
 

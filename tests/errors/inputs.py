@@ -906,7 +906,9 @@ def hardly_meant():
             (radians, [], ["'Joints/J1/Dip' is 1.13 degrees, and no dip of the scene is "
                            "above 1.6: are they in radians? That would be 64.7"]),
             (ROOF, [], []),
-            (incline, ["Water/Level=-1"], [])):
+            (incline, ["Water/Level=-1"],
+             ["'Water/Level' is -1 m, below all joints that it is for"]),
+            (incline, ["Water/Level=0"], [])):
         told = warnings_of(validate(scene, settings))
         print("\n".join(told))
         for sentence in sentences:
