@@ -51,6 +51,40 @@ namespace Keyblock
                            return stage->kind == StageKind::quasi_static;
                          });
     }
+
+    /** Of stages that are to come to rest where dashpots alone hold the model
+     * along some axis; empty: there are none. */
+    template <int dim>
+    std::string
+    warning_of_drift(const Scene<dim> &scene)
+    {
+      if (has_rigid_material(scene))
+        return "";
+      for (unsigned int i = 0; i < scene.stages.size(); ++i)
+        for (unsigned int d = 0; d < dim && !scene.stages[i]->is_dynamic(); ++d)
+          {
+            const Support<dim> *quiet = nullptr;
+            bool is_held              = false;
+            for (const auto &support : scene.supports)
+              if (support->is_quiet() &&
+                  scene.stage_number(support->stage) <= i + 2)
+                quiet = support.get();
+              else
+                is_held = is_held || support->names_axis(d) ||
+                          support->directions == SupportDirections::all ||
+                          support->directions == SupportDirections::normal;
+            if (quiet && !is_held)
+              return "The stage '" + scene.stages[i]->name +
+                     "' is to come to rest, but dashpots alone hold the model "
+                     "along " +
+                     "xyz"[d] + " from stage '" + quiet->stage +
+                     "' on ('Supports/" + quiet->name +
+                     "/Kind'), so that loads which do not balance move it as a "
+                     "whole, blocks and rock, and factors are found of that; "
+                     "put the stage before the shaking, or hold a side.";
+          }
+      return "";
+    }
   } // namespace
 
 
@@ -82,6 +116,8 @@ namespace Keyblock
       found.push_back("Nothing holds the model, neither a support nor a rigid "
                       "material, so that it falls as a whole and comes to no "
                       "rest; name 'Supports' on its outer sides.");
+    if (const std::string drift = warning_of_drift(scene); !drift.empty())
+      found.push_back(drift);
     return found;
   }
 
