@@ -3,6 +3,7 @@
 #include <keyblock/base/expression.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/run/water_check.h>
+#include <keyblock/scene/given.h>
 
 #include <boost/algorithm/string.hpp>
 
@@ -157,11 +158,7 @@ namespace Keyblock
                       " m, so that they are dry: is it a depth? It is the "
                       "elevation of the water table; for dry joints set none.");
     };
-    look_at(scene.water.level, "Water/Level");
-    for (const auto &joint : scene.joints)
-      look_at(joint->water_level, "Joints/" + joint->name + "/Water level");
-    for (const auto &stage : scene.stages)
-      look_at(stage->water_level, "Stages/" + stage->name + "/Water level");
+    for_each_water_level(scene, look_at);
     return found;
   }
 

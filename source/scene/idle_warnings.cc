@@ -112,11 +112,7 @@ namespace Keyblock
             "below it, but not on faces of the ground; lower it, "
             "or give what stands above by 'Tractions'.");
       };
-      look_at(scene.water.level, "Water/Level");
-      for (const auto &joint : scene.joints)
-        look_at(joint->water_level, "Joints/" + joint->name + "/Water level");
-      for (const auto &stage : scene.stages)
-        look_at(stage->water_level, "Stages/" + stage->name + "/Water level");
+      for_each_water_level(scene, look_at);
       return found;
     }
 

@@ -32,25 +32,31 @@ namespace Keyblock
                        });
   }
 
-  /** The same by a level, of a joint, of a stage or of all. */
+  /** Call @p action with the text and the entry of each water level of a scene,
+   * of all, of a joint or of a stage; it may be empty. */
+  template <int dim, typename Action>
+  void
+  for_each_water_level(const Scene<dim> &scene, const Action &action)
+  {
+    action(scene.water.level, "Water/Level");
+    for (const auto &joint : scene.joints)
+      action(joint->water_level, "Joints/" + joint->name + "/Water level");
+    for (const auto &stage : scene.stages)
+      action(stage->water_level, "Stages/" + stage->name + "/Water level");
+  }
+
+  /** Whether any joint has water by a level. */
   template <int dim>
   bool
   has_water_levels(const Scene<dim> &scene)
   {
-    const auto is_level = [](const std::string &text) {
-      return !text.empty() && text != no_water;
-    };
-    return is_level(scene.water.level) ||
-           std::any_of(scene.joints.begin(),
-                       scene.joints.end(),
-                       [&](const auto &joint) {
-                         return is_level(joint->water_level);
-                       }) ||
-           std::any_of(scene.stages.begin(),
-                       scene.stages.end(),
-                       [&](const auto &stage) {
-                         return is_level(stage->water_level);
-                       });
+    bool has_level = false;
+    for_each_water_level(scene,
+                         [&](const std::string &text, const std::string &) {
+                           has_level =
+                             has_level || (!text.empty() && text != no_water);
+                         });
+    return has_level;
   }
 } // namespace Keyblock
 
