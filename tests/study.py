@@ -34,6 +34,12 @@ def study(keyblock, scene, folder, *more, ranks=1):
     return table, results
 
 
+def first_sample(table):
+    """The first row of samples.csv by its columns."""
+    header, row = table.splitlines()[1:3]
+    return dict(zip(header.split(","), row.split(",")))
+
+
 def faults_of_runs(keyblock, scene, folder):
     """What is wrong where samples with critical blocks are run."""
     more = ["Study/Level=full", "Study/Samples=8",
@@ -84,8 +90,7 @@ def faults_of_groups(keyblock, scene, folder):
         "Study/Samples=1", "Study/friction/Entry=Joints/upper/Friction angle",
         "Study/friction/Distribution=sequence", "Study/friction/Minimum=20",
         "Study/Threshold=1.25", "Safety factor/Wanted=0.9")
-    header, row = table.splitlines()[1:3]
-    values = dict(zip(header.split(","), row.split(",")))
+    values = first_sample(table)
     faults = []
     for name in ("factor", "factor_1", "factor_2"):
         if abs(float(values[name] or "inf") - together) > 2e-3:
@@ -104,8 +109,7 @@ def faults_of_leaning(keyblock, scene, folder):
         folder / "leaning", "Study/Names=friction", "Study/Samples=1",
         "Study/friction/Entry=Joints/lower/Friction angle",
         "Study/friction/Distribution=sequence", "Study/friction/Minimum=25")
-    header, row = table.splitlines()[1:3]
-    values = dict(zip(header.split(","), row.split(",")))
+    values = first_sample(table)
     faults = []
     # each by itself, 25 and 20 degrees on 30
     exact = [math.tan(math.radians(phi)) / math.tan(math.radians(30))
@@ -139,8 +143,7 @@ def faults_of_uncovered(keyblock, scene, folder):
         folder / "uncovered", "Study/Names=strength", "Study/Samples=1",
         "Study/strength/Entry=Joints/left above/Cohesion",
         "Study/strength/Distribution=sequence", "Study/strength/Minimum=5e3")[0]
-    header, row = results.splitlines()[1:3]
-    values = dict(zip(header.split(","), row.split(",")))
+    values = first_sample(results)
     # (5 + 12) / 20 of the weight on the sides of the upper one
     if (values["failed_blocks"] != "2"
             or abs(float(values["factor_2"] or "inf") - 0.85) > 1e-6):

@@ -107,7 +107,10 @@ namespace Keyblock
     std::vector<double> bend        = last;
     add_to(bend, -1., first);
     if (product(bend, bend) <= drift_share * drift_share * last_square)
-      return move(last, std::max(shortest, sweeps_to_first_opening(last)));
+      {
+        move(last, std::max(shortest, sweeps_to_first_opening(last)));
+        return true;
+      }
     if (last_square <= slow_rate * slow_rate * first_square ||
         last_square >= first_square)
       return false;
@@ -140,7 +143,8 @@ namespace Keyblock
         steps.push_back(step);
       }
     const double length = std::sqrt(product(leap, leap) / last_square);
-    return move(leap, length > longest ? longest / length : 1.);
+    move(leap, length > longest ? longest / length : 1.);
+    return true;
   }
 
 
@@ -167,7 +171,7 @@ namespace Keyblock
 
 
   template <int dim>
-  bool
+  void
   ImpulseExtrapolation<dim>::move(const std::vector<double> &direction,
                                   const double factor)
   {
@@ -180,7 +184,6 @@ namespace Keyblock
         apply_impulse<dim>(point, change, nodes);
         point.impulse = add<dim>(point.impulse, 1., change);
       }
-    return true;
   }
 
 

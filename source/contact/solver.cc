@@ -225,14 +225,18 @@ namespace Keyblock
             const SolverSettings &settings)
     {
       double largest = 0., impulse_change = 0., relaxation = 1.;
-      std::vector<unsigned char> n_openings(points.size(), 0);
+      std::vector<unsigned char> n_openings; // by point, once one opens
       const auto visit = [&](const unsigned int p) {
         ContactPoint<dim> &point    = points[p];
         PointResponse<dim> response = respond<dim>(point, nodes, settings.step);
         if (response.status == ContactStatus::open &&
-            point.status != ContactStatus::open && !point.is_intact &&
-            n_openings[p] < most_openings && ++n_openings[p] == most_openings)
-          point.strength.cohesion = point.strength.tension = 0.;
+            point.status != ContactStatus::open && !point.is_intact)
+          {
+            n_openings.resize(points.size(), 0);
+            if (n_openings[p] < most_openings &&
+                ++n_openings[p] == most_openings)
+              point.strength.cohesion = point.strength.tension = 0.;
+          }
         Vector<dim> difference = add<dim>(response.impulse, -1., point.impulse);
         if (relaxation != 1.)
           {

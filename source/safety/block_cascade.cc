@@ -92,18 +92,24 @@ namespace Keyblock
                   const BrokenSegments &broken,
                   std::vector<JudgedBlock<dim>> &judged)
     {
+      if (std::none_of(is_gone.begin(), is_gone.end(), [](const bool gone) {
+            return gone;
+          }))
+        return;
       const std::vector<bool> before = removed_from(ground, is_gone.size());
       std::vector<bool> is_asked     = before;
       for (const JudgedBlock<dim> &one : judged)
         is_asked[one.block] = true;
       for (unsigned int b = 0; b < is_gone.size(); ++b)
         {
+          if (is_asked[b] ||
+              class_now(ground, blocks.blocks[b]) != BlockClass::hidden)
+            continue;
           std::vector<bool> others = is_gone;
           others[b]                = false;
           std::set<unsigned int> gone =
             gone_across_joints(ground, free, others, blocks, b);
-          if (is_asked[b] || gone.empty() ||
-              class_now(ground, blocks.blocks[b]) != BlockClass::hidden)
+          if (gone.empty())
             continue;
           const Ground<dim> later{ground.scene,
                                   ground.split,

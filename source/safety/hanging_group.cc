@@ -371,7 +371,7 @@ namespace Keyblock
     });
     if (share == 0.)
       return find_demand(
-        ground, free, block, statics.around, statics.support, factor);
+        ground, free, block, statics.around, members[0].support, factor);
     demand.force *= share;
     demand.pressure *= share;
     for (auto &[set, number] : demand.numbers)

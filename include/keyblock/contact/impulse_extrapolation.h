@@ -69,8 +69,8 @@ namespace Keyblock
     /** Sweeps, each with @p change, until a point's normal impulse ends [-]. */
     double sweeps_to_first_opening(const std::vector<double> &change) const;
 
-    /** Add @p factor times @p direction to the impulses; true. */
-    bool move(const std::vector<double> &direction, const double factor);
+    /** Add @p factor times @p direction to the impulses. */
+    void move(const std::vector<double> &direction, const double factor);
   };
 } // namespace Keyblock
 
