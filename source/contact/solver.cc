@@ -284,6 +284,7 @@ namespace Keyblock
               if (is_extrapolated && change > failed_leap * change_before_leap)
                 {
                   extrapolation.undo();
+                  group.renew();
                   is_extrapolated = false;
                   if (change_before_leap <= creep_tolerance * largest &&
                       extrapolation.rate() >= rate_of_creep)
@@ -293,8 +294,9 @@ namespace Keyblock
                 {
                   change_before_leap = change;
                   is_extrapolated    = extrapolation.go();
+                  if (is_extrapolated)
+                    group.renew();
                 }
-              group.renew();
             }
           if (report.n_iterations % creep_interval == 0)
             {
@@ -354,14 +356,14 @@ namespace Keyblock
     for (ContactPoint<dim> &point : points)
       apply_impulse<dim>(point, point.impulse, nodes);
     SolverReport report = iterate<dim>(points, nodes, settings);
-    for (int worst = worst_intact_point<dim>(points, nodes); worst >= 0;
-         worst     = worst_intact_point<dim>(points, nodes))
+    int worst           = -1;
+    while ((worst = worst_intact_point<dim>(points, nodes)) >= 0)
       {
-            points[worst].is_intact  = false;
-            points[worst].strength   = broken[worst];
-            const SolverReport again = iterate<dim>(points, nodes, settings);
-            report.n_iterations += again.n_iterations;
-            report.is_capped = report.is_capped || again.is_capped;
+        points[worst].is_intact  = false;
+        points[worst].strength   = broken[worst];
+        const SolverReport again = iterate<dim>(points, nodes, settings);
+        report.n_iterations += again.n_iterations;
+        report.is_capped = report.is_capped || again.is_capped;
       }
     return report;
   }
