@@ -3,7 +3,7 @@
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/run/safety_study.h>
 #include <keyblock/safety/block_statics.h>
-#include <keyblock/safety/kinetic_friction.h>
+#include <keyblock/safety/friction_loss.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -137,9 +137,9 @@ namespace Keyblock
         return explain_more(factor, scene);
       if (factor.upper >= less * limit)
         return "";
-      if (has_kinetic_friction(scene))
-        return "; less than limit equilibrium, as friction falls to its "
-               "kinetic value where points slip";
+      if (loses_friction(scene))
+        return "; less than limit equilibrium, as friction falls where points "
+               "slip";
       if (!has_initial_stress(scene))
         return "";
       std::ostringstream text;

@@ -2,6 +2,7 @@
 // What is special about the limit equilibrium of a block, in words.
 #include <keyblock/base/expression.h>
 #include <keyblock/safety/block_remarks.h>
+#include <keyblock/safety/friction_loss.h>
 
 #include <boost/algorithm/string/join.hpp>
 
@@ -211,6 +212,8 @@ namespace Keyblock
             if (joint->cohesion_of_sliding() < joint->cohesion)
               add() << "peak cohesion of " << name << ", residual "
                     << joint->cohesion_of_sliding() << " Pa";
+            if (const FrictionLoss loss(*joint); loss.is_felt())
+              add() << loss.describe(name);
           }
         names.clear();
         for (unsigned int i = 0; i < around.faces.size(); ++i)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/number_text.h>
 #include <keyblock/safety/block_remarks.h>
+#include <keyblock/safety/friction_loss.h>
 #include <keyblock/safety/hanging_group.h>
-#include <keyblock/safety/kinetic_friction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -229,7 +229,7 @@ namespace Keyblock
   bool
   is_known_to_statics(const Scene<dim> &scene)
   {
-    return !has_initial_stress(scene) && !has_kinetic_friction(scene) &&
+    return !has_initial_stress(scene) && !loses_friction(scene) &&
            scene.bolts.empty() && scene.liners.empty();
   }
 
