@@ -3,6 +3,7 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <keyblock/contact/joint_point.h>
 #include <keyblock/output/output.h>
 #include <keyblock/scene/network_output.h>
 
@@ -12,49 +13,6 @@ namespace Keyblock
 {
   namespace
   {
-    /** What a contact point is in, as `state` of the interface. */
-    enum class PointState
-    {
-      bonded,
-      sticking,
-      sliding,
-      open,
-      welded, ///< by rock that is excavated later
-      none    ///< no pair, as where a joint ends
-    };
-
-    const std::vector<std::string> state_names =
-      {"bonded", "sticking", "sliding", "open", "welded", "none"};
-
-    template <int dim>
-    PointState
-    state_of(const PairState<dim> &pair)
-    {
-      if (pair.is_removed)
-        return PointState::open;
-      if (pair.is_welded)
-        return PointState::welded;
-      if (pair.is_intact)
-        return PointState::bonded;
-      return pair.status == ContactStatus::sticking  ? PointState::sticking
-             : pair.status == ContactStatus::sliding ? PointState::sliding
-                                                     : PointState::open;
-    }
-
-
-
-    /** A contact point as it is written. */
-    template <int dim>
-    struct WrittenPoint
-    {
-      Vector<dim> normal{}; ///< unit, from minus to plus
-      Vector<dim> jump{};   ///< displacement of plus less that of minus [m]
-      Vector<dim> stress{}; ///< on the plus side [Pa]
-      PointState state = PointState::none;
-    };
-
-
-
     /** Quantities at contact points. */
     struct PointArrays
     {
@@ -68,17 +26,14 @@ namespace Keyblock
 
       template <int dim>
       void
-      add(const WrittenPoint<dim> &point, const double *displacement)
+      add(const JointPoint<dim> &point, const double *displacement)
       {
-        const Vector<dim> &n  = point.normal;
-        const double opening  = dot<dim>(point.jump, n);
-        const double pressing = dot<dim>(point.stress, n);
         u.add_vector(displacement, dim);
-        normal.add_vector(n, dim);
-        gap.add(opening);
-        slip.add_vector(Keyblock::add<dim>(point.jump, -opening, n), dim);
-        pressure.add(pressing);
-        shear.add_vector(Keyblock::add<dim>(point.stress, -pressing, n), dim);
+        normal.add_vector(point.normal, dim);
+        gap.add(point.gap());
+        slip.add_vector(point.slip(), dim);
+        pressure.add(point.pressure());
+        shear.add_vector(point.shear(), dim);
         state.add_id(static_cast<int>(point.state));
       }
     };
@@ -124,22 +79,17 @@ namespace Keyblock
         return pair;
       }
 
-      WrittenPoint<dim>
+      JointPoint<dim>
       at(const unsigned int pair) const
       {
         const Pair<dim> &p       = interface.pairs[pair];
         const unsigned int minus = numbering.local_node(p.minus),
                            plus  = numbering.local_node(p.plus);
-        WrittenPoint<dim> point;
+        Vector<dim> jump;
         for (int d = 0; d < dim; ++d)
-          {
-            point.normal[d] = p.normal[d];
-            point.jump[d] =
-              displacement[dim * plus + d] - displacement[dim * minus + d];
-            point.stress[d] = states[pair].impulse[d] / (kick * p.area);
-          }
-        point.state = state_of(states[pair]);
-        return point;
+          jump[d] =
+            displacement[dim * plus + d] - displacement[dim * minus + d];
+        return {p, states[pair], jump, kick};
       }
 
     private:
@@ -159,7 +109,7 @@ namespace Keyblock
   Output<dim>::make_interface(const double time) const
   {
     VtuGrid grid = make_grid(time);
-    grid.texts.emplace_back("state names", state_names);
+    grid.texts.emplace_back("state names", joint_state_names());
     const JointSetNumbers sets = number_joint_sets(scene);
     grid.texts.emplace_back("joint set names", sets.names);
     PointArrays points;
@@ -212,7 +162,7 @@ namespace Keyblock
             corners.push_back(found->second);
             if (!is_new)
               continue;
-            WrittenPoint<dim> point;
+            JointPoint<dim> point;
             const Tensor<1, dim> normal = scene.joints[face.joint]->normal();
             for (int d = 0; d < dim; ++d)
               point.normal[d] = normal[d];

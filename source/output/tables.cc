@@ -206,6 +206,27 @@ namespace Keyblock
       std::map<unsigned int, std::unique_ptr<FreeFaces<dim>>> by_stage;
     };
 
+    /** Titles of what place_fields() gives. */
+    template <int dim>
+    Fields
+    place_titles()
+    {
+      Fields titles;
+      for (unsigned int d = 0; d < dim; ++d)
+        titles.push_back(std::string(1, "xyz"[d]) + " (m)");
+      return titles;
+    }
+
+    template <int dim>
+    Fields
+    place_fields(const Point<dim> &place)
+    {
+      Fields fields;
+      for (unsigned int d = 0; d < dim; ++d)
+        fields.push_back(exact_text(place[d]));
+      return fields;
+    }
+
     template <int dim>
     std::string
     name_of_stage(const Scene<dim> &scene, const unsigned int number)
@@ -248,6 +269,7 @@ namespace Keyblock
       titles.emplace_back("support after");
       append(titles, tried_demand_titles<dim>());
       titles.emplace_back("by trials after");
+      append(titles, place_titles<dim>());
       std::string text    = csv_line(titles);
       const double weight = weight_per_mass(scene);
       Exposure<dim> exposure(scene, split);
@@ -292,6 +314,7 @@ namespace Keyblock
                  tried == nullptr ? Fields(tried_demand_titles<dim>().size())
                                   : tried_demand_fields(tried->tried_demand));
           fields.push_back(tried == nullptr ? "" : tried->stage);
+          append(fields, place_fields<dim>(block.centroid));
           text += csv_line(fields);
         }
       return text;

@@ -7,8 +7,7 @@ namespace Keyblock::Python
 {
   namespace
   {
-    using RunPointer = std::shared_ptr<AnyRun>;
-    using Callback   = std::function<void(const Advance &)>;
+    using Callback = std::function<void(const Advance &)>;
 
     RunPointer
     run_of_scene(const std::shared_ptr<AnyScene> &scene,
@@ -259,7 +258,6 @@ namespace Keyblock::Python
     }
 
 
-    using RunClass = py::class_<AnyRun, RunPointer>;
 
     /** What can be looked at between stages. */
     void
@@ -334,6 +332,7 @@ namespace Keyblock::Python
       "Arrays have the mesh of its blocks; under mpirun all ranks must ask for "
       "them, and have the same ones.");
     bind_state(run);
+    bind_joint_points(run);
     run
       .def(py::init(&run_of_scene),
            py::arg("scene"),

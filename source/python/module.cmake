@@ -21,10 +21,12 @@ find_package(pybind11 2.9 REQUIRED)
 make_room(python
   any_scene.cc
   any_blocks.cc
+  any_joint_points.cc
   any_run.cc
   process.cc
   bind_scene.cc
   bind_blocks.cc
+  bind_joint_points.cc
   bind_run.cc
   module.cc
 )

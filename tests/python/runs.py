@@ -6,6 +6,7 @@ usage: runs.py CASE PRM FOLDER [KEYBLOCK]     CASE: a function of this file
 """
 import csv
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -86,6 +87,22 @@ def factor():
         check("limit factor", found.limit_factor, 0.6880592575, 1e-8)
         check("stress ratio", found.stress_ratio, 0.6880592575, 1e-4)
         check_that("what it is of", (found.block, found.stage) == (1, "rest"))
+        points = run.joint_points
+        forces = [(points["area"][:, None] * points["shear"]).sum(0)[0],
+                  points["area"] @ points["pressure"]]
+        # 100 kg/m on 40 degrees
+        for name, force, share in zip(("shear", "pressure"), forces,
+                                      (math.sin(math.radians(40)),
+                                       math.cos(math.radians(40)))):
+            check(f"{name} on its base", abs(force), 981 * share, 1e-6)
+        is_open = points["state"] == "open"  # it lifts uphill
+        check_that("points of the base that are pressed stick, others have a gap",
+                   (points["joint"] == "base").all() and 0 < is_open.sum() < 3 and
+                   (points["state"][~is_open] == "sticking").all() and
+                   (points["pressure"][is_open] == 0).all() and
+                   (points["gap"][is_open] > 0).all())
+        check_that("the block lies on the rock",
+                   (numpy.sort(points["blocks"], axis=1) == (1, 2)).all())
         check_that("the state is as before", all(
             numpy.array_equal(before, now, equal_nan=True) for before, now in
             zip(state, (run.displacement, run.velocity, run.stress))))

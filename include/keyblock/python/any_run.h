@@ -40,6 +40,15 @@ namespace Keyblock::Python
     double seconds        = 0.;
   };
 
+  /** The contact points of joints, n of them. */
+  struct JointPointTable
+  {
+    std::vector<std::string> joint, state; ///< names
+    Array<unsigned int> blocks; ///< ids on minus and plus side; 0: rock, (n, 2)
+    Array<double> place, normal, slip, shear; ///< (n, dim) [m, -, m, Pa]
+    Array<double> area, gap, pressure;        ///< (n) [m^(dim-1), m, Pa]
+  };
+
   /** A run, stage by stage (all collective). */
   class AnyRun
   {
@@ -84,6 +93,7 @@ namespace Keyblock::Python
     virtual Array<double> displacement() const                           = 0;
     virtual Array<double> velocity() const                               = 0;
     virtual Array<double> stress() const                                 = 0;
+    virtual JointPointTable joint_points() const                         = 0;
     virtual std::pair<std::vector<std::string>, Array<double>> history() = 0;
 
     const bool is_verbose; ///< whether the run says what it does
@@ -117,6 +127,9 @@ namespace Keyblock::Python
     /** Mean stress of the cells, a tensor each [Pa]; not a number where there
      * is no deformable rock. */
     Array<double> stress() const override;
+
+    /** Pairs whose sides are there; places at the start. */
+    JointPointTable joint_points() const override;
 
     /** Columns and rows of history.csv. */
     std::pair<std::vector<std::string>, Array<double>> history() override;

@@ -22,6 +22,10 @@ namespace Keyblock::Python
   void bind_blocks(py::module_ &module);
   void bind_run(py::module_ &module);
 
+  using RunPointer = std::shared_ptr<AnyRun>;
+  using RunClass   = py::class_<AnyRun, RunPointer>;
+  void bind_joint_points(RunClass &run);
+
   /** Blocks with their rows, which are asked for again and again. */
   struct BlockList
   {
