@@ -29,20 +29,49 @@ namespace Keyblock
       return sum;
     }
 
-    /** Parameters of the point of a bilinear face that covers @p p, seen along
-     * the face's normal: of the two roots of
+    /** A bilinear face as x0 + e s + f t + g s t, and a point seen from x0. */
+    struct BilinearFace
+    {
+      BilinearFace(const std::array<Vector<3>, 4> &x, const Vector<3> &p)
+        : e(difference<3>(x[1], x[0]))
+        , f(difference<3>(x[2], x[0]))
+        , g(difference<3>(difference<3>(x[3], x[2]), e))
+        , h(difference<3>(p, x[0]))
+        , diagonals(cross(difference<3>(x[3], x[0]), difference<3>(x[2], x[1])))
+      {}
+
+      /** Derivatives by the parameters. */
+      Vector<3>
+      by_s(const double t) const
+      {
+        return add<3>(e, t, g);
+      }
+      Vector<3>
+      by_t(const double s) const
+      {
+        return add<3>(f, s, g);
+      }
+
+      /** From the place of parameters to the point. */
+      Vector<3>
+      offset(const double s, const double t) const
+      {
+        return add<3>(add<3>(h, -s, e), -t, by_t(s));
+      }
+
+      Vector<3> e, f, g, h;
+      Vector<3> diagonals; ///< their cross product: along the mean normal
+    };
+
+    /** Parameters of the point of a face that covers the point, seen along the
+     * face's normal: of the two roots of
      *   k2 t^2 + k1 t + k0 = 0,
      * from p = x0 + e s + f t + g s t, the one where the face is not turned
      * over, as it is beyond a reflex corner, or nearer to its centre. */
     std::array<double, 2>
-    covering_parameters(const std::array<Vector<3>, 4> &x, const Vector<3> &p)
+    covering_parameters(const BilinearFace &face)
     {
-      const Vector<3> e = difference<3>(x[1], x[0]);
-      const Vector<3> f = difference<3>(x[2], x[0]);
-      const Vector<3> g = difference<3>(difference<3>(x[3], x[2]), e);
-      const Vector<3> h = difference<3>(p, x[0]);
-      const Vector<3> normal =
-        cross(difference<3>(x[3], x[0]), difference<3>(x[2], x[1]));
+      const auto &[e, f, g, h, normal] = face;
       const auto area = [&](const Vector<3> &a, const Vector<3> &b) {
         return dot<3>(cross(a, b), normal);
       };
@@ -58,12 +87,12 @@ namespace Keyblock
       bool is_over = true;
       for (const double t : {k0 / root, root / k2})
         {
-          const Vector<3> across = add<3>(e, t, g);
+          const Vector<3> across = face.by_s(t);
           const double s =
             dot<3>(add<3>(h, -t, f), across) / dot<3>(across, across);
           const double distance =
             std::max(std::abs(s - 0.5), std::abs(t - 0.5));
-          const bool is_turned = area(across, add<3>(f, s, g)) <= 0.;
+          const bool is_turned = area(across, face.by_t(s)) <= 0.;
           // false where a root is infinite
           if ((is_turned == is_over && distance < least) ||
               (!is_turned && is_over && std::isfinite(distance)))
@@ -83,22 +112,20 @@ namespace Keyblock
     /** Iterations for feet further from a face than half its width. */
     constexpr int most_outside = 2;
 
-    /** Parameters of the point of a bilinear face nearest to @p p, not clamped:
+    /** Parameters of the point of a face nearest to the point, not clamped:
      * Gauss-Newton from the point that covers it, which is exact on plane
      * faces. It may fail outside of warped faces, where it is given up, and of
      * faces that are not convex. */
     std::array<double, 2>
-    nearest_parameters(const std::array<Vector<3>, 4> &x, const Vector<3> &p)
+    nearest_parameters(const BilinearFace &face)
     {
-      auto [s, t] = covering_parameters(x, p);
+      auto [s, t] = covering_parameters(face);
       s           = std::clamp(s, -10., 10.);
       t           = std::clamp(t, -10., 10.);
       for (int iteration = 0; iteration < 20; ++iteration)
         {
-          const Vector<3> a = combine<3, 4>(x, {{-(1. - t), 1. - t, -t, t}});
-          const Vector<3> b = combine<3, 4>(x, {{-(1. - s), -s, 1. - s, s}});
-          const Vector<3> r =
-            difference<3>(p, combine<3, 4>(x, bilinear_weights(s, t)));
+          const Vector<3> a = face.by_s(t), b = face.by_t(s);
+          const Vector<3> r = face.offset(s, t);
           const double aa = dot<3>(a, a), ab = dot<3>(a, b), bb = dot<3>(b, b);
           const double ra = dot<3>(r, a), rb = dot<3>(r, b);
           const double det    = aa * bb - ab * ab;
@@ -189,30 +216,27 @@ namespace Keyblock
   FaceFoot<3>
   find_foot<3>(const std::array<Vector<3>, 4> &x, const Vector<3> &p)
   {
-    const std::array<double, 2> st = nearest_parameters(x, p);
+    const BilinearFace face(x, p);
+    const std::array<double, 2> st = nearest_parameters(face);
     const double s                 = std::clamp(st[0], 0., 1.);
     const double t                 = std::clamp(st[1], 0., 1.);
-    const Vector<3> a    = combine<3, 4>(x, {{-(1. - t), 1. - t, -t, t}});
-    const Vector<3> b    = combine<3, 4>(x, {{-(1. - s), -s, 1. - s, s}});
-    const Vector<3> area = cross(a, b);
+    const Vector<3> area           = cross(face.by_s(t), face.by_t(s));
+    const bool is_turned           = dot<3>(area, face.diagonals) <= 0.;
     FaceFoot<3> result;
     result.size   = std::sqrt(norm<3>(area));
     result.normal = unit<3>(area);
     result.weight = bilinear_weights(s, t);
-    result.offset = difference<3>(p, combine<3, 4>(x, result.weight));
+    result.offset = face.offset(s, t);
     result.gap    = dot<3>(result.offset, result.normal);
     // at a reflex corner, parameters of the face reach beyond it, turned over
-    const Vector<3> diagonals =
-      cross(difference<3>(x[3], x[0]), difference<3>(x[2], x[1]));
     result.is_inside =
-      is_in_unit_range(st[0]) && is_in_unit_range(st[1]) &&
-      dot<3>(area, diagonals) > 0. &&
+      is_in_unit_range(st[0]) && is_in_unit_range(st[1]) && !is_turned &&
       norm<3>(add<3>(result.offset, -result.gap, result.normal)) <
         farthest_beside * result.size;
     if (!result.is_inside)
       {
-        if (dot<3>(area, diagonals) <= 0.)
-          result.normal = unit<3>(diagonals);
+        if (is_turned)
+          result.normal = unit<3>(face.diagonals);
         result.weight = nearest_on_edges(x, p);
         result.offset = difference<3>(p, combine<3, 4>(x, result.weight));
         result.gap    = dot<3>(result.offset, result.normal);
