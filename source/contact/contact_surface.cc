@@ -21,6 +21,14 @@ namespace Keyblock
      * over the size that has to be; over how far they lay behind it [-]. */
     constexpr double overlap_from_behind = 0.05, least_behind = 1e-3,
                      way_out = 0.5;
+
+    /** A corner is at the end of a free face if it is no further from it than
+     * this over the size of the face [-]. */
+    constexpr double distance_of_tip = 1e-3;
+
+    /** How far corners of blocks are rounded, over the size of the block and,
+     * at most, over that of the face that they meet [-]. */
+    constexpr double radius_of_tips = 0.01, most_of_face = 0.2;
   } // namespace
 
 
@@ -180,6 +188,29 @@ namespace Keyblock
                                       const unsigned int face) const
   {
     return project(start_position, at<dim>(start_position, node), face).gap;
+  }
+
+
+
+  template <int dim>
+  double
+  ContactSurface<dim>::rounding_of_tip(const unsigned int node,
+                                       const unsigned int face) const
+  {
+    if (interface.surface[face].joint != none)
+      return 0.;
+    const FaceFoot<dim> start = find_foot<dim>(corners_of(start_position, face),
+                                               at<dim>(start_position, node));
+    if (std::abs(start.gap) > distance_of_tip * start.size)
+      return 0.;
+    for (const unsigned int f : faces_of_node[node])
+      if (dot<dim>(face_normal(start_position, f), start.normal) <
+          -cosine_of_kink)
+        return 0.;
+    const double volume = std::min(block_volume[block_of_node[node]],
+                                   block_volume[interface.surface[face].block]);
+    return std::min(radius_of_tips * std::pow(volume, 1. / dim),
+                    most_of_face * start.size);
   }
 
 

@@ -222,9 +222,12 @@ namespace Keyblock
                        at<dim>(surface.start_position, node),
                        f)
               .gap;
-          const double deeper = -now.gap + std::min(0., before);
-          depth               = depth == 0. ? deeper : std::min(depth, deeper);
-          is_on_joint         = is_on_joint || is_joint;
+          const double deeper =
+            -now.gap + std::min(0., before) - surface.rounding_of_tip(node, f);
+          if (deeper <= 0.)
+            continue;
+          depth       = depth == 0. ? deeper : std::min(depth, deeper);
+          is_on_joint = is_on_joint || is_joint;
         }
       // below a free face, along a joint at its edge, it is still outside
       if (is_in_front && !is_on_joint)

@@ -289,7 +289,11 @@ namespace Keyblock
       feet_that_count(position, candidate.slave, inside);
     for (const Projection<dim> &foot : kept)
       {
-        add_contact(candidate.slave, foot, foot.normal, foot.gap, contacts);
+        const double gap =
+          foot.gap + surface.rounding_of_tip(candidate.slave, foot.face);
+        if (gap > reach)
+          continue;
+        add_contact(candidate.slave, foot, foot.normal, gap, contacts);
         keep_joint_at_rim(position, candidate, foot, contacts.back());
       }
     if (add_contacts_flush(position, candidate, kept, outside, contacts))

@@ -131,7 +131,7 @@ namespace Keyblock
       constexpr double more = 1.005, less = 0.98;
       const double limit = factor.limit_factor;
       if (factor.outcome != SafetyFactor::Outcome::bracketed ||
-          !std::isfinite(limit) || !(limit > 0.))
+          !std::isfinite(limit) || limit < 0.)
         return "";
       if (factor.lower > more * limit)
         return explain_more(factor, scene);

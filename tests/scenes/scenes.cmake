@@ -185,6 +185,12 @@ keyblock_scene(verification/light_wedge REFERENCES light_wedge_falls RANKS 1
 # where it has fallen it stays, and not because stress clamps it
 keyblock_scene(verification/roof_block_falls REFERENCES roof_block_fallen ALIKE
   RANKS 1 2 SET "Safety factor/Blocks=all")
+# what starts in the corners of an opening does not hang on its tips
+keyblock_scene(verification/roof_corners RANKS 1 2)
+keyblock_scene(verification/roof_corners REFERENCES roof_corners_fine RANKS 1
+  SET "Mesh/Size at excavation=0.2")
+keyblock_scene(verification/roof_corners REFERENCES wall_corner RANKS 1
+  SET "Joints/left/Vertices=3, 0@ 5, 2" "Joints/right/Vertices=5, 2@ 3, 5")
 # one that creeps under damping, and one that would only just
 keyblock_scene(verification/creeping_slide RANKS 1 2)
 keyblock_scene(verification/creeping_slide REFERENCES creeping_slide_holds

@@ -85,6 +85,12 @@ namespace Keyblock
     double start_distance(const unsigned int node,
                           const unsigned int face) const;
 
+    /** How far a node may go through a face before that bears it [m]: corners
+     * that start at the end of a free face, and do not lie on it, are rounded.
+     * Without area they would hold blocks that statics lets fall. */
+    double rounding_of_tip(const unsigned int node,
+                           const unsigned int face) const;
+
     std::array<Vector<dim>, Mesh<dim>::n_face_vertices>
     corners_of(const std::vector<double> &position,
                const unsigned int face) const;
