@@ -32,6 +32,7 @@ foreach(case e1 e2a e2b e3a e3b e3d sets_2d lines tunnel_15 tunnel_25 tunnel_30 
     cube_4 planes_4 planes_5)
   keyblock_scene(verification/blocks_${case} ALIKE)
 endforeach()
+keyblock_scene(verification/blocks_pyramid RANKS 1 2)
 keyblock_scene(verification/rotation)
 foreach(case slides_and_topples topples_rough)
   keyblock_scene(verification/toppling_${case})
