@@ -233,8 +233,23 @@ namespace Keyblock
                       radius,
                       "Radius of the circle [m].",
                       not_negative);
-    prm.add_parameter("From", from, "Extrusion: least y [m].");
+    prm.add_parameter("From",
+                      from,
+                      "Extrusion: least y, or place along the axis [m].");
     prm.add_parameter("To", to, "Extrusion: greatest y [m].");
+    prm.add_parameter(
+      "Trend",
+      trend,
+      "Extrusion: bearing of the axis, from From to To; 0: y, 90: x [deg]. It "
+      "turns about Center, where these two are counted from, of an extruded "
+      "polygon about the origin.",
+      Double(-360., 360.));
+    prm.add_parameter(
+      "Plunge",
+      plunge,
+      "Extrusion: angle of the axis below the horizontal [deg]. "
+      "Levels and heights are across it then.",
+      Double(-90., 90.));
     prm.add_parameter("Stage",
                       stage,
                       "Name of the stage that excavates the region; start: the "

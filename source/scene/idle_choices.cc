@@ -52,6 +52,8 @@ namespace Keyblock
          {"Segments", {"circle", "horseshoe", "cavern", "file"}},
          {"From", along},
          {"To", along},
+         {"Trend", along},
+         {"Plunge", along},
          {"Formula", {"formula"}},
          {"File", {"file"}},
          {"Scale", {"file"}}}};

@@ -274,6 +274,13 @@ namespace Keyblock
       return;
     if (domain.shape == DomainShape::box && domain.size.empty())
       {
+        for (const Excavation<dim> *e : profiles)
+          require(
+            !e->is_turned(),
+            "The entry 'Domain/Size' is missing: around the excavation '" +
+              e->name +
+              "', whose 'Trend' or 'Plunge' turns it out of the axis y, "
+              "no box is made; give 'Domain/Corner' and 'Size'.");
         surround(domain, profiles);
         if (ground.is_given())
           stop_at_surface(domain, profiles, ground.depth);
@@ -303,6 +310,7 @@ namespace Keyblock
             const double low = i < e->bench_levels.size()
                                  ? e->bench_levels[i]
                                  : floor_of(*e) - beyond;
+            part->pivot      = e->center;
             part->shape      = dim == 2 ? ExcavationShape::polygon
                                         : ExcavationShape::extruded_polygon;
             part->vertices   = cut_out(section, low, high);
