@@ -2,6 +2,7 @@
 #include <deal.II/base/bounding_box.h>
 
 #include <keyblock/mesh/excavation_region.h>
+#include <keyblock/scene/section_axis.h>
 #include <keyblock/scene/solid.h>
 
 #include <algorithm>
@@ -44,11 +45,15 @@ namespace Keyblock
              excavation.center.distance(Point<2>(p[0], p[1]));
     if (excavation.shape == ExcavationShape::polygon)
       return depth_inside_polygon(excavation.vertices, Point<2>(p[0], p[1]));
-    if (excavation.shape == ExcavationShape::extruded_polygon)
-      return std::min(
-        {depth_inside_polygon(excavation.vertices, Point<2>(p[0], p[dim - 1])),
-         p[1] - excavation.from,
-         excavation.to - p[1]});
+    if constexpr (dim == 3)
+      if (excavation.shape == ExcavationShape::extruded_polygon)
+        {
+          const Point<3> q = to_section(excavation, p);
+          return std::min(
+            {depth_inside_polygon(excavation.vertices, Point<2>(q[0], q[2])),
+             q[1] - excavation.from,
+             excavation.to - q[1]});
+        }
     if constexpr (dim == 3)
       if (excavation.shape == ExcavationShape::file)
         {

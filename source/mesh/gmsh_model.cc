@@ -2,6 +2,7 @@
 #include <keyblock/mesh/gmsh_model.h>
 #include <keyblock/mesh/polyhedron.h>
 #include <keyblock/scene/joint_extent.h>
+#include <keyblock/scene/section_axis.h>
 #include <keyblock/scene/solid_file.h>
 
 #include <algorithm>
@@ -128,14 +129,20 @@ namespace Keyblock
                         Point<3>(excavation.radius, 0., 0.),
                         Point<3>(0., excavation.radius, 0.));
       std::vector<Point<3>> corners;
+      if constexpr (dim == 3)
+        {
+          for (const Point<2> &vertex : excavation.vertices)
+            corners.push_back(
+              from_section(excavation,
+                           Point<3>(vertex[0], excavation.from, vertex[1])));
+          const Point<3> end(0., excavation.to - excavation.from, 0.);
+          return add_prism(corners,
+                           from_section(excavation, end) -
+                             from_section(excavation, Point<3>()));
+        }
       for (const Point<2> &vertex : excavation.vertices)
-        corners.push_back(dim == 2
-                            ? in_space<2>(vertex)
-                            : Point<3>(vertex[0], excavation.from, vertex[1]));
-      return dim == 2
-               ? add_polygon(corners)
-               : add_prism(corners,
-                           Point<3>(0., excavation.to - excavation.from, 0.));
+        corners.push_back(in_space<2>(vertex));
+      return add_polygon(corners);
     }
 
     /** The solids of a file: polyhedra of triangles, or as OpenCASCADE reads

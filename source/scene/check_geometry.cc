@@ -168,11 +168,10 @@ namespace Keyblock
             "The entry '" + section +
               "/Shape' is extruded polygon, which needs Dimension 3; use "
               "polygon in 2D.");
-    require((shape != ExcavationShape::polygon &&
-             shape != ExcavationShape::circle) ||
-              dim == 2,
-            "The entry '" + section + "/Shape' is " + name_of(shape) +
-              ", which needs Dimension 2; use box or extruded polygon.");
+    require(shape != ExcavationShape::polygon || dim == 2,
+            "The entry '" + section +
+              "/Shape' is polygon, which needs Dimension 2; use box or "
+              "extruded polygon.");
     if (shape == ExcavationShape::polygon ||
         shape == ExcavationShape::extruded_polygon)
       {

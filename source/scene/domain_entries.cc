@@ -163,12 +163,14 @@ namespace Keyblock
     prm.add_parameter(
       "Shape",
       shape,
-      "polygon (2D): Vertices; circle (2D): Center and Radius, "
-      "followed by chords of cells; box: Corner and Size; extruded polygon "
+      "polygon (2D): Vertices; circle: Center and Radius, in 2D without "
+      "Segments and Bench levels followed by chords of cells, else a regular "
+      "polygon of the same area; box: Corner and Size; extruded polygon "
       "(3D): Vertices in the x-z plane, From and To along y; "
       "rectangle, horseshoe (half a circle on walls), cavern "
-      "(an arch of Rise on walls): Center, Width and Height, in "
-      "3D along y as an extruded polygon; file: the solids of File (3D), "
+      "(an arch of Rise on walls): Center, Width and Height; these and "
+      "circles are in 3D along y as an extruded polygon; file: the solids of "
+      "File (3D), "
       "or the closed outline in it (2D), in a mesh from Domain/File and if "
       "File is empty, the physical group of the excavation's name; "
       "formula (structured and file meshes): Formula.");
@@ -209,12 +211,14 @@ namespace Keyblock
                       rise,
                       "Rise of a cavern's arch above its springs [m].",
                       not_negative);
-    prm.add_parameter("Segments",
-                      segments,
-                      "Number of chords of the crown, in .dxf files of half a "
-                      "circle; 0: crowns have chords twice as long as the "
-                      "cells at excavations, 6 to 24 of them, .dxf files 24.",
-                      Integer(0, 1000));
+    prm.add_parameter(
+      "Segments",
+      segments,
+      "Number of chords of the crown, of half a circle for Shape "
+      "circle and in .dxf files; 0: crowns and half circles "
+      "have chords twice as long as the cells at excavations, "
+      "6 to 24 of them, .dxf files 24.",
+      Integer(0, 1000));
     prm.add_parameter("Bench levels",
                       bench_levels,
                       "Elevations at which it is parted into benches, from the "
@@ -229,8 +233,23 @@ namespace Keyblock
                       radius,
                       "Radius of the circle [m].",
                       not_negative);
-    prm.add_parameter("From", from, "Extrusion: least y [m].");
+    prm.add_parameter("From",
+                      from,
+                      "Extrusion: least y, or place along the axis [m].");
     prm.add_parameter("To", to, "Extrusion: greatest y [m].");
+    prm.add_parameter(
+      "Trend",
+      trend,
+      "Extrusion: bearing of the axis, from From to To; 0: y, 90: x [deg]. It "
+      "turns about Center, where these two are counted from, of an extruded "
+      "polygon about the origin.",
+      Double(-360., 360.));
+    prm.add_parameter(
+      "Plunge",
+      plunge,
+      "Extrusion: angle of the axis below the horizontal [deg]. "
+      "Levels and heights are across it then.",
+      Double(-90., 90.));
     prm.add_parameter("Stage",
                       stage,
                       "Name of the stage that excavates the region; start: the "

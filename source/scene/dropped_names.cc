@@ -84,7 +84,7 @@ namespace Keyblock
     NamesBySection
     names_of_file(const std::string &text)
     {
-      NamesBySection names;
+      NamesBySection names = {{"Materials", {default_materials}}};
       std::string section;
       std::string list;
       for_each_line(text,

@@ -36,11 +36,9 @@ namespace Keyblock
     const UseTable &
     uses_of_excavations()
     {
-      static const Words profiles      = {"rectangle", "horseshoe", "cavern"};
-      static const Words along         = {"extruded polygon",
-                                          "rectangle",
-                                          "horseshoe",
-                                          "cavern"};
+      static const Words profiles = {"rectangle", "horseshoe", "cavern"};
+      static const Words along    = {
+           "circle", "extruded polygon", "rectangle", "horseshoe", "cavern"};
       static const UseTable excavation = {
         "Shape",
         {{"Vertices", {"polygon", "extruded polygon"}},
@@ -51,9 +49,11 @@ namespace Keyblock
          {"Width", profiles},
          {"Height", profiles},
          {"Rise", {"cavern"}},
-         {"Segments", {"horseshoe", "cavern", "file"}},
+         {"Segments", {"circle", "horseshoe", "cavern", "file"}},
          {"From", along},
          {"To", along},
+         {"Trend", along},
+         {"Plunge", along},
          {"Formula", {"formula"}},
          {"File", {"file"}},
          {"Scale", {"file"}}}};

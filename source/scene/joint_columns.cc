@@ -2,6 +2,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/law/joint_law.h>
 #include <keyblock/scene/joint_columns.h>
+#include <keyblock/scene/spelling.h>
 
 #include <boost/algorithm/string.hpp>
 #include <boost/algorithm/string/trim_all.hpp>
@@ -23,6 +24,9 @@ namespace Keyblock
       stiffness,
       number
     };
+
+    /** The last coordinate, whichever the dimension. */
+    constexpr const char *elevation = "elevation";
 
     struct KnownColumn
     {
@@ -65,7 +69,7 @@ namespace Keyblock
         {C::normal_z, Q::number, {"normal z", "nz"}},
         {C::x, Q::length, {"x", "easting", "east"}},
         {C::y, Q::length, {"y", "northing", "north"}},
-        {C::z, Q::length, {"z", "elevation"}},
+        {C::z, Q::length, {"z", elevation}},
         {C::x1, Q::length, {"x1"}},
         {C::y1, Q::length, {"y1"}},
         {C::x2, Q::length, {"x2"}},
@@ -197,35 +201,6 @@ namespace Keyblock
       return list;
     }
 
-    /** Whether @p word is @p known but for a slip of the pen: a letter wrong,
-     * missing, too many or swapped, two in words from eight letters on. */
-    bool
-    is_like(const std::string &word, const std::string &known)
-    {
-      const std::size_t n = word.size(), m = known.size();
-      const std::size_t slips = m < 4 ? 0 : m < 8 ? 1 : 2;
-      if (std::max(n, m) - std::min(n, m) > slips)
-        return false;
-      std::vector<std::vector<std::size_t>> distance(
-        n + 1, std::vector<std::size_t>(m + 1));
-      for (std::size_t i = 0; i <= n; ++i)
-        for (std::size_t j = 0; j <= m; ++j)
-          {
-            std::size_t &least = distance[i][j];
-            least              = i == 0 ? j : i;
-            if (i == 0 || j == 0)
-              continue;
-            least = std::min(
-              {distance[i - 1][j] + 1,
-               distance[i][j - 1] + 1,
-               distance[i - 1][j - 1] + (word[i - 1] == known[j - 1] ? 0 : 1)});
-            if (i > 1 && j > 1 && word[i - 1] == known[j - 2] &&
-                word[i - 2] == known[j - 1])
-              least = std::min(least, distance[i - 2][j - 2] + 1);
-          }
-      return distance[n][m] <= slips;
-    }
-
     std::set<std::string>
     words_of(const std::string &title)
     {
@@ -349,7 +324,7 @@ namespace Keyblock
 
 
   std::map<JointColumn, ColumnPlace>
-  find_joint_columns(const DelimitedText &table)
+  find_joint_columns(const DelimitedText &table, const unsigned int dim)
   {
     const std::string where = "Line " + std::to_string(table.header.line) +
                               " of the table '" + table.file_name +
@@ -360,14 +335,16 @@ namespace Keyblock
         const auto [known, unit] = understand(table.header.fields[i], where);
         if (!known)
           continue;
-        AssertThrow(known->column == JointColumn::comment ||
-                      places.count(known->column) == 0,
-                    InputError(where + " names the column '" +
-                               known->names.front() +
+        const std::string words = normalized(table.header.fields[i]);
+        const JointColumn column =
+          dim == 2 && boost::starts_with(words, elevation) ? JointColumn::y
+                                                           : known->column;
+        AssertThrow(column == JointColumn::comment || places.count(column) == 0,
+                    InputError(where + " names the column '" + name_of(column) +
                                "' twice, the second "
                                "time as '" +
                                table.header.fields[i] + "'; remove one."));
-        places[known->column] = ColumnPlace{i, unit};
+        places[column] = ColumnPlace{i, unit};
       }
     return places;
   }

@@ -349,7 +349,7 @@ namespace Keyblock
                    const std::map<std::string, JointStrength> &strength_of_set)
   {
     const DelimitedText table = read_delimited_text(file_name, "Joints/File");
-    const Columns columns     = find_joint_columns(table);
+    const Columns columns     = find_joint_columns(table, dim);
     check_columns<dim>(table, columns);
     AssertThrow(table.rows.empty() || !is_line_of_units(table.rows[0]),
                 InputError("Line " + std::to_string(table.rows[0].line) +

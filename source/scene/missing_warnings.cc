@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Scenes that lack what loads the rock, or what holds it, are warned of.
+#include <keyblock/base/number_text.h>
 #include <keyblock/scene/given.h>
 #include <keyblock/scene/gravity.h>
 #include <keyblock/scene/unit_warnings.h>
@@ -121,6 +122,28 @@ namespace Keyblock
     return found;
   }
 
+  template <int dim>
+  std::vector<std::string>
+  warnings_of_default_rock(const Scene<dim> &scene, const SceneText &text)
+  {
+    const Material<dim> none;
+    if (scene.materials.size() != 1 || text.gives("Materials", "Names"))
+      return {};
+    const Material<dim> &rock = *scene.materials[0];
+    if (rock.young_modulus != none.young_modulus ||
+        rock.density != none.density || rock.model != none.model)
+      return {};
+    return {"Neither the entry 'Materials/Names' nor a subsection of it says "
+            "what the rock is: all of it is '" +
+            rock.name + "', elastic, with a 'Young modulus' of " +
+            text_of(rock.young_modulus / 1e9) + " GPa and a 'Density' of " +
+            text_of(rock.density) + " kg/m3."};
+  }
+
+  template std::vector<std::string> warnings_of_default_rock(const Scene<2> &,
+                                                             const SceneText &);
+  template std::vector<std::string> warnings_of_default_rock(const Scene<3> &,
+                                                             const SceneText &);
   template std::vector<std::string>
   warnings_of_missing_entries(const Scene<2> &);
   template std::vector<std::string>

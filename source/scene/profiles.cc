@@ -35,12 +35,63 @@ namespace Keyblock
                         most);
     }
 
-    /** Corners of an excavation's section, counterclockwise from the left end
-     * of the floor. @p cell: as in number_of_chords() */
+    template <int dim>
+    bool
+    is_circle(const Excavation<dim> &e)
+    {
+      return e.shape == ExcavationShape::circle;
+    }
+
+    template <int dim>
+    double
+    width_of(const Excavation<dim> &e)
+    {
+      return is_circle(e) ? 2. * e.radius : e.width;
+    }
+
+    /** Elevations of an excavation's floor and crown, as its entries have it.
+     */
+    template <int dim>
+    double
+    floor_of(const Excavation<dim> &e)
+    {
+      return is_circle(e) ? e.center[1] - e.radius : e.center[1];
+    }
+
+    template <int dim>
+    double
+    crown_of(const Excavation<dim> &e)
+    {
+      return e.center[1] + (is_circle(e) ? e.radius : e.height);
+    }
+
+    /** Corners of a regular polygon with the area of the circle, one of them
+     * at the crown. */
+    template <int dim>
+    Polygon
+    polygon_like_circle(const Excavation<dim> &e, const double cell)
+    {
+      constexpr double pi = dealii::numbers::PI;
+      const unsigned int n =
+        2 * (e.segments > 0 ? std::max(2U, e.segments)
+                            : number_of_chords(pi * e.radius, cell));
+      const double turn   = 2. * pi / n;
+      const double radius = e.radius * std::sqrt(turn / std::sin(turn));
+      Polygon corners;
+      for (unsigned int i = 0; i < n; ++i)
+        corners.emplace_back(e.center[0] - radius * std::sin(i * turn),
+                             e.center[1] + radius * std::cos(i * turn));
+      return corners;
+    }
+
+    /** Corners of an excavation's section, counterclockwise, from the left end
+     * of the floor if it has one. @p cell: as in number_of_chords() */
     template <int dim>
     Polygon
     section_of(const Excavation<dim> &e, const double cell)
     {
+      if (is_circle(e))
+        return polygon_like_circle(e, cell);
       const double half = 0.5 * e.width;
       const double rise = e.shape == ExcavationShape::rectangle   ? 0.
                           : e.shape == ExcavationShape::horseshoe ? half
@@ -72,12 +123,16 @@ namespace Keyblock
     Polygon
     cut_out(const Polygon &polygon, const double low, const double high)
     {
-      Polygon result = polygon;
+      /** Distance over the size up to which corners are at a level [-]. */
+      constexpr double closeness = 1e-9;
+      const double size          = polygon[0].distance(polygon[1]);
+      Polygon result             = polygon;
       for (const bool is_floor : {true, false})
         {
           const double level = is_floor ? low : high;
           const auto inside  = [&](const Point<2> &p) {
-            return is_floor ? p[1] - level : level - p[1];
+            const double height = is_floor ? p[1] - level : level - p[1];
+            return std::abs(height) <= closeness * size ? 0. : height;
           };
           Polygon cut;
           for (std::size_t i = 0; i < result.size(); ++i)
@@ -100,7 +155,10 @@ namespace Keyblock
     check_profile(const Excavation<dim> &e)
     {
       const std::string section = "Excavations/" + e.name;
-      require(e.width > 0. && e.height > 0.,
+      require(!is_circle(e) || e.radius > 0.,
+              "The entry '" + section +
+                "/Radius' is 0; give a positive radius in metres.");
+      require(is_circle(e) || (e.width > 0. && e.height > 0.),
               "The excavation '" + e.name + "' is a " + name_of(e.shape) +
                 " of " + text_of(e.width) + " m by " + text_of(e.height) +
                 " m; give '" + section + "/Width' and 'Height'.");
@@ -126,14 +184,14 @@ namespace Keyblock
               "The entry '" + section + "/From' (" + text_of(e.from) +
                 ") is not below '" + section + "/To' (" + text_of(e.to) +
                 "); give the ends of the excavation along y [m].");
-      double above = e.center[1] + e.height;
+      double above = crown_of(e);
       for (const double level : e.bench_levels)
         {
-          require(level < above && level > e.center[1],
+          require(level < above && level > floor_of(e),
                   "The entry '" + section + "/Bench levels' has " +
                     text_of(level) + " m, which is not below " +
                     text_of(above) + " m and above the floor at " +
-                    text_of(e.center[1]) +
+                    text_of(floor_of(e)) +
                     " m; give elevations from the top down.");
           above = level;
         }
@@ -153,11 +211,13 @@ namespace Keyblock
       double width = 0.;
       for (const Excavation<dim> *e : profiles)
         {
-          width         = std::max({width, e->width, e->height});
-          low[0]        = std::min(low[0], e->center[0] - 0.5 * e->width);
-          high[0]       = std::max(high[0], e->center[0] + 0.5 * e->width);
-          low[dim - 1]  = std::min(low[dim - 1], e->center[1]);
-          high[dim - 1] = std::max(high[dim - 1], e->center[1] + e->height);
+          const double half = 0.5 * width_of(*e);
+          width =
+            std::max({width, width_of(*e), is_circle(*e) ? 0. : e->height});
+          low[0]        = std::min(low[0], e->center[0] - half);
+          high[0]       = std::max(high[0], e->center[0] + half);
+          low[dim - 1]  = std::min(low[dim - 1], floor_of(*e));
+          high[dim - 1] = std::max(high[dim - 1], crown_of(*e));
           if (dim == 3)
             {
               low[1]  = std::min(low[1], e->from);
@@ -182,7 +242,7 @@ namespace Keyblock
                     const double surface)
     {
       if (std::any_of(profiles.begin(), profiles.end(), [&](const auto *e) {
-            return e->center[1] + e->height >= surface;
+            return crown_of(*e) >= surface;
           }))
         return;
       domain.size[dim - 1] =
@@ -214,6 +274,13 @@ namespace Keyblock
       return;
     if (domain.shape == DomainShape::box && domain.size.empty())
       {
+        for (const Excavation<dim> *e : profiles)
+          require(
+            !e->is_turned(),
+            "The entry 'Domain/Size' is missing: around the excavation '" +
+              e->name +
+              "', whose 'Trend' or 'Plunge' turns it out of the axis y, "
+              "no box is made; give 'Domain/Corner' and 'Size'.");
         surround(domain, profiles);
         if (ground.is_given())
           stop_at_surface(domain, profiles, ground.depth);
@@ -234,15 +301,19 @@ namespace Keyblock
                                   ? meshing.size_at_excavation
                                   : (meshing.cells_across > 0. ? 0. : meshing.size);
         const Polygon section = section_of(*e, cell);
-        double high           = e->center[1] + e->height;
+        // (all of a circle, whose polygon reaches a little beyond it)
+        const double beyond = is_circle(*e) ? e->radius : 0.;
+        double high         = crown_of(*e) + beyond;
         for (unsigned int i = 0; i <= e->bench_levels.size(); ++i)
           {
-            auto part = std::make_unique<Excavation<dim>>(*e);
-            const double low =
-              i < e->bench_levels.size() ? e->bench_levels[i] : e->center[1];
-            part->shape    = dim == 2 ? ExcavationShape::polygon
-                                      : ExcavationShape::extruded_polygon;
-            part->vertices = cut_out(section, low, high);
+            auto part        = std::make_unique<Excavation<dim>>(*e);
+            const double low = i < e->bench_levels.size()
+                                 ? e->bench_levels[i]
+                                 : floor_of(*e) - beyond;
+            part->pivot      = e->center;
+            part->shape      = dim == 2 ? ExcavationShape::polygon
+                                        : ExcavationShape::extruded_polygon;
+            part->vertices   = cut_out(section, low, high);
             if (i > 0)
               {
                 part->name += " bench " + std::to_string(i);

@@ -7,6 +7,7 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/check_parts.h>
+#include <keyblock/scene/dropped_names.h>
 #include <keyblock/scene/idle_entries.h>
 #include <keyblock/scene/joint_facets.h>
 #include <keyblock/scene/joint_sets.h>
@@ -46,11 +47,15 @@ namespace Keyblock
       for (const std::string &section : list_sections)
         {
           prm.enter_subsection(section);
+          const bool is_ground = section == "Materials";
           prm.declare_entry("Names",
-                            "",
+                            is_ground ? default_materials : "",
                             dealii::Patterns::Anything(),
-                            "Names, separated by commas; each has a subsection "
-                            "of that name.");
+                            std::string("Names, separated by commas; each has "
+                                        "a subsection of that name") +
+                              (is_ground ? ", where its entries are not all "
+                                           "the defaults."
+                                         : "."));
           prm.leave_subsection();
         }
     }
@@ -262,6 +267,7 @@ namespace Keyblock
     for (const auto &warnings : {warnings_of_table(*this, text),
                                  warnings_of_sets(*this),
                                  warnings_of_drawings(*this),
+                                 warnings_of_default_rock(*this, text),
                                  warnings_of_nested_solids(*this)})
       old_names.insert(old_names.end(), warnings.begin(), warnings.end());
     make_facets(communicator, *this);

@@ -2,6 +2,7 @@
 // What is allowed and probably not meant of sets of joints.
 #include <keyblock/base/number_text.h>
 #include <keyblock/scene/joint_sets.h>
+#include <keyblock/scene/section_axis.h>
 
 #include <algorithm>
 #include <limits>
@@ -34,7 +35,7 @@ namespace Keyblock
         {
           for (const Point<2> &vertex : excavation->vertices)
             for (const double y : {excavation->from, excavation->to})
-              add(Point<3>(vertex[0], y, vertex[1]));
+              add(from_section(*excavation, Point<3>(vertex[0], y, vertex[1])));
           if (excavation->shape == ExcavationShape::box &&
               excavation->size.size() == 3)
             {

@@ -83,7 +83,7 @@ namespace Keyblock
                         const DelimitedText &table)
     {
       constexpr unsigned int most = 5;
-      const auto columns          = find_joint_columns(table);
+      const auto columns          = find_joint_columns(table, dim);
       const auto column           = columns.find(JointColumn::friction_angle);
       std::string lines;
       unsigned int n = 0;

@@ -775,6 +775,29 @@ def told_and_kept():
     assert sorted(summary["warnings"]) == sorted(told), summary["warnings"]
 
 
+def rock_by_default():
+    """A scene that says nothing of the rock has one material, 'rock'."""
+    text = (PRM / "verification" / "blocks_e1.prm").read_text(encoding="utf-8")
+    named = "subsection Materials\n  set Names = rock\nend\n"
+    assert named in text
+    path = pathlib.Path("a.prm")
+    path.write_text(text.replace(named, ""), encoding="utf-8")
+    told = ("all of it is 'rock', elastic, with a 'Young modulus' of 15 GPa and a "
+            "'Density' of 2700 kg/m3.")
+
+    def tells(*settings):
+        return any(told in line for line in warnings_of(validate("a.prm", settings)))
+
+    assert tells() and tells("Materials/rock/Poisson ratio=0.2")
+    for setting in ("Materials/rock/Density=2600", "Materials/*/Density=2600",
+                    "Materials/Names=rock", "Materials/Names=basalt"):
+        assert not tells(setting), setting
+    path.write_text(text.replace(named, named.replace(
+        "set Names = rock", "subsection rock\n    set Density = 2600\n  end")),
+                    encoding="utf-8")
+    assert not tells() and not tells("Materials/Names=basalt")
+
+
 def used_folder():
     """A new run leaves nothing of an earlier one in its folder, and everything
     of its user; neither a refused scene nor a restart takes anything."""

@@ -32,6 +32,15 @@ foreach(case e1 e2a e2b e3a e3b e3d sets_2d lines tunnel_15 tunnel_25 tunnel_30 
     cube_4 planes_4 planes_5)
   keyblock_scene(verification/blocks_${case} ALIKE)
 endforeach()
+keyblock_scene(verification/blocks_pyramid RANKS 1 2)
+# the same about an axis that plunges by 20 degrees towards 30 degrees
+keyblock_scene(verification/blocks_pyramid REFERENCES blocks_pyramid_turned RANKS 1
+  SET "Excavations/tunnel/Trend=30" "Excavations/tunnel/Plunge=20"
+  "Joints/*/Point=1.19707050163984, 2.073386929082167, 6.577848345501359"
+  "Joints/left/Normal=-0.664494964168583, 0.581111768255231, 0.469846310392954"
+  "Joints/right/Normal=0.835505035831417, -0.284913635529207, 0.469846310392954"
+  "Joints/front/Normal=-0.286788218175523, -0.496731764892154, 0.819152044288992"
+  "Joints/back/Normal=0.482962913144534, 0.836516303737808, 0.258819045102521")
 keyblock_scene(verification/rotation)
 foreach(case slides_and_topples topples_rough)
   keyblock_scene(verification/toppling_${case})

@@ -102,4 +102,27 @@ BOOST_AUTO_TEST_CASE(a_joint_on_a_roof_keeps_nothing_from_being_dug)
     }
 }
 
+// the polygon has the area of the circle; what its chords cut off, or reach
+// beyond, is within 0.15 % of the radius
+BOOST_AUTO_TEST_CASE(a_circle_is_dug_in_benches)
+{
+  const std::string circle =
+    "subsection Excavations\n set Names = tunnel\n subsection tunnel\n"
+    "  set Shape = circle\n  set Radius = 5\n  set Segments = 24\n"
+    "  set Stage = first\n  set Bench levels = 2\n"
+    "  set Bench stages = second\n";
+  const double area  = 25. * dealii::numbers::PI;
+  const double angle = std::acos(0.4); // half of the arc above the level
+  const double above = 25. * (angle - 0.4 * std::sin(angle));
+  const double error = 1.5e-3 * 2. * 25. * angle;
+  const auto check   = [&](const auto &dug, const double length) {
+    BOOST_TEST(std::abs(dug.at(2) - above * length) < error * length);
+    BOOST_TEST(std::abs(dug.at(2) + dug.at(3) - area * length) <
+               1e-9 * area * length);
+  };
+  check(dug_by_stage<2>(circle + " end\nend\n"), 1.);
+  check(dug_by_stage<3>(circle + "  set From = -4\n  set To = 4\n end\nend\n"),
+        8.);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -233,6 +233,23 @@ BOOST_AUTO_TEST_CASE(table_of_a_field_book)
                ->point[2] == 12.5);
 }
 
+// elevations are the last coordinate, y in a section
+BOOST_AUTO_TEST_CASE(table_of_a_section)
+{
+  for (const std::string title : {"Elevation", "elevation (m)", "y"})
+    {
+      const auto joints =
+        read<2>("dip,dip direction,x," + title + "\n45,90,3,7\n");
+      BOOST_TEST((joints[0]->point == Point<2>(3., 7.)), title);
+    }
+  BOOST_TEST(
+    (read<3>("dip,dip direction,x,y,Elevation\n45,90,3,5,7\n")[0]->point ==
+     Point<3>(3., 5., 7.)));
+  check_refused<2>("dip,dip direction,x,y,Elevation\n45,90,3,5,7\n",
+                   {"'y' twice", "'Elevation'"});
+  check_refused<2>("dip,dip direction,x,z\n45,90,3,7\n", {"'z'", "2D"});
+}
+
 // what nobody computes with is left out; traces have a length
 BOOST_AUTO_TEST_CASE(table_with_other_columns)
 {

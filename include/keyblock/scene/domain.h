@@ -156,14 +156,29 @@ namespace Keyblock
     std::vector<std::shared_ptr<const Solid>> solids;
     std::string file_digest; ///< of the bytes of File
 
-    /** Whether Center, Width and Height say what it is: polygons for all but
-     * the reader of entries (Scene::make_profiles). */
+    // an extrusion's axis, from From to To
+    double trend  = 0.; ///< [deg]
+    double plunge = 0.; ///< [deg]
+    Point<2> pivot;     ///< where it meets the x-z plane [m]
+
+    /** Whether Center and Width and Height, or Radius, say what it is: polygons
+     * for all but the reader of entries (Scene::make_profiles). A circle in 2D
+     * is none unless it has benches or a number of chords. */
     bool
     is_profile() const
     {
       return shape == ExcavationShape::rectangle ||
              shape == ExcavationShape::horseshoe ||
-             shape == ExcavationShape::cavern;
+             shape == ExcavationShape::cavern ||
+             (shape == ExcavationShape::circle &&
+              (dim == 3 || segments > 0 || !bench_levels.empty()));
+    }
+
+    /** Whether the axis of an extruded section is not y. */
+    bool
+    is_turned() const
+    {
+      return trend != 0. || plunge != 0.;
     }
 
     /** Whether it is a physical group of the mesh file, that of its name. */

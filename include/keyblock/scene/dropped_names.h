@@ -6,6 +6,9 @@
 
 namespace Keyblock
 {
+  /** Materials/Names where nothing gives it. */
+  constexpr const char *default_materials = "rock";
+
   /**
    * Leave out the subsections of names that the file's list, `Names`, has and
    * an override takes out of it, as --set "Joint sets/Names=" does: the file

@@ -75,11 +75,12 @@ namespace Keyblock
    * '_' and '-' are the same, units follow the name or stand in brackets,
    * primes do not count.
    * Columns that are not known are left out, unless a word of theirs, as it is
-   * or misspelt, is one of a known column's. Throws InputError for these, and
-   * for columns that stand twice or have a unit that does not fit.
+   * or misspelt, is one of a known column's. In 2D elevations are y. Throws
+   * InputError for these, and for columns that stand twice or have a unit that
+   * does not fit.
    */
   std::map<JointColumn, ColumnPlace>
-  find_joint_columns(const DelimitedText &table);
+  find_joint_columns(const DelimitedText &table, const unsigned int dim);
 
   /** Whether a row has no numbers, but units. */
   bool is_line_of_units(const DelimitedText::Row &row);

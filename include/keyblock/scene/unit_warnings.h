@@ -3,6 +3,7 @@
 #define keyblock_scene_unit_warnings_h
 
 #include <keyblock/scene/scene.h>
+#include <keyblock/scene/text.h>
 
 #include <string>
 #include <vector>
@@ -24,6 +25,11 @@ namespace Keyblock
   /** What is missing: loads, supports, the depth of the ground. */
   template <int dim>
   std::vector<std::string> warnings_of_missing_entries(const Scene<dim> &scene);
+
+  /** A sentence if the scene says nothing of the rock. */
+  template <int dim>
+  std::vector<std::string> warnings_of_default_rock(const Scene<dim> &scene,
+                                                    const SceneText &text);
 
   /** A sentence if the initial stress that follows from Ground/Depth is not
    * that of the weight of all the rock. */
