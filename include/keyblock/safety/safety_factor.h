@@ -137,12 +137,13 @@ namespace Keyblock
     /** What is known before the first trial. Zero: nothing. */
     struct Known
     {
-      double stable   = 0.; ///< a factor at which the block holds
-      double unstable = 0.; ///< one at which it fails
-      double hint     = 0.; ///< a guess
-      double limit    = 0.; ///< another, tried where that was wrong
-      double onset    = 0.; ///< at which present forces exceed the strength
-      double start    = 1.; ///< factor of the equilibrium to start from
+      double stable   = 0.;    ///< a factor at which the block holds
+      double unstable = 0.;    ///< one at which it fails
+      double hint     = 0.;    ///< a guess
+      double limit    = 0.;    ///< another, tried where that was wrong
+      double onset    = 0.;    ///< at which present forces exceed the strength
+      double start    = 1.;    ///< factor of the equilibrium to start from
+      bool looks_on   = false; ///< also where it holds at the wanted factor
     };
 
     /**
@@ -239,6 +240,14 @@ namespace Keyblock
                                                     const Known &known,
                                                     SafetyFactor &result);
 
+    /** Look for the factor of a block that holds at the wanted one, but not as
+     * its group does: where it fails by itself at which that fails, it was
+     * caught further on, at the wanted one, by others of the group. */
+    void look_below_wanted(const TriedBlocks &alone,
+                           const unsigned int number,
+                           Known known,
+                           SafetyFactor &result);
+
     /** Finite blocks (indices) that those of the @p group press on now, and
      * that are none of these (collective). */
     std::vector<unsigned int> blocks_pressed_on(const TriedBlocks &group) const;
@@ -275,6 +284,9 @@ namespace Keyblock
     RunParts<dim> run;
     StrengthTrials<dim> trials;
     SearchAdvance advance; ///< of the block that is looked at
+
+    /** What those tried pressed on at the end of the last trial that held. */
+    std::vector<unsigned int> pressed_at_end;
   };
 } // namespace Keyblock
 
