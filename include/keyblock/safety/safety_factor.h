@@ -7,6 +7,8 @@
 #include <keyblock/safety/support_demand.h>
 #include <keyblock/safety/tried_demand.h>
 
+#include <memory>
+
 namespace Keyblock
 {
   /** The safety factor of a block at the end of a stage. */
@@ -57,7 +59,7 @@ namespace Keyblock
     // the two cheap answers
     std::string limit_mode, limit_remark;
     double limit_factor = 0.;     ///< infinite: stable
-    OnceGone limit_once_gone;     ///< known without a search only
+    OnceGone limit_once_gone;     ///< the least factor without others
     bool limit_moves    = false;  ///< it finds a way; known in the search only
     double stress_ratio = 0.;     ///< on the faces it slides on; 0: none
     SupportDemand support_demand; ///< by limit equilibrium
@@ -109,6 +111,9 @@ namespace Keyblock
     double by_statics  = 0.; ///< what limit equilibrium asks for; 0: not [Pa]
     double first_guess = 0.; ///< [Pa]
   };
+
+  template <int dim>
+  struct JudgedBlock;
 
   /** How far the search for the factor of a block is. */
   struct SearchAdvance
@@ -208,6 +213,10 @@ namespace Keyblock
       bool fails_without = true; ///< without any, at the wanted factor
     };
 
+    /** Limit equilibrium of @p block in the present state, with what it tells
+     * of others. */
+    JudgedBlock<dim> judge_among_others(const unsigned int block) const;
+
     /** Find the pressure on one of the blocks that are @p tried. */
     void search_pressure(const TriedBlocks &tried,
                          const PressedBlock<dim> &pressed,
@@ -287,6 +296,10 @@ namespace Keyblock
 
     /** What those tried pressed on at the end of the last trial that held. */
     std::vector<unsigned int> pressed_at_end;
+
+    /** Limit equilibrium of the state that was asked for last. */
+    struct Judgement;
+    mutable std::shared_ptr<const Judgement> judgement;
   };
 } // namespace Keyblock
 
