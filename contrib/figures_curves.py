@@ -128,6 +128,8 @@ def draw_joint_stresses(runs):
     first = runs[0]
     if not all(run.takes_steps() for run in runs):
         return NO_STEPS
+    if not first.is_plane:
+        return "drawn in 2D only"
     found = [(run, block_face_stresses(run)) for run in runs]
     order = first.exposed_blocks()
     order += [n for n in first.finite_blocks() if n not in order]

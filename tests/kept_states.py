@@ -118,6 +118,8 @@ def main():
     # without a trial
     static = done("--factors", kept, "--output", FOLDER / "static",
                   settings=FINE + ["Safety factor/Method=limit equilibrium"])
+    # no part of it is the time of the run that kept them
+    assert 2. * static["run"]["wall_time"] < coarse["run"]["wall_time"]
     assert any("limit_equilibrium" in block for block in static["blocks"])
     assert not factors_of(static)
     after = {path.name: path.read_bytes() for path in kept.iterdir()}

@@ -165,6 +165,9 @@ def colours_of(path, begin=0.):
 def check_solid():
     """Pictures of parts of a scene in 3D."""
     folder, _ = run_scene()
+    said = call(*DISPLAY, CONTRIB / "figures.py", folder, "--to",
+                FOLDER / "curves")
+    assert "joint_stresses: drawn in 2D only" in said, said
     seen = {}
     for name, options in {
             "rock": (), "cut": ("--cut", "x,y"), "blocks": ("--parts", "blocks"),

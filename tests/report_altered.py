@@ -293,6 +293,21 @@ def check_where():
         assert "This report has no" not in page
 
 
+def check_states():
+    """Without a state before the first stage, as of factors of kept states."""
+    def change(*_):
+        path = FOLDER / "altered" / "solution.pvd"
+        path.write_text("\n".join(
+            line for line in path.read_text().splitlines()
+            if 'group="start"' not in line))
+
+    title = "<h3>Before the first stage</h3>"
+    assert title in altered(lambda *_: None)[1]
+    page = altered(change)[1]
+    assert title not in page and "<figure><img" in page
+    assert "No state was written" not in page
+
+
 def check_pipe():
     """A reader that has gone away is no error."""
     done = subprocess.run(
@@ -311,7 +326,8 @@ def main():
                    check=True, stdout=subprocess.DEVNULL)
     for case in (check_open, check_support, check_moving, check_held,
                  check_demand, check_tried_demand, check_tie, check_lost,
-                 check_unjudged, check_taken_away, check_where, check_pipe):
+                 check_unjudged, check_taken_away, check_where, check_states,
+                 check_pipe):
         case()
         print(f"{case.__name__}: as it should be")
 

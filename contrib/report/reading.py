@@ -175,16 +175,18 @@ class Run:
                 "There are no pictures, as the run wrote no solution.pvd "
                 "(Output/Write VTU = false, or the folder is not complete).")
             return []
-        found = [("start", -1, *states[0][1:])]
         times = numpy.array([state[0] for state in states])
         ends, last = self.stage_ends("time"), 0
         by_name = last_states(self.folder / "solution.pvd")
+        # --factors writes the states of its stages alone
+        found = ([("start", -1, *states[0][1:])]
+                 if "start" in by_name or not by_name else [])
         for k, name in enumerate(self.stages if by_name or ends else []):
             if by_name:
                 if name in by_name:
                     end = by_name[name]
                     if (name in self.removed().values()
-                            and end - 1 not in by_name.values()):
+                            and end > 0 and end - 1 not in by_name.values()):
                         found.append((name, k, *states[end - 1][1:]))
                     found.append((name, k, *states[end][1:]))
                 continue
@@ -194,7 +196,7 @@ class Run:
             if near.any():
                 last = int(near.argmax())
                 found.append((name, k, *states[last][1:]))
-        if len(found) == 1 and len(states) > 1:
+        if not found or (found[0][1] < 0 and len(found) == 1 < len(states)):
             name = self.stages[-1] if self.stages else "end"
             found.append((name, len(self.stages) - 1, *states[-1][1:]))
         if len(found) > MOST_STATES:

@@ -305,7 +305,7 @@ namespace Keyblock::Python
       split,
       [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
         for (const JudgedBlock<dim> &one :
-             judge_exposed_blocks(ground, free, blocks, time))
+             judge_leaning_blocks(ground, free, blocks, time, wanted))
           list.push_back(describe(ground, free, blocks, one, wanted, time));
       });
     return list;

@@ -37,6 +37,22 @@ namespace Keyblock
 
 
 
+  double
+  time_left_of_blocks(const unsigned int n_begun,
+                      const unsigned int n_blocks,
+                      const double before,
+                      const double in_block)
+  {
+    if (n_begun < 2)
+      return -1.;
+    const double mean = before / (n_begun - 1);
+    if (n_begun == n_blocks && in_block > mean)
+      return -1.;
+    return mean * (n_blocks - n_begun) + std::max(0., mean - in_block);
+  }
+
+
+
   FactorProgress::FactorProgress(const dealii::ConditionalOStream &out,
                                  const unsigned int n_blocks)
     : out(out)
@@ -76,7 +92,14 @@ namespace Keyblock
     if (time - last_printed < progress_interval(width))
       return;
     print_fields(out.get_stream(),
-                 fields_of_search(now, n_begun, n_blocks, id, time_left(time)),
+                 fields_of_search(now,
+                                  n_begun,
+                                  n_blocks,
+                                  id,
+                                  time_left_of_blocks(n_begun,
+                                                      n_blocks,
+                                                      block_start - start,
+                                                      time - block_start)),
                  width);
     last_printed = time;
     is_on_screen = true;
@@ -92,16 +115,4 @@ namespace Keyblock
     is_on_screen = false;
   }
 
-
-
-  double
-  FactorProgress::time_left(const double now) const
-  {
-    const unsigned int n_done = n_begun - 1;
-    if (n_done == 0)
-      return -1.;
-    const double mean = (block_start - start) / n_done;
-    return mean * (n_blocks - n_begun) +
-           std::max(0., mean - (now - block_start));
-  }
 } // namespace Keyblock

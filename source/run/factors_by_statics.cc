@@ -59,11 +59,14 @@ namespace Keyblock
                              &is_removed};
     const double time = model.step->time;
     const FreeFaces<dim> free(ground);
-    auto judged = judge_exposed_blocks(
-      ground, free, model.blocks, time, {}, record.present.removed_since());
-    note_leaning_blocks(ground, free, model.blocks, time, judged);
     std::vector<SafetyFactor> factors;
-    for (const JudgedBlock<dim> &one : judged)
+    for (const JudgedBlock<dim> &one :
+         judge_leaning_blocks(ground,
+                              free,
+                              model.blocks,
+                              time,
+                              model.scene.safety.wanted,
+                              record.present.removed_since()))
       {
         SafetyFactor factor;
         factor.block           = one.block;

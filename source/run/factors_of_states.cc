@@ -81,13 +81,15 @@ namespace Keyblock
     // factors of earlier stages are guesses for later ones, as in a run
     std::vector<SafetyFactor> factors;
     std::vector<VtuRecord> records;
+    const double begin = parts->record.wall_start;
     for (const KeptState &state : states)
       {
         {
           StateFile file(model.communicator, state.file);
           parts->checkpointing.resume(file, state.file);
         }
-        parts->record.safety_factors        = factors;
+        parts->record.wall_start     = begin; // the other run has told its own
+        parts->record.safety_factors = factors;
         parts->record.present.wants_factors = state.is_wanted;
         parts->output.records               = records;
         if (state.is_wanted && group_study)

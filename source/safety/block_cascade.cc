@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -14,15 +13,6 @@ namespace Keyblock
   {
     /** Decrease of a factor that counts as one [-]. */
     constexpr double least_decrease = 1e-9;
-
-    template <int dim>
-    std::vector<bool>
-    removed_from(const Ground<dim> &ground, const std::size_t n_blocks)
-    {
-      return ground.is_removed && !ground.is_removed->empty()
-               ? *ground.is_removed
-               : std::vector<bool>(n_blocks, false);
-    }
 
     /** Ids of the blocks that are gone among the neighbours of one. */
     template <int dim>
@@ -46,15 +36,6 @@ namespace Keyblock
       for (const unsigned int id : ids)
         text += (id == ids.front() ? "" : ", ") + std::to_string(id);
       return text + (ids.size() == 1 ? " has gone" : " have gone");
-    }
-
-    template <int dim>
-    BlockClass
-    class_now(const Ground<dim> &ground, const Block<dim> &block)
-    {
-      const auto &classes = block.class_of_stage;
-      return classes[std::min<std::size_t>(ground.stage_number,
-                                           classes.size() - 1)];
     }
 
     /** Ids of the blocks across joints of one that are gone. */
@@ -135,22 +116,6 @@ namespace Keyblock
           judged.push_back(std::move(one));
         }
     }
-
-    /** That a block may lean on one below it, and what it asks for besides. */
-    template <int dim>
-    std::string
-    remark_on_leaning(const unsigned int id,
-                      const BlockStatics<dim> &below,
-                      const BlockStatics<dim> &above)
-    {
-      std::string text =
-        "block " + std::to_string(id) + " may lean on it, left out";
-      if (below.demand.force > 0. && above.demand.force > 0. &&
-          std::isfinite(above.demand.force))
-        text += ", and asks for " + text_of(1e-3 * above.demand.force, 4) +
-                (dim == 2 ? " kN/m" : " kN") + " more";
-      return text;
-    }
   } // namespace
 
 
@@ -227,64 +192,6 @@ namespace Keyblock
 
 
   template <int dim>
-  void
-  note_leaning_blocks(const Ground<dim> &ground,
-                      const FreeFaces<dim> &free,
-                      const Blocks<dim> &blocks,
-                      const double time,
-                      std::vector<JudgedBlock<dim>> &judged)
-  {
-    std::map<unsigned int, double> factors; // between all others
-    const auto factor_of = [&](const unsigned int b) {
-      const auto [entry, is_new] = factors.emplace(b, 0.);
-      if (is_new)
-        entry->second = judge_block(ground, free, blocks, b, time).limit.factor;
-      return entry->second;
-    };
-    for (const JudgedBlock<dim> &one : judged)
-      if (!one.is_uncovered)
-        factors[one.block] = one.statics.limit.factor;
-    for (JudgedBlock<dim> &below : judged)
-      {
-        if (below.statics.limit.direction.norm() == 0.)
-          continue;
-        std::vector<bool> is_gone = removed_from(ground, blocks.blocks.size());
-        std::set<unsigned int> neighbors;
-        for (const std::set<unsigned int> &others : below.statics.around.others)
-          neighbors.insert(others.begin(), others.end());
-        is_gone[below.block]    = true;
-        const Ground<dim> later = {ground.scene,
-                                   ground.split,
-                                   ground.stage_number,
-                                   &is_gone};
-        std::unique_ptr<FreeFaces<dim>> free_later;
-        for (const unsigned int other : neighbors)
-          {
-            const BlockClass kind = class_now(ground, blocks.blocks[other]);
-            if (is_gone[other] ||
-                (kind != BlockClass::exposed && kind != BlockClass::hidden))
-              continue;
-            if (!free_later)
-              free_later = std::make_unique<FreeFaces<dim>>(later);
-            const BlockStatics<dim> then =
-              judge_block(later, *free_later, blocks, other, time);
-            // (one tied to it falls with it, and asks for more without it)
-            const bool asks_more =
-              below.statics.demand.force > 0. && then.demand.force > 0. &&
-              std::any_of(judged.begin(), judged.end(), [&](const auto &one) {
-                return one.block == other && one.statics.demand.force == 0.;
-              });
-            if (asks_more ||
-                then.limit.factor < (1. - least_decrease) * factor_of(other))
-              below.statics.remarks.push_back(remark_on_leaning(
-                blocks.blocks[other].id, below.statics, then));
-          }
-      }
-  }
-
-
-
-  template <int dim>
   std::vector<Tensor<1, dim>>
   find_ways_without_support(const Ground<dim> &ground,
                             const FreeFaces<dim> &free,
@@ -354,11 +261,6 @@ namespace Keyblock
   }
 
 #define INSTANTIATE(dim)                                                       \
-  template void note_leaning_blocks(const Ground<dim> &,                       \
-                                    const FreeFaces<dim> &,                    \
-                                    const Blocks<dim> &,                       \
-                                    const double,                              \
-                                    std::vector<JudgedBlock<dim>> &);          \
   template std::vector<JudgedBlock<dim>> judge_exposed_blocks(                 \
     const Ground<dim> &,                                                       \
     const FreeFaces<dim> &,                                                    \

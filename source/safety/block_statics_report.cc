@@ -108,8 +108,8 @@ namespace Keyblock
     std::ostringstream rows;
     for_each_changed_ground<dim>(
       scene, split, [&](const Ground<dim> &ground, const FreeFaces<dim> &free) {
-        auto judged = judge_exposed_blocks(ground, free, blocks, 0.);
-        note_leaning_blocks(ground, free, blocks, 0., judged);
+        auto judged =
+          judge_leaning_blocks(ground, free, blocks, 0., scene.safety.wanted);
         for (JudgedBlock<dim> &one : judged)
           {
             auto &before = last[one.block];

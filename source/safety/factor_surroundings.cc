@@ -148,12 +148,73 @@ namespace Keyblock
 
 
 
+  /** judge_exposed_blocks(), and of what state. */
+  template <int dim>
+  struct StrengthReductionSearch<dim>::Judgement
+  {
+    unsigned int stage_number;
+    double time;
+    std::vector<bool> is_removed;
+    BrokenSegments broken;
+    /** Those in `noted` (by index) with the remark of what leans on them. */
+    mutable std::vector<JudgedBlock<dim>> blocks;
+    mutable std::set<unsigned int> noted;
+
+    bool
+    is_of_same_state(const Judgement &other) const
+    {
+      return stage_number == other.stage_number && time == other.time &&
+             is_removed == other.is_removed && broken == other.broken;
+    }
+  };
+
+
+
+  template <int dim>
+  JudgedBlock<dim>
+  StrengthReductionSearch<dim>::judge_among_others(
+    const unsigned int block) const
+  {
+    const Ground<dim> ground = run.conditions.active_cells.ground();
+    const FreeFaces<dim> free(ground);
+    Judgement now{ground.stage_number,
+                  run.step.time,
+                  removed_from(ground, blocks.blocks.size()),
+                  run.conditions.broken_segments(),
+                  {},
+                  {}};
+    if (!judgement || !judgement->is_of_same_state(now))
+      {
+        now.blocks =
+          judge_exposed_blocks<dim>(ground, free, blocks, now.time, now.broken);
+        judgement = std::make_shared<const Judgement>(now);
+      }
+    for (JudgedBlock<dim> &one : judgement->blocks)
+      if (one.block == block)
+        {
+          if (judgement->noted.insert(block).second)
+            note_leaning_blocks(ground,
+                                free,
+                                blocks,
+                                now.time,
+                                scene.safety.wanted,
+                                judgement->blocks,
+                                one);
+          return one;
+        }
+    return {block, judge_now(blocks, block, run), 0., {}};
+  }
+
+
+
   template <int dim>
   void
   StrengthReductionSearch<dim>::add_cheap_answers(const unsigned int block,
                                                   SafetyFactor &result) const
   {
-    BlockStatics<dim> statics = judge_now(blocks, block, run);
+    JudgedBlock<dim> judged    = judge_among_others(block);
+    BlockStatics<dim> &statics = judged.statics;
+    result.limit_once_gone     = judged.once_gone;
     if (const double way = trials.measures.way_from_place(block); way > 0.)
       {
         std::ostringstream text;
@@ -300,6 +361,10 @@ namespace Keyblock
   StrengthReductionSearch<3>::with_row(const TriedBlocks &) const;
   template Tensor<1, 3>
   StrengthReductionSearch<3>::tell_ways(const TriedBlocks &);
+  template JudgedBlock<2>
+  StrengthReductionSearch<2>::judge_among_others(const unsigned int) const;
+  template JudgedBlock<3>
+  StrengthReductionSearch<3>::judge_among_others(const unsigned int) const;
   template std::vector<unsigned int>
   StrengthReductionSearch<2>::ids_of(const TriedBlocks &) const;
   template std::vector<unsigned int>

@@ -18,6 +18,22 @@ namespace Keyblock
     {
       return result.group.empty() ? result.lower : result.group_lower;
     }
+
+    /** Add @p others to a sorted list; whether any are new. */
+    bool
+    add_to(std::vector<unsigned int> &list,
+           const std::vector<unsigned int> &others)
+    {
+      std::vector<unsigned int> all;
+      std::set_union(list.begin(),
+                     list.end(),
+                     others.begin(),
+                     others.end(),
+                     std::back_inserter(all));
+      const bool is_more = all.size() > list.size();
+      list.swap(all);
+      return is_more;
+    }
   } // namespace
 
 
@@ -51,6 +67,7 @@ namespace Keyblock
     advance      = SearchAdvance();
     add_cheap_answers(block, result);
     trials.failure.forget();
+    pressed_at_end.clear();
     TriedBlocks tried;
     tried.block = block;
     if (result.limit_moves && std::isfinite(result.limit_factor) &&
@@ -85,6 +102,9 @@ namespace Keyblock
         if (is_bracketed)
           tried.companions = trials.failure.blocks_along();
         find_group(tried, number, guess, result);
+        if (result.outcome == SafetyFactor::Outcome::met &&
+            !result.group.empty())
+          look_below_wanted(tried, number, known, result);
       }
     return result;
   }
@@ -105,6 +125,7 @@ namespace Keyblock
     advance      = SearchAdvance();
     add_cheap_answers(carried.block, result);
     trials.failure.forget();
+    pressed_at_end.clear();
     find_group(carried, number, known, result);
     if (result.outcome != SafetyFactor::Outcome::carried &&
         result.outcome != SafetyFactor::Outcome::met)
@@ -152,6 +173,12 @@ namespace Keyblock
           }
         // neighbors matter if they make it weaker: a large change of strength
         // may have shaken it loose in the trial that told of them
+        if (outcome == SafetyFactor::Outcome::met && result.group.empty() &&
+            tried.is_carried)
+          {
+            others.clear();
+            continue;
+          }
         if (outcome != SafetyFactor::Outcome::bracketed ||
             (!move_along && search.stable >= held))
           break;
@@ -178,25 +205,61 @@ namespace Keyblock
                                                       const Known &known,
                                                       SafetyFactor &result)
   {
-    const std::vector<unsigned int> pressed = blocks_pressed_on(group);
-    const double held                       = held_so_far(result);
-    if (pressed.empty() || held == 0.)
-      return {};
-    std::vector<Trial> tried;
-    Search search(*this, group.with(pressed), number, known, tried);
-    search.holds_at(held);
-    const bool fails = search.unstable == held;
-    search.finish();
-    tried[0].is_of_group = true;
-    result.trials.push_back(tried[0]);
+    const double held = held_so_far(result);
+    const bool is_met = result.outcome == SafetyFactor::Outcome::met;
+    std::vector<unsigned int> pressed = blocks_pressed_on(group);
+    // what has caught it, which is no less strong than it was
+    if (is_met)
+      add_to(pressed, pressed_at_end);
     std::vector<unsigned int> weaker;
-    if (fails)
-      std::set_intersection(pressed.begin(),
-                            pressed.end(),
-                            trials.failure.blocks_moving().begin(),
-                            trials.failure.blocks_moving().end(),
-                            std::back_inserter(weaker));
+    while (!pressed.empty() && held > 0.)
+      {
+        std::vector<Trial> tried;
+        Search search(*this, group.with(pressed), number, known, tried);
+        search.holds_at(held);
+        const bool fails = search.unstable == held;
+        search.finish();
+        tried[0].is_of_group = true;
+        result.trials.push_back(tried[0]);
+        if (fails)
+          {
+            const auto &moving = trials.failure.blocks_moving();
+            std::set_intersection(pressed.begin(),
+                                  pressed.end(),
+                                  moving.begin(),
+                                  moving.end(),
+                                  std::back_inserter(weaker));
+            break;
+          }
+        // others may have caught them all
+        if (!is_met || !tried[0].is_stable || !add_to(pressed, pressed_at_end))
+          break;
+      }
     return weaker;
+  }
+
+
+
+  template <int dim>
+  void
+  StrengthReductionSearch<dim>::look_below_wanted(const TriedBlocks &alone,
+                                                  const unsigned int number,
+                                                  Known known,
+                                                  SafetyFactor &result)
+  {
+    known.hint     = result.value_of_group();
+    known.looks_on = true;
+    std::vector<Trial> tried;
+    Search search(*this, alone, number, known, tried);
+    if (search.is_open(result.group_upper) &&
+        !search.holds_at(result.group_upper) && search.unstable > 0.)
+      {
+        result.outcome = bisect(search, known);
+        search.note_bounds(result);
+        result.failure_mode = trials.failure.mode();
+      }
+    search.finish();
+    result.trials.insert(result.trials.end(), tried.begin(), tried.end());
   }
 
 
@@ -214,7 +277,7 @@ namespace Keyblock
                  above = middle > 0. ? middle : search.undecided_upper;
     for (; search.stable == 0. || search.unstable == 0.; spread *= 4.)
       {
-        if (settings.wanted > 0. && search.stable >= settings.wanted)
+        if (search.is_met())
           return Outcome::met;
         if (search.stable >= settings.highest)
           return Outcome::immovable;
@@ -270,23 +333,20 @@ namespace Keyblock
                           : search.stable > 0. ? settings.highest
                                                : 1.;
     double spread       = 0.4 * settings.bracket;
-    if (settings.wanted > 0. && search.is_open(settings.wanted))
-      search.holds_at(settings.wanted);
-    const auto is_met = [&]() {
-      return settings.wanted > 0. && search.stable >= settings.wanted;
-    };
+    if (search.wanted > 0. && search.is_open(search.wanted))
+      search.holds_at(search.wanted);
     for (const double middle : {guess, known.limit})
-      if (!is_met())
+      if (!search.is_met())
         try_guess(search, middle, known.onset, spread);
     spread = has_hint ? 4. * spread : 0.5;
-    while (!is_met())
+    while (!search.is_met())
       {
         const auto outcome = find_bracket(search, spread);
         if (outcome != SafetyFactor::Outcome::bracketed)
           return outcome;
-        while (!search.is_done() && !is_met())
+        while (!search.is_done() && !search.is_met())
           search.holds_at(search.next());
-        if (!is_met() && search.confirm_lower_end() && search.confirm())
+        if (!search.is_met() && search.confirm_lower_end() && search.confirm())
           return SafetyFactor::Outcome::bracketed;
         spread = settings.bracket;
       }

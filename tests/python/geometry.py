@@ -122,6 +122,11 @@ def limit():
     check_that("mode", result.mode == "sliding on base" and result.block == 1)
     check_that("direction", abs(result.direction[0] - 1) < 1e-9)
     check_that("support", 0 < result.support_force < 2 * weight)
+    row = keyblock.find_blocks(keyblock.Scene(
+        PRM / "verification" / "leaning_row.prm")).limit_equilibrium(wanted=1.4)
+    (first,) = (one for one in row if one.block == 1)
+    check_that("blocks that lean", "blocks 2, 3 may lean on it, left out, and ask for "
+               "141.4 kN/m more" in first.remarks)
 
     # friction and cohesion together: (c A + N tan phi) / T
     sweep = keyblock.sweep(incline, {

@@ -269,6 +269,8 @@ keyblock_scene(verification/two_wedges REFERENCES two_wedges_upper RANKS 1
 keyblock_scene(verification/two_wedges REFERENCES two_wedges_wanted ALIKE RANKS 1 2
   SET "Safety factor/Wanted=2" "Safety factor/Blocks=2"
   "Joints/plane/Friction angle=30")
+# one that others catch at what is wanted, and that slides at less
+keyblock_scene(verification/leaning_row RANKS 1 2 SET "Safety factor/Blocks=3")
 # blocks whose faces the mesh must not bend, nor lead onto a corner
 keyblock_scene(verification/daylight_wedge RANKS 1)
 keyblock_scene(verification/dug_bed RANKS 1)

@@ -117,6 +117,16 @@ BOOST_AUTO_TEST_CASE(fields_of_a_search)
   BOOST_TEST(line({}, -1.) == "Factor  block 7 of 14 (id 23)");
 }
 
+BOOST_AUTO_TEST_CASE(time_that_is_left_of_blocks)
+{
+  // two blocks took 10 s each
+  BOOST_TEST(time_left_of_blocks(1, 4, 0., 3.) < 0.);
+  BOOST_TEST(time_left_of_blocks(3, 4, 20., 3.) == 17.);
+  BOOST_TEST(time_left_of_blocks(3, 4, 20., 30.) == 10.);
+  BOOST_TEST(time_left_of_blocks(3, 3, 20., 3.) == 7.);
+  BOOST_TEST(time_left_of_blocks(3, 3, 20., 30.) < 0.);
+}
+
 BOOST_AUTO_TEST_CASE(terminals_without_a_size_are_none)
 {
   const int main_end = posix_openpt(O_RDWR | O_NOCTTY);

@@ -18,6 +18,17 @@ namespace Keyblock
                                               const unsigned int id,
                                               const double seconds);
 
+  /** Wall time that is left by the mean of those of @p n_blocks that are done
+   * [s]; below zero: not known, as before the first, and where the last takes
+   * longer.
+   * @param n_begun the present one included
+   * @param before what those that are done have taken [s]
+   * @param in_block what the present one has taken so far [s] */
+  double time_left_of_blocks(const unsigned int n_begun,
+                             const unsigned int n_blocks,
+                             const double before,
+                             const double in_block);
+
   /** The line of progress while the factors of blocks are looked for; it is
    * gone when this is. */
   class FactorProgress
@@ -39,9 +50,6 @@ namespace Keyblock
     void clear();
 
   private:
-    /** By the mean of the blocks that are done; below zero without one [s]. */
-    double time_left(const double now) const;
-
     const dealii::ConditionalOStream &out;
     const unsigned int n_blocks;
     const double start;       ///< wall time [s]

@@ -5,6 +5,8 @@
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/safety/once_gone.h>
 
+#include <algorithm>
+
 namespace Keyblock
 {
   /** What limit equilibrium says of a block with a free face among the others.
@@ -42,14 +44,51 @@ namespace Keyblock
                        const BrokenSegments &broken        = {},
                        const std::vector<bool> &gone_since = {});
 
-  /** Add remarks to blocks that can move: which others would if it had gone, so
-   * that they may lean on it, hidden ones, too. */
+  /** Which blocks (by index) are gone from the ground. */
+  template <int dim>
+  std::vector<bool>
+  removed_from(const Ground<dim> &ground, const std::size_t n_blocks)
+  {
+    return ground.is_removed && !ground.is_removed->empty()
+             ? *ground.is_removed
+             : std::vector<bool>(n_blocks, false);
+  }
+
+  /** What a block is at the stage of the ground. */
+  template <int dim>
+  BlockClass
+  class_now(const Ground<dim> &ground, const Block<dim> &block)
+  {
+    const auto &classes = block.class_of_stage;
+    return classes[std::min<std::size_t>(ground.stage_number,
+                                         classes.size() - 1)];
+  }
+
+  /**
+   * Add a remark to one of the blocks that judge_exposed_blocks() gave, if it
+   * can move: which others would if it had gone, so that they may lean on it,
+   * hidden ones, too, those that lean on these, and so on as long as they lack
+   * the @p wanted factor (one if none is); and what support it needs more for
+   * that if they push with all that they lack.
+   */
   template <int dim>
   void note_leaning_blocks(const Ground<dim> &ground,
                            const FreeFaces<dim> &free,
                            const Blocks<dim> &blocks,
                            const double time,
-                           std::vector<JudgedBlock<dim>> &judged);
+                           const double wanted,
+                           const std::vector<JudgedBlock<dim>> &judged,
+                           JudgedBlock<dim> &below);
+
+  /** judge_exposed_blocks() with note_leaning_blocks() for all of them. */
+  template <int dim>
+  std::vector<JudgedBlock<dim>>
+  judge_leaning_blocks(const Ground<dim> &ground,
+                       const FreeFaces<dim> &free,
+                       const Blocks<dim> &blocks,
+                       const double time,
+                       const double wanted,
+                       const std::vector<bool> &gone_since = {});
 
   /**
    * Ways (unit vectors, by index) that the blocks which are wanted would take

@@ -77,7 +77,8 @@ namespace Keyblock
            const unsigned int number,
            const Known &known,
            std::vector<Trial> &trials)
-      : owner(owner)
+      : wanted(known.looks_on ? 0. : owner.scene.safety.wanted)
+      , owner(owner)
       , origin(owner, to_try, number, known.start)
       , trials(trials)
     {
@@ -108,6 +109,8 @@ namespace Keyblock
           warm_start = factor;
         }
       add(factor, trial);
+      if (trial.is_stable)
+        owner.pressed_at_end = owner.blocks_pressed_on(origin.tried);
       if (trial.is_stable && stable >= owner.scene.safety.highest)
         held_by =
           owner.trials.measures.list_holders(origin.tried.block, origin.way);
@@ -169,7 +172,15 @@ namespace Keyblock
       return is_narrow(owner.scene.safety.bracket);
     }
 
+    /** Whether the block holds at the wanted factor, which is enough. */
+    bool
+    is_met() const
+    {
+      return wanted > 0. && stable >= wanted;
+    }
+
     std::string held_by; ///< as SafetyFactor::held_by
+    const double wanted; ///< 0: none, or more is to be known [-]
 
   private:
     StrengthReductionSearch &owner;

@@ -7,6 +7,8 @@
 #include <keyblock/safety/support_demand.h>
 #include <keyblock/safety/tried_demand.h>
 
+#include <memory>
+
 namespace Keyblock
 {
   /** The safety factor of a block at the end of a stage. */
@@ -57,7 +59,7 @@ namespace Keyblock
     // the two cheap answers
     std::string limit_mode, limit_remark;
     double limit_factor = 0.;     ///< infinite: stable
-    OnceGone limit_once_gone;     ///< known without a search only
+    OnceGone limit_once_gone;     ///< the least factor without others
     bool limit_moves    = false;  ///< it finds a way; known in the search only
     double stress_ratio = 0.;     ///< on the faces it slides on; 0: none
     SupportDemand support_demand; ///< by limit equilibrium
@@ -110,6 +112,9 @@ namespace Keyblock
     double first_guess = 0.; ///< [Pa]
   };
 
+  template <int dim>
+  struct JudgedBlock;
+
   /** How far the search for the factor of a block is. */
   struct SearchAdvance
   {
@@ -137,12 +142,13 @@ namespace Keyblock
     /** What is known before the first trial. Zero: nothing. */
     struct Known
     {
-      double stable   = 0.; ///< a factor at which the block holds
-      double unstable = 0.; ///< one at which it fails
-      double hint     = 0.; ///< a guess
-      double limit    = 0.; ///< another, tried where that was wrong
-      double onset    = 0.; ///< at which present forces exceed the strength
-      double start    = 1.; ///< factor of the equilibrium to start from
+      double stable   = 0.;    ///< a factor at which the block holds
+      double unstable = 0.;    ///< one at which it fails
+      double hint     = 0.;    ///< a guess
+      double limit    = 0.;    ///< another, tried where that was wrong
+      double onset    = 0.;    ///< at which present forces exceed the strength
+      double start    = 1.;    ///< factor of the equilibrium to start from
+      bool looks_on   = false; ///< also where it holds at the wanted factor
     };
 
     /**
@@ -207,6 +213,10 @@ namespace Keyblock
       bool fails_without = true; ///< without any, at the wanted factor
     };
 
+    /** Limit equilibrium of @p block in the present state, with what it tells
+     * of others. */
+    JudgedBlock<dim> judge_among_others(const unsigned int block) const;
+
     /** Find the pressure on one of the blocks that are @p tried. */
     void search_pressure(const TriedBlocks &tried,
                          const PressedBlock<dim> &pressed,
@@ -238,6 +248,14 @@ namespace Keyblock
                                                     const unsigned int number,
                                                     const Known &known,
                                                     SafetyFactor &result);
+
+    /** Look for the factor of a block that holds at the wanted one, but not as
+     * its group does: where it fails by itself at which that fails, it was
+     * caught further on, at the wanted one, by others of the group. */
+    void look_below_wanted(const TriedBlocks &alone,
+                           const unsigned int number,
+                           Known known,
+                           SafetyFactor &result);
 
     /** Finite blocks (indices) that those of the @p group press on now, and
      * that are none of these (collective). */
@@ -275,6 +293,13 @@ namespace Keyblock
     RunParts<dim> run;
     StrengthTrials<dim> trials;
     SearchAdvance advance; ///< of the block that is looked at
+
+    /** What those tried pressed on at the end of the last trial that held. */
+    std::vector<unsigned int> pressed_at_end;
+
+    /** Limit equilibrium of the state that was asked for last. */
+    struct Judgement;
+    mutable std::shared_ptr<const Judgement> judgement;
   };
 } // namespace Keyblock
 
