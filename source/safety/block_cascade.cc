@@ -261,7 +261,9 @@ namespace Keyblock
         for (const unsigned int other : neighbors)
           {
             const BlockClass kind = class_now(ground, blocks.blocks[other]);
+            const auto &tied = below.statics.others; // judged as one with it
             if (is_gone[other] ||
+                std::count(tied.begin(), tied.end(), other) > 0 ||
                 (kind != BlockClass::exposed && kind != BlockClass::hidden))
               continue;
             if (!free_later)
