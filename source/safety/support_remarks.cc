@@ -3,7 +3,9 @@
 #include <keyblock/safety/block_remarks.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace Keyblock
@@ -21,6 +23,37 @@ namespace Keyblock
         text += (b == indices.front() ? " " : ", ") +
                 std::to_string(blocks.blocks[b].id);
       return text;
+    }
+
+    /** That bolts may break before those of another kind, which stretch
+     * otherwise, bear what they can; empty: all are alike, or none breaks. */
+    template <int dim>
+    std::string
+    remark_on_rupture(const Scene<dim> &scene, const BlockSupport<dim> &support)
+    {
+      using Kind = std::array<double, 6>;
+      std::set<std::string> brittle;
+      std::set<Kind> kinds;
+      for (const auto &pull : support.pulls)
+        {
+          const BoltSet<dim> &set = *scene.bolts[pull.set];
+          kinds.insert(Kind{{set.rupture_strain,
+                             set.yield_force,
+                             set.young_modulus * set.area,
+                             set.free_length,
+                             set.bond_stiffness,
+                             set.bond_strength}});
+          if (set.rupture_strain > 0.)
+            brittle.insert(set.name);
+        }
+      if (brittle.empty() || kinds.size() < 2)
+        return "";
+      std::string text =
+        brittle.size() == 1 ? "bolts of the set" : "bolts of the sets";
+      for (const std::string &name : brittle)
+        text += (name == *brittle.begin() ? " " : ", ") + name;
+      return text + " may break before others bear what they can: all are "
+                    "counted at once, trials may find less";
     }
 
     /** What a wanted factor asks for. */
@@ -85,6 +118,9 @@ namespace Keyblock
         "with " + support.describe() + ", " +
         name_of(ground.scene.safety.bolt_convention) +
         (statics.limit.is_borne ? ", which bears all that drives it" : ""));
+    if (const std::string text = remark_on_rupture(ground.scene, support);
+        !text.empty())
+      remarks.push_back(text);
     std::vector<unsigned int> carried;
     for (const unsigned int b : support.shared_with)
       if (!blocks.blocks[b].is_infinite && !blocks.blocks[b].is_rigid &&
