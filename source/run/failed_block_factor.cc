@@ -74,8 +74,8 @@ namespace Keyblock
       {
         SafetyFactor cheap;
         search.add_cheap_answers(block, cheap);
-        if (std::isfinite(cheap.limit_factor))
-          known.limit = cheap.limit_factor;
+        if (std::isfinite(cheap.limit_alone))
+          known.limit = cheap.limit_alone;
         SafetyFactor result =
           search.find(block, record.present.number(), known);
         if (result.group_lower > 1.)

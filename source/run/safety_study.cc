@@ -149,8 +149,8 @@ namespace Keyblock
     search.add_cheap_answers(block, cheap);
     if (known.stable > 0.)
       known.onset = cheap.stress_ratio;
-    if (std::isfinite(cheap.limit_factor))
-      known.limit = cheap.limit_factor;
+    if (std::isfinite(cheap.limit_alone))
+      known.limit = cheap.limit_alone;
     if (known.hint == 0.)
       known.hint =
         known.limit > 0. && known.onset > 1. ? known.onset : known.limit;

@@ -2,27 +2,21 @@
 // How a block moves with its support, and what support it needs.
 #include <keyblock/safety/block_moments.h>
 #include <keyblock/safety/block_statics.h>
+#include <keyblock/safety/least_support.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace Keyblock
 {
   namespace
   {
-    /** Halvings by which a demand is found. */
-    constexpr unsigned int n_halvings = 60;
-
     /** Force for balanced moments over that against sliding or the weight, at
      * most. */
     constexpr double most_moment = 10.;
 
     /** Factor up to which moments are looked at [-]. */
     constexpr double most_factor = 1e3;
-
-    /** Bolts of a set more than which are none. */
-    constexpr unsigned int most_bolts = 4096;
 
     /** Bolts of a set that @p support has. */
     template <int dim>
@@ -42,63 +36,9 @@ namespace Keyblock
                     const unsigned int set,
                     const unsigned int n)
     {
-      const double share     = 1. + double(n) / n_bolts_of(support, set);
       BlockSupport<dim> more = support;
-      for (auto &pull : more.pulls)
-        if (pull.set == set)
-          {
-            pull.force *= share;
-            pull.dowel_strength *= share;
-          }
+      more.add_bolts(set, double(n) / n_bolts_of(support, set));
       return more;
-    }
-
-    /** The least number at which @p is_enough, which stays so for larger ones;
-     * 0: none up to most_bolts. */
-    template <typename IsEnough>
-    unsigned int
-    least_number(const IsEnough &is_enough)
-    {
-      unsigned int low = 0, high = 1;
-      while (!is_enough(high))
-        {
-          if (high >= most_bolts)
-            return 0;
-          low = high;
-          high *= 2;
-        }
-      while (high - low > 1)
-        {
-          const unsigned int middle        = low + (high - low) / 2;
-          (is_enough(middle) ? high : low) = middle;
-        }
-      return high;
-    }
-
-    /** The least force for which @p is_enough holds, from @p first on by steps
-     * of a @p ratio; more may push the block elsewhere. Infinite if there is
-     * none below @p most. */
-    template <typename IsEnough>
-    double
-    least_force(const IsEnough &is_enough,
-                const double first,
-                const double most,
-                const double ratio)
-    {
-      double low = 0., high = first;
-      while (0. < high && high < most && !is_enough(high))
-        {
-          low = high;
-          high *= ratio;
-        }
-      if (!(0. < high && high < most))
-        return std::numeric_limits<double>::infinity();
-      for (unsigned int i = 0; i < n_halvings; ++i)
-        {
-          const double middle              = 0.5 * (low + high);
-          (is_enough(middle) ? high : low) = middle;
-        }
-      return high;
     }
 
     /** Whether a free face is not one of the domain's, but left by digging. A

@@ -45,7 +45,6 @@ namespace Keyblock
         , around(statics.around)
         , limit(statics.limit)
         , support(statics.support)
-        , demand(statics.demand)
         , remarks(statics.remarks)
       {}
 
@@ -71,59 +70,6 @@ namespace Keyblock
              depends_on_time(scene.water_pressure(j, ground.stage_number)));
         if (is_varying)
           add() << "loads of t = " << time << " s";
-      }
-
-      void
-      add_support()
-      {
-        if (support.shotcrete_load.norm() > 0.)
-          add() << "with " << 1e-3 * support.shotcrete_load.norm() << " kN"
-                << (dim == 2 ? "/m" : "") << " of shotcrete on it";
-        if (support.holds())
-          add() << "with " << support.describe() << ", "
-                << name_of(scene.safety.bolt_convention)
-                << (limit.is_borne ? ", which bears all that drives it" : "");
-        std::vector<unsigned int> carried;
-        for (const unsigned int b : support.shared_with)
-          if (!blocks.blocks[b].is_infinite && !blocks.blocks[b].is_rigid)
-            carried.push_back(blocks.blocks[b].id);
-        if (!carried.empty())
-          {
-            add() << (carried.size() == 1 ? "its bolts also go through block"
-                                          : "its bolts also go through blocks");
-            for (const unsigned int id : carried)
-              last << (id == carried.front() ? " " : ", ") << id;
-            last << ", whose load on them is left out";
-          }
-        if (support.n_broken > 0)
-          add() << support.n_broken
-                << (support.n_broken == 1 ? " bolt has" : " bolts have")
-                << " broken";
-        if (demand.force == 0.)
-          return;
-        add() << "a factor of " << demand.factor;
-        const bool is_in_reach = std::isfinite(demand.force);
-        if (is_in_reach)
-          last << " asks for " << 1e-3 * demand.force << " kN"
-               << (dim == 2 ? "/m" : "") << " against its free faces, "
-               << 1e-3 * demand.pressure << " kPa";
-        else
-          last << " is in reach of no pressure on its free faces";
-        for (const auto &[name, number] : demand.numbers)
-          {
-            if (number == 0)
-              {
-                last << (is_in_reach ? ", which no number of bolts like those "
-                                       "of the set " +
-                                         name + " gives"
-                                     : ", nor of any number of bolts like "
-                                       "those of the set " +
-                                         name);
-                continue;
-              }
-            last << (is_in_reach ? ", or " : ", but of ")
-                 << describe_bolts(scene, name, number);
-          }
       }
 
       void
@@ -353,7 +299,6 @@ namespace Keyblock
       const BlockSurroundings<dim> &around;
       const LimitEquilibrium<dim> &limit;
       const BlockSupport<dim> &support;
-      const SupportDemand &demand;
       std::vector<std::string> &remarks;
       std::ostringstream last;
     };
@@ -374,7 +319,9 @@ namespace Keyblock
   {
     Remarks<dim> remarks(ground, free, blocks, block, statics);
     remarks.add_loads(time);
-    remarks.add_support();
+    for (const std::string &text :
+         list_support_remarks(ground, blocks, statics))
+      remarks.add_text(text);
     remarks.add_fixed_joints();
     remarks.add_rotation(motion.rotation, motion.factor_of_sliding);
     if (!lost_faces.empty())

@@ -30,7 +30,8 @@ namespace Keyblock
       for (const unsigned int b : group.others)
         out << (b == group.others.front() ? "" : ", ") << blocks.blocks[b].id;
       if (group.is_by_bolts)
-        out << ", on bolts that reach no other rock; ";
+        out << ", tied to it by bolts"
+            << (group.is_by_shotcrete ? " and shotcrete; " : "; ");
       else
         out << ", which " << (group.others.size() == 1 ? "hangs" : "hang")
             << " on the same shotcrete; ";
@@ -38,8 +39,11 @@ namespace Keyblock
         out << statics.limit.factor << " by itself";
       else
         out << "stable by itself";
-      remark        = out.str();
-      statics.limit = group.limit;
+      remark = out.str();
+      if (!group.is_by_bolts || group.limit.factor < 1.)
+        statics.alone = group.limit;
+      statics.limit  = group.limit;
+      statics.others = group.others;
     }
 
 
@@ -186,7 +190,7 @@ namespace Keyblock
       find_motion<dim>(statics.around, statics.support, is_passive);
     const std::string lost_remark =
       leave_out_lost_faces(statics, is_passive, motion);
-    statics.limit = motion.limit;
+    statics.limit = statics.alone = motion.limit;
     const std::string seismic_remark =
       remark_on_seismic(statics, is_passive, motion.limit.factor);
     if (const double wanted = ground.scene.safety.wanted; wanted > 0.)

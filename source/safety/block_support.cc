@@ -53,6 +53,20 @@ namespace Keyblock
 
 
   template <int dim>
+  void
+  BlockSupport<dim>::add_bolts(const unsigned int set, const double share)
+  {
+    for (Pull &pull : pulls)
+      if (pull.set == set)
+        {
+          pull.force *= 1. + share;
+          pull.dowel_strength *= 1. + share;
+        }
+  }
+
+
+
+  template <int dim>
   std::string
   BlockSupport<dim>::describe() const
   {

@@ -228,7 +228,8 @@ namespace Keyblock
     result.limit_mode     = statics.mode();
     result.limit_remark   = statics.remark();
     result.limit_factor   = statics.limit.factor;
-    result.limit_moves    = statics.limit.direction.norm() > 0.;
+    result.limit_alone    = statics.alone.factor;
+    result.limit_moves    = statics.alone.direction.norm() > 0.;
     result.support_demand = statics.demand;
     result.stress_ratio =
       stress_ratio<dim>(scene,

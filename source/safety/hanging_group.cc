@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Blocks that hang on the same shotcrete, or on bolts between them.
 #include <keyblock/safety/hanging_group.h>
+#include <keyblock/safety/joined_blocks.h>
 #include <keyblock/safety/tied_blocks.h>
 
 #include <algorithm>
@@ -12,12 +13,6 @@ namespace Keyblock
 {
   namespace
   {
-    /** Blocks of a group; more of them cost more than they tell. */
-    constexpr unsigned int most_blocks = 32;
-
-    /** Factors that differ by less are the same [-]. */
-    constexpr double same_factor = 1e-9;
-
     /** Halvings of the share of a demand. */
     constexpr unsigned int n_share_steps = 50;
 
@@ -28,95 +23,6 @@ namespace Keyblock
     {
       return solve_with_laws<dim>(around.faces, around.loads.without_water())
         .factor;
-    }
-
-    /** One block of a group. */
-    template <int dim>
-    struct Member
-    {
-      unsigned int block; ///< index
-      BlockSurroundings<dim> around;
-      BlockSupport<dim> support;
-    };
-
-    /** Keep of the faces of @p limit those that are the first one's, by its
-     * @p own indices; without any it falls with the others. */
-    template <int dim>
-    void
-    keep_first(const std::vector<unsigned int> &own,
-               LimitEquilibrium<dim> &limit)
-    {
-      const std::vector<unsigned int> faces = std::exchange(limit.faces, {});
-      const std::vector<double> forces = std::exchange(limit.normal_forces, {});
-      const unsigned int n_pressed     = std::exchange(limit.n_pressed, 0);
-      for (unsigned int i = 0; i < faces.size(); ++i)
-        if (faces[i] < own.size())
-          {
-            limit.faces.push_back(own[faces[i]]);
-            limit.normal_forces.push_back(forces[i]);
-            limit.n_pressed += i < n_pressed;
-          }
-      if (n_pressed > 0 && limit.n_pressed == 0)
-        limit.mode = LimitEquilibrium<dim>::Mode::falling;
-    }
-
-    /** Limit equilibrium of @p members as one body: of their faces, bolts and
-     * shotcrete those towards rock and other blocks, under all of their loads,
-     * and a force @p pressed on them [N]; the first one's faces by the indices
-     * of its own. */
-    template <int dim>
-    LimitEquilibrium<dim>
-    solve_as_one(const std::vector<Member<dim>> &members,
-                 const bool is_passive,
-                 const Tensor<1, dim> &pressed = Tensor<1, dim>())
-    {
-      std::set<unsigned int> blocks;
-      for (const Member<dim> &member : members)
-        blocks.insert(member.block);
-      const auto is_inside = [&](const unsigned int b) {
-        return blocks.count(b) > 0;
-      };
-      std::vector<BlockFace<dim>> faces;
-      std::vector<unsigned int> own; // indices of the first one's
-      BlockSupport<dim> support;
-      Tensor<1, dim> load, weight;
-      for (const Member<dim> &member : members)
-        {
-          const auto &around = member.around;
-          for (unsigned int i = 0; i < around.faces.size(); ++i)
-            if (const auto &others = around.others[i];
-                others.empty() ||
-                !std::all_of(others.begin(), others.end(), is_inside))
-              {
-                faces.push_back(around.faces[i]);
-                if (&member == &members.front())
-                  own.push_back(i);
-              }
-          for (const auto &pull : member.support.pulls)
-            if (!is_inside(pull.other))
-              support.pulls.push_back(pull);
-          for (const auto &section : member.support.sections)
-            if (!is_inside(
-                  section.trace.block[section.trace.block[0] == member.block]))
-              {
-                support.sections.push_back(section);
-                support.shotcrete_strength += section.strength;
-              }
-          support.shotcrete_load += member.support.shotcrete_load;
-          load += around.loads.without_water();
-          weight += around.loads.weight;
-        }
-      if (pressed.norm() > 0.)
-        {
-          support.pulls.emplace_back();
-          support.pulls.back().along = pressed / pressed.norm();
-          support.pulls.back().force = pressed.norm();
-        }
-      LimitEquilibrium<dim> limit =
-        solve_with_support<dim>(faces, load, support, is_passive);
-      limit.orient(weight);
-      keep_first(own, limit);
-      return limit;
     }
 
     /** Add to @p members, the first of which is there, one block after the
@@ -131,7 +37,7 @@ namespace Keyblock
                   const double time,
                   const BrokenSegments &broken,
                   const double &factor,
-                  std::vector<Member<dim>> &members,
+                  std::vector<JoinedBlock<dim>> &members,
                   const Visit &visit)
     {
       std::set<unsigned int> seen{members[0].block};
@@ -142,7 +48,7 @@ namespace Keyblock
           for (const auto &section : sections)
             if (const unsigned int b =
                   section.trace.block[section.trace.block[0] == on_it];
-                can_hang(blocks, b) && members.size() < most_blocks &&
+                can_hang(blocks, b) && members.size() < most_joined_blocks &&
                 seen.insert(b).second)
               {
                 const auto around =
@@ -156,46 +62,6 @@ namespace Keyblock
         }
     }
 
-    /** Add to @p members, the first of which is there, the blocks with which it
-     * is tied by bolts that reach no other rock, and which go with it at less
-     * than @p factor, which @p visit lowers then. */
-    template <int dim, typename Visit>
-    void
-    add_tied(const Ground<dim> &ground,
-             const FreeFaces<dim> &free,
-             const Blocks<dim> &blocks,
-             const double time,
-             const BrokenSegments &broken,
-             const double &factor,
-             std::vector<Member<dim>> &members,
-             const Visit &visit)
-    {
-      std::set<unsigned int> seen{members[0].block};
-      for (unsigned int m = 0;
-           m < std::min<std::size_t>(members.size(), most_blocks);
-           ++m)
-        {
-          const auto pulls = members[m].support.pulls;
-          for (const auto &pull : pulls)
-            {
-              const double before     = factor;
-              const std::size_t known = members.size();
-              for (const unsigned int b :
-                   blocks_tied_by(ground.split, blocks, pull.bolt))
-                if (seen.count(b) == 0)
-                  members.push_back(
-                    {b,
-                     look_around(ground, free, blocks.blocks[b], time),
-                     find_support_of_block(ground, b, time, broken)});
-              visit();
-              if (!(factor < before))
-                members.resize(known);
-              for (std::size_t i = known; i < members.size(); ++i)
-                seen.insert(members[i].block);
-            }
-        }
-    }
-
     /** What @p factor asks for of a block, but for the shotcrete on traces
      * whose other side is a block that moves without support at less than that
      * factor. */
@@ -204,7 +70,7 @@ namespace Keyblock
     demand_without_shared(const Ground<dim> &ground,
                           const FreeFaces<dim> &free,
                           const Blocks<dim> &blocks,
-                          const Member<dim> &member,
+                          const JoinedBlock<dim> &member,
                           const double time,
                           const double factor)
     {
@@ -244,7 +110,7 @@ namespace Keyblock
     Tensor<1, dim>
     pressed_by(const Ground<dim> &ground,
                const FreeFaces<dim> &free,
-               const Member<dim> &member,
+               const JoinedBlock<dim> &member,
                const SupportDemand &demand)
     {
       BlockSurroundings<dim> around = member.around;
@@ -264,7 +130,7 @@ namespace Keyblock
      * needs without the others, with which they have a @p factor as one [-]. */
     template <int dim>
     double
-    needed_share(const std::vector<Member<dim>> &members,
+    needed_share(const std::vector<JoinedBlock<dim>> &members,
                  const bool is_passive,
                  const Tensor<1, dim> &pressed,
                  const double factor)
@@ -284,6 +150,61 @@ namespace Keyblock
       return high;
     }
 
+    /** Whether a bolt ties @p one to any of @p members. */
+    template <int dim>
+    bool
+    is_bolted_to_any(const JoinedBlock<dim> &one,
+                     const std::vector<JoinedBlock<dim>> &members)
+    {
+      for (const auto &pull : one.support.pulls)
+        for (const JoinedBlock<dim> &member : members)
+          if (member.block == pull.other)
+            return true;
+      return false;
+    }
+
+    /** The demand of find_unshared_demand() for the block itself and those on
+     * the same shotcrete. */
+    template <int dim>
+    SupportDemand
+    find_demand_on_shotcrete(const Ground<dim> &ground,
+                             const FreeFaces<dim> &free,
+                             const Blocks<dim> &blocks,
+                             const unsigned int block,
+                             const double time,
+                             const double factor,
+                             const BlockStatics<dim> &statics)
+    {
+      const bool is_passive =
+        ground.scene.safety.bolt_convention == BoltConvention::passive;
+      std::vector<JoinedBlock<dim>> members{
+        {block, statics.around, statics.support}};
+      const auto demand_of = [&](const JoinedBlock<dim> &member) {
+        return demand_without_shared(
+          ground, free, blocks, member, time, factor);
+      };
+      SupportDemand demand = demand_of(members[0]);
+      if (statics.support.sections.empty() || demand.force == 0. ||
+          !std::isfinite(demand.force))
+        return demand;
+      Tensor<1, dim> pressed = pressed_by(ground, free, members[0], demand);
+      double share = needed_share(members, is_passive, pressed, factor);
+      // (what has broken of the bolts of others is not known here)
+      add_neighbors(ground, free, blocks, time, {}, factor, members, [&]() {
+        pressed +=
+          pressed_by(ground, free, members.back(), demand_of(members.back()));
+        share =
+          std::max(share, needed_share(members, is_passive, pressed, factor));
+      });
+      if (share == 0.)
+        return find_demand(
+          ground, free, block, statics.around, members[0].support, factor);
+      demand.force *= share;
+      demand.pressure *= share;
+      for (auto &[set, number] : demand.numbers)
+        number = std::ceil(share * number - 1e-9);
+      return demand;
+    }
   } // namespace
 
 
@@ -303,26 +224,39 @@ namespace Keyblock
     least.limit.factor = std::numeric_limits<double>::quiet_NaN();
     const bool is_passive =
       ground.scene.safety.bolt_convention == BoltConvention::passive;
-    std::vector<Member<dim>> members{{block, statics.around, statics.support}};
-    bool is_by_bolts = false;
-    const auto visit = [&]() {
-      const auto limit = solve_as_one(members, is_passive);
+    std::vector<JoinedBlock<dim>> hanging{
+      {block, statics.around, statics.support}};
+    const auto look_at = [&](const std::vector<JoinedBlock<dim>> &members,
+                             const LimitEquilibrium<dim> &limit) {
       if (!(limit.factor < (1. - same_factor) * factor))
-        return;
+        return false;
       factor = limit.factor;
-      // (each block of a row that holds has the factor of its own bolts)
-      if (is_by_bolts && factor >= 1.)
-        return;
-      least.limit       = limit;
-      least.is_by_bolts = is_by_bolts;
-      least.others.clear();
+      least  = {{}, limit, false, false};
       for (unsigned int i = 1; i < members.size(); ++i)
         least.others.push_back(members[i].block);
+      return true;
     };
-    add_neighbors(ground, free, blocks, time, broken, factor, members, visit);
-    members.resize(1);
-    is_by_bolts = true;
-    add_tied(ground, free, blocks, time, broken, factor, members, visit);
+    add_neighbors(ground, free, blocks, time, broken, factor, hanging, [&]() {
+      if (look_at(hanging, solve_as_one(hanging, is_passive)))
+        least.is_by_shotcrete = true;
+    });
+    for_each_tied_group<dim>(
+      ground,
+      free,
+      blocks,
+      time,
+      broken,
+      hanging[0],
+      statics.limit.factor,
+      [&](const auto &members, const auto &limit) {
+        if (!look_at(members, limit))
+          return;
+        least.is_by_bolts = true;
+        least.is_by_shotcrete =
+          !std::all_of(members.begin(), members.end(), [&](const auto &one) {
+            return is_bolted_to_any(one, members);
+          });
+      });
     return least;
   }
 
@@ -338,44 +272,21 @@ namespace Keyblock
                        const double factor,
                        const BlockStatics<dim> &statics)
   {
-    const bool is_passive =
-      ground.scene.safety.bolt_convention == BoltConvention::passive;
-    std::vector<Member<dim>> members{{block, statics.around, statics.support}};
-    // bolts give nothing with which it fails together with what they end in
-    auto &pulls = members[0].support.pulls;
-    if (const auto group =
-          find_hanging_group(ground, free, blocks, block, time, {}, statics);
-        group.is_by_bolts && group.limit.factor < factor)
-      {
-        const auto is_loose = [&](const auto &pull) {
-          return !blocks_tied_by(ground.split, blocks, pull.bolt).empty();
-        };
-        pulls.erase(std::remove_if(pulls.begin(), pulls.end(), is_loose),
-                    pulls.end());
-      }
-    const auto demand_of = [&](const Member<dim> &member) {
-      return demand_without_shared(ground, free, blocks, member, time, factor);
-    };
-    SupportDemand demand = demand_of(members[0]);
-    if (statics.support.sections.empty() || demand.force == 0. ||
-        !std::isfinite(demand.force))
-      return demand;
-    Tensor<1, dim> pressed = pressed_by(ground, free, members[0], demand);
-    double share           = needed_share(members, is_passive, pressed, factor);
-    // (what has broken of the bolts of others is not known here)
-    add_neighbors(ground, free, blocks, time, {}, factor, members, [&]() {
-      pressed +=
-        pressed_by(ground, free, members.back(), demand_of(members.back()));
-      share =
-        std::max(share, needed_share(members, is_passive, pressed, factor));
-    });
-    if (share == 0.)
-      return find_demand(
-        ground, free, block, statics.around, members[0].support, factor);
-    demand.force *= share;
-    demand.pressure *= share;
-    for (auto &[set, number] : demand.numbers)
-      number = std::ceil(share * number - 1e-9);
+    SupportDemand demand = find_demand_on_shotcrete(
+      ground, free, blocks, block, time, factor, statics);
+    const JoinedBlock<dim> first{block, statics.around, statics.support};
+    for_each_tied_group<dim>(
+      ground,
+      free,
+      blocks,
+      time,
+      {},
+      first,
+      statics.limit.factor,
+      [&](const auto &members, const auto &limit) {
+        if (limit.factor < factor)
+          demand.include(find_demand_of_group(ground, free, members, factor));
+      });
     return demand;
   }
 

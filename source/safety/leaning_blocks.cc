@@ -4,6 +4,7 @@
 #include <keyblock/safety/block_cascade.h>
 #include <keyblock/safety/hanging_group.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -210,7 +211,9 @@ namespace Keyblock
           for (const unsigned int other : neighbors[b])
             {
               const BlockClass kind = class_now(ground, blocks.blocks[other]);
+              const auto &tied = below.statics.others; // judged as one with it
               if (is_gone[other] || !asked.insert(other).second ||
+                  std::count(tied.begin(), tied.end(), other) > 0 ||
                   (kind != BlockClass::exposed && kind != BlockClass::hidden))
                 continue;
               if (!row)

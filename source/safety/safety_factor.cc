@@ -70,11 +70,11 @@ namespace Keyblock
     pressed_at_end.clear();
     TriedBlocks tried;
     tried.block = block;
-    if (result.limit_moves && std::isfinite(result.limit_factor) &&
+    if (result.limit_moves && std::isfinite(result.limit_alone) &&
         is_known_to_statics(scene))
-      tried.limit = result.limit_factor;
-    if (result.limit_moves && std::isfinite(result.limit_factor))
-      tried.limit_without_stress = result.limit_factor;
+      tried.limit = result.limit_alone;
+    if (result.limit_moves && std::isfinite(result.limit_alone))
+      tried.limit_without_stress = result.limit_alone;
     {
       Search search(*this, tried, number, known, result.trials);
       result.outcome = scene.safety.method == FactorSearch::sweep

@@ -78,28 +78,8 @@ namespace Keyblock
 
 
 
-  template <int dim>
-  std::set<unsigned int>
-  blocks_tied_by(const SplitMesh<dim> &split,
-                 const Blocks<dim> &blocks,
-                 const unsigned int bolt)
-  {
-    std::set<unsigned int> found;
-    for (const BoltCrossing<dim> &crossing : split.bolts[bolt].crossings)
-      for (const unsigned int b : crossing.block)
-        if (can_hang(blocks, b))
-          found.insert(b);
-        else
-          return {};
-    return found;
-  }
-
   template bool can_hang(const Blocks<2> &, const unsigned int);
   template bool can_hang(const Blocks<3> &, const unsigned int);
-  template std::set<unsigned int>
-  blocks_tied_by(const SplitMesh<2> &, const Blocks<2> &, const unsigned int);
-  template std::set<unsigned int>
-  blocks_tied_by(const SplitMesh<3> &, const Blocks<3> &, const unsigned int);
   template class TiedBlocks<2>;
   template class TiedBlocks<3>;
 } // namespace Keyblock

@@ -517,6 +517,9 @@ keyblock_scene(verification/hanging_chain REFERENCES hanging_chain_hard RANKS 1
 # blocks judged by statics alone, without a step
 keyblock_scene(verification/road_wedge REFERENCES road_wedge_statics RANKS 1 2
   SET "Safety factor/Method=limit equilibrium")
+# on bolts that end in the upper one, but for one: critical as one body only
+keyblock_scene(verification/hanging_pair RANKS 1 SET "Safety factor/Blocks=critical"
+  "Safety factor/Wanted=0")
 # or each on bolts that end in the one above it
 keyblock_scene(verification/hanging_chain RANKS 1 2)
 # blocks one behind the other on an incline, each on a bolt into the one behind it

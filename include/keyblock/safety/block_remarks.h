@@ -21,6 +21,13 @@ namespace Keyblock
                    const SupportedMotion<dim> &motion,
                    const std::string &lost_faces,
                    BlockStatics<dim> &statics);
+
+  /** Those on its support, and on what it asks for besides. */
+  template <int dim>
+  std::vector<std::string>
+  list_support_remarks(const Ground<dim> &ground,
+                       const Blocks<dim> &blocks,
+                       const BlockStatics<dim> &statics);
 } // namespace Keyblock
 
 #endif

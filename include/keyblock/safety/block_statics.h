@@ -65,7 +65,10 @@ namespace Keyblock
     BlockSurroundings<dim> around;
     BlockSupport<dim> support;
     LimitEquilibrium<dim> limit;
-    SupportDemand demand; ///< of SafetySettings::wanted
+    LimitEquilibrium<dim> alone;      ///< without those that bolts tie to it
+                                      ///< and that stand with it
+    std::vector<unsigned int> others; ///< that it moves with, by index
+    SupportDemand demand;             ///< of SafetySettings::wanted
 
     /** What is special, and what was left out. */
     std::vector<std::string> remarks;

@@ -73,6 +73,10 @@ namespace Keyblock
     /** Those of all as the block moves along @p direction (unit vector). */
     std::vector<Force> forces_against(const Tensor<1, dim> &direction) const;
 
+    /** Let those of a @p set (index) bear more by a @p share of what they do.
+     */
+    void add_bolts(const unsigned int set, const double share);
+
     /** Number, capacity and what limits what holds it, in words; a bolt that
      * goes through the block counts once, where it can bear most. */
     std::string describe() const;

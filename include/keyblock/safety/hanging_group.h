@@ -6,8 +6,8 @@
 
 namespace Keyblock
 {
-  /** A block that moves as one body with others, across shotcrete, or on
-   * bolts, that hold none of them against the rest. */
+  /** A block that moves as one body with others, across shotcrete or bolts
+   * that hold none of them against the rest. */
   template <int dim>
   struct HangingGroup
   {
@@ -17,16 +17,16 @@ namespace Keyblock
      * of its own. Nothing (factor NaN) if it is no worse off with them. */
     LimitEquilibrium<dim> limit;
 
-    bool is_by_bolts = false; ///< and not by shotcrete
+    bool is_by_bolts     = false;
+    bool is_by_shotcrete = false;
   };
 
   /**
    * The group in which @p block (index) has the least factor less than that of
    * @p statics, which holds what is around it and its support: with one more
    * block after the other that the same shotcrete is sprayed on and that would
-   * move without support at less than that factor, or, if they
-   * fail, with those that it is tied to by bolts that reach no other rock.
-   * Rotation is left out.
+   * move without support at less than that factor, or with those of
+   * for_each_tied_group(). Rotation is left out.
    */
   template <int dim>
   HangingGroup<dim> find_hanging_group(const Ground<dim> &ground,
@@ -42,8 +42,10 @@ namespace Keyblock
    * a block that moves without support at less than that factor, and has to be
    * held, too; of that the greatest share that the block needs by itself or in
    * one of the groups of find_hanging_group(), where each block of the group
-   * gets the same share of its own. Bolts that tie it to a group that lacks the
-   * factor give nothing. Nothing if it and they have the factor.
+   * gets the same share of its own. Of groups tied by bolts that lack the
+   * factor it is the most that one of them needs as one body, if that is more;
+   * numbers of bolts are enough for all of them. Nothing if it and they have
+   * the factor.
    */
   template <int dim>
   SupportDemand find_unshared_demand(const Ground<dim> &ground,

@@ -2,6 +2,7 @@
 #ifndef keyblock_safety_reduced_joints_h
 #define keyblock_safety_reduced_joints_h
 
+#include <keyblock/mesh/mesh.h>
 #include <keyblock/scene/scene.h>
 
 #include <vector>

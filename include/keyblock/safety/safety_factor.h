@@ -60,7 +60,8 @@ namespace Keyblock
     std::string limit_mode, limit_remark;
     double limit_factor = 0.;     ///< infinite: stable
     OnceGone limit_once_gone;     ///< the least factor without others
-    bool limit_moves    = false;  ///< it finds a way; known in the search only
+    double limit_alone  = 0.;     ///< by BlockStatics::alone, and whether it
+    bool limit_moves    = false;  ///< finds a way; known in the search only
     double stress_ratio = 0.;     ///< on the faces it slides on; 0: none
     SupportDemand support_demand; ///< by limit equilibrium
 

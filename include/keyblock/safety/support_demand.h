@@ -2,6 +2,7 @@
 #ifndef keyblock_safety_support_demand_h
 #define keyblock_safety_support_demand_h
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,16 @@ namespace Keyblock
      * rings that the set's Spacing parts. Where it has bolts of the set, more
      * like them; 0: no number does. Else, of bolts normal to those faces. */
     std::vector<std::pair<std::string, unsigned int>> numbers;
+
+    std::vector<unsigned int> others; ///< that it goes with, whose free faces
+                                      ///< and bolts count, too, by index
+
+    /** Sets whose bolts all end in blocks that it goes with. */
+    std::set<std::string> loose_sets;
+
+    /** Ask for what another one of the same block asks for, too: the greater
+     * force, and of each set bolts that are enough for both. */
+    void include(const SupportDemand &other);
   };
 } // namespace Keyblock
 

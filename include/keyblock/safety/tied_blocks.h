@@ -7,8 +7,6 @@
 #include <keyblock/safety/tried_blocks.h>
 #include <keyblock/scene/scene.h>
 
-#include <set>
-
 namespace Keyblock
 {
   /** Which blocks bolts and shotcrete tie to others: they may hang on these.
@@ -38,13 +36,6 @@ namespace Keyblock
   /** Whether a block (by index, or none) can move with what it hangs on. */
   template <int dim>
   bool can_hang(const Blocks<dim> &blocks, const unsigned int block);
-
-  /** Blocks (by index) that a bolt (by index) goes through, if all can move, so
-   * that it holds them by each other; else none. */
-  template <int dim>
-  std::set<unsigned int> blocks_tied_by(const SplitMesh<dim> &split,
-                                        const Blocks<dim> &blocks,
-                                        const unsigned int bolt);
 } // namespace Keyblock
 
 #endif
