@@ -164,7 +164,7 @@ namespace Keyblock
               for (int d = 0; d < dim; ++d)
                 {
                   const unsigned int dof = dim * nodes.local_node[node] + d;
-                  const double way       = fields.reference[dof] +
+                  const double way       = surface.place_of_node[node][d] +
                                      fields.displacement[dof] -
                                      memory.searched_position[dim * node + d];
                   moved += way * way;
