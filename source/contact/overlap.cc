@@ -216,14 +216,9 @@ namespace Keyblock
             return 0.;
           if (now.gap >= 0.)
             continue;
-          const double before =
-            surface
-              .project(surface.start_position,
-                       at<dim>(surface.start_position, node),
-                       f)
-              .gap;
-          const double deeper =
-            -now.gap + std::min(0., before) - surface.rounding_of_tip(node, f);
+          const double deeper = -now.gap +
+                                std::min(0., surface.start_distance(node, f)) -
+                                surface.rounding_of_tip(node, f);
           if (deeper <= 0.)
             continue;
           depth       = depth == 0. ? deeper : std::min(depth, deeper);

@@ -289,8 +289,12 @@ namespace Keyblock
       feet_that_count(position, candidate.slave, inside);
     for (const Projection<dim> &foot : kept)
       {
-        const double gap =
-          foot.gap + surface.rounding_of_tip(candidate.slave, foot.face);
+        const auto face  = std::find_if(candidate.faces.begin(),
+                                       candidate.faces.end(),
+                                       [&](const CandidateFace &one) {
+                                         return one.face == foot.face;
+                                       });
+        const double gap = foot.gap + face->rounding;
         if (gap > reach)
           continue;
         add_contact(candidate.slave, foot, foot.normal, gap, contacts);

@@ -36,7 +36,10 @@ namespace Keyblock
     const Projection<dim> now =
       surface.project(position, at<dim>(position, slave), face);
     const double before = -surface.start_distance(slave, face);
-    CandidateFace result{face, largest_overlap_of(before, now.size), 0.};
+    CandidateFace result{face,
+                         largest_overlap_of(before, now.size),
+                         0.,
+                         surface.rounding_of_tip(slave, face)};
     const double distance = norm<dim>(now.offset);
     if (now.gap > 0.)
       result.clearance = distance;

@@ -172,6 +172,15 @@ namespace Keyblock
             "The entry '" + section +
               "/Shape' is polygon, which needs Dimension 2; use box or "
               "extruded polygon.");
+    for (const auto &[entry, value] :
+         {std::make_pair("From", excavation.from),
+          std::make_pair("To", excavation.to),
+          std::make_pair("Trend", excavation.trend),
+          std::make_pair("Plunge", excavation.plunge)})
+      require(dim == 3 || value == 0.,
+              "The entry '" + section + "/" + entry + "' is " + text_of(value) +
+                ", which needs Dimension 3: in 2D excavations have no axis; "
+                "remove it.");
     if (shape == ExcavationShape::polygon ||
         shape == ExcavationShape::extruded_polygon)
       {

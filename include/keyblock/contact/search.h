@@ -62,6 +62,7 @@ namespace Keyblock
       unsigned int face;
       double largest_overlap; ///< what is deeper is beyond the face [m]
       double clearance; ///< between them at the search; 0 if behind it [m]
+      double rounding;  ///< ContactSurface::rounding_of_tip() [m]
     };
 
     /** The face as a candidate of @p slave; clearance below zero if they cannot
