@@ -78,12 +78,14 @@ namespace Keyblock
       {
         const double farthest = farthest_overhang * foot.size;
         if (norm<dim>(foot.offset) < farthest &&
+            std::none_of(kept.begin(),
+                         kept.end(),
+                         [&](const auto &other) {
+                           return is_coplanar(other, foot) ||
+                                  is_convex(position, other, foot);
+                         }) &&
             surface.can_stand_on(position, candidate.slave, foot.normal) &&
-            joint_at_rim(position, candidate, foot) != none &&
-            std::none_of(kept.begin(), kept.end(), [&](const auto &other) {
-              return is_coplanar(other, foot) ||
-                     is_convex(position, other, foot);
-            }))
+            joint_at_rim(position, candidate, foot) != none)
           flush.push_back(foot);
       }
     std::sort(flush.begin(), flush.end(), [](const auto &a, const auto &b) {

@@ -225,11 +225,13 @@ namespace Keyblock
       memory.contacts.clear();
     else
       find_contacts(step, reach);
+    const std::vector<unsigned int> listed = list_pairs(step);
     std::vector<ContactPoint<dim>> points;
+    points.reserve(memory.contacts.size() + listed.size());
     for (const SurfaceContact<dim> &contact : memory.contacts)
       points.push_back(contact.point);
     std::vector<unsigned int> pairs;
-    for (const unsigned int p : list_pairs(step))
+    for (const unsigned int p : listed)
       {
         const ContactPoint<dim> point = pairs_on_nodes.as_point(p, step.kick);
         // a spring closes where it is not stretched, and its way counts

@@ -62,24 +62,28 @@ namespace Keyblock
     , cells(cells)
     , pairs(pairs)
     , traction(interface.pairs.size())
-  {}
+  {
+    for (unsigned int face = 0; face < weights.size(); ++face)
+      for (unsigned int corner = 0; corner < weights[face].size(); ++corner)
+        for (unsigned int q = 0; q < weights[face][corner].size(); ++q)
+          weights[face][corner][q] = weight_of<dim>(face, corner, q);
+  }
 
 
 
   template <int dim>
   void
   TractionEstimate<dim>::add_side(const JointFace &face,
-                                  const FaceSide &side,
+                                  Side side,
+                                  const unsigned int cell,
                                   const PairAt &pair_at)
   {
-    // the force on the plus side is minus the integral of N stress . n, with
-    // the stress of each side extrapolated from its Gauss points
     const Mesh<dim> &mesh = topology.split.mesh;
     const auto minus = mesh.face_vertices(face.minus_cell, face.minus_face);
     const auto plus  = mesh.face_vertices(face.plus_cell, face.plus_face);
-    const auto own   = mesh.face_vertices(side.cell, side.face);
-    const Tensor<1, dim> n_area =
-      mesh.face_area_vector(face.minus_cell, face.minus_face);
+    const auto own   = mesh.face_vertices(cell, side.face);
+    side.pair.fill(none);
+    bool has_pair = false;
     for (const unsigned int vm : minus)
       for (const unsigned int vp : plus)
         {
@@ -94,15 +98,11 @@ namespace Keyblock
                            return mesh.vertices[v] == mesh.vertices[vm];
                          }) -
             own.begin();
-          for (unsigned int q = 0; q < Mesh<dim>::n_cell_vertices; ++q)
-            {
-              const double weight = weight_of<dim>(side.face, corner, q);
-              TractionWeight entry{pair->second, side.local_cell, q, {}};
-              for (int d = 0; d < dim; ++d)
-                entry.weight[d] = -side.share * weight * n_area[d];
-              weights.push_back(entry);
-            }
+          side.pair[corner] = pair->second;
+          has_pair          = true;
         }
+    if (has_pair)
+      sides.push_back(side);
   }
 
 
@@ -111,12 +111,13 @@ namespace Keyblock
   void
   TractionEstimate<dim>::set_up()
   {
-    weights.clear();
+    sides.clear();
     PairAt pair_at;
-    for (const unsigned int p : pairs)
-      pair_at[{{interface.pairs[p].minus,
-                interface.pairs[p].plus,
-                interface.pairs[p].joint}}] = p;
+    for (unsigned int i = 0; i < pairs.size(); ++i)
+      {
+        const Pair<dim> &pair = interface.pairs[pairs[i]];
+        pair_at[{{pair.minus, pair.plus, pair.joint}}] = i;
+      }
     if (pair_at.empty())
       return;
     const Mesh<dim> &mesh = topology.split.mesh;
@@ -131,16 +132,29 @@ namespace Keyblock
         const bool minus_rigid = is_rigid(face.minus_cell);
         const bool plus_rigid  = is_rigid(face.plus_cell);
         const double share     = (minus_rigid || plus_rigid) ? 1. : 0.5;
-        const auto add         = [&](const unsigned int cell,
+        // the force on the plus side is minus the integral of N stress . n
+        const Tensor<1, dim> area =
+          -share * mesh.face_area_vector(face.minus_cell, face.minus_face);
+        const auto add = [&](const unsigned int cell,
                              const unsigned int cell_face) {
-          if (local_cell[cell] != none)
-            add_side(face, {cell, cell_face, local_cell[cell], share}, pair_at);
+          if (local_cell[cell] == none)
+            return;
+          Side side{local_cell[cell], cell_face, {}, {}};
+          for (int d = 0; d < dim; ++d)
+            side.area[d] = area[d];
+          add_side(face, side, cell, pair_at);
         };
         if (!minus_rigid)
           add(face.minus_cell, face.minus_face);
         if (!plus_rigid)
           add(face.plus_cell, face.plus_face);
       }
+    // stresses of a cell are read together
+    std::stable_sort(sides.begin(),
+                     sides.end(),
+                     [](const Side &a, const Side &b) {
+                       return a.cell < b.cell;
+                     });
   }
 
 
@@ -148,23 +162,32 @@ namespace Keyblock
   void
   TractionEstimate<dim>::update()
   {
-    std::vector<double> sums(dim * interface.pairs.size(), 0.);
-    for (const TractionWeight &entry : weights)
+    std::vector<double> sums(dim * pairs.size(), 0.);
+    for (const Side &side : sides)
       {
-        const Vector<dim> f = apply_stress<dim, double>(
-          cells.stress_at(entry.cell, entry.point).data(), entry.weight);
-        for (int d = 0; d < dim; ++d)
-          sums[dim * entry.pair + d] += f[d];
+        // of the side's stress, over the shape function of each corner
+        std::array<Stress, Mesh<dim>::n_face_vertices> mean{};
+        for (unsigned int q = 0; q < Mesh<dim>::n_cell_vertices; ++q)
+          {
+            const Stress stress = cells.stress_at(side.cell, q);
+            for (unsigned int v = 0; v < mean.size(); ++v)
+              for (unsigned int i = 0; i < stress.size(); ++i)
+                mean[v][i] += weights[side.face][v][q] * stress[i];
+          }
+        for (unsigned int v = 0; v < mean.size(); ++v)
+          if (side.pair[v] != none)
+            {
+              const Vector<dim> f =
+                apply_stress<dim, double>(mean[v].data(), side.area);
+              for (int d = 0; d < dim; ++d)
+                sums[dim * side.pair[v] + d] += f[d];
+            }
       }
-    std::vector<double> buffer;
-    for (const unsigned int p : pairs)
-      for (int d = 0; d < dim; ++d)
-        buffer.push_back(sums[dim * p + d]);
     if (topology.numbering.communicator.size() > 1)
-      topology.numbering.communicator.sum_lists(buffer);
+      topology.numbering.communicator.sum_lists(sums);
     for (unsigned int i = 0; i < pairs.size(); ++i)
       for (int d = 0; d < dim; ++d)
-        traction[pairs[i]][d] = buffer[dim * i + d];
+        traction[pairs[i]][d] = sums[dim * i + d];
   }
 
   template class TractionEstimate<2>;

@@ -74,8 +74,7 @@ namespace Keyblock
         model.count_cells();
       }
     model.step->begin_stage(stage, number);
-    if (model.contact &&
-        (changes || !(stage.is_quasi_static() || stage.is_static())))
+    if (model.contact && (changes || is_shaken(stage)))
       model.contact->release_bent_points();
     Loads<dim> &loads = model.conditions->loads;
     if (stage.is_static())
@@ -92,6 +91,24 @@ namespace Keyblock
                                             : std::vector<double>(),
                        ramp_duration_of(stage),
                        moves_supports);
+  }
+
+
+
+  template <int dim>
+  bool
+  StageRunner<dim>::is_shaken(const Stage &stage) const
+  {
+    const Scene<dim> &scene = model.scene;
+    return !stage.is_quasi_static() && !stage.is_static() &&
+           (model.conditions->loads.is_load_changing() ||
+            !scene.initial_state.velocity.empty() ||
+            std::any_of(scene.supports.begin(),
+                        scene.supports.end(),
+                        [](const auto &support) {
+                          return !support->velocity.empty() ||
+                                 support->history != nullptr;
+                        }));
   }
 
 

@@ -278,6 +278,8 @@ foreach(size 0.4 0.6)
   keyblock_scene(verification/bent_roof REFERENCES bent_roof_${size} RANKS 1
     SET "Mesh/Size at excavation=${size}" "Safety factor/Blocks=3")
 endforeach()
+# bent faces under hydrostatic stress, while nothing shakes them
+keyblock_scene(verification/still_network RANKS 1 2)
 # a hidden one that another uncovers as it falls
 keyblock_scene(verification/uncovered_block RANKS 1)
 # blocks that others push, which reach farther or move more slowly

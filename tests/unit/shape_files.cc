@@ -418,7 +418,7 @@ BOOST_AUTO_TEST_CASE(cylinder_from_step)
   // chords of edges of tetrahedra, three times as long as cells at most: their
   // part of the volume falls with the square of the size
   std::vector<double> lost;
-  for (const double size : {1.2, 0.6})
+  for (const double size : {1.6, 0.8})
     {
       scene->meshing.size_at_excavation = size;
       const double volume               = pi * radius * radius * length;

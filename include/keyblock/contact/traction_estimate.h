@@ -34,33 +34,36 @@ namespace Keyblock
     }
 
   private:
-    /** Share of a Gauss point's stress in the mean traction of a pair. */
-    struct TractionWeight
-    {
-      unsigned int pair, cell, point;
-      Vector<dim> weight; ///< [m^(dim-1)]
-    };
-
-    /** The pairs listed, by vertices and joint. */
+    /** Places in the list of pairs, by vertices and joint. */
     using PairAt = std::map<std::array<unsigned int, 3>, unsigned int>;
 
-    /** The cell on one side of a joint's face. */
-    struct FaceSide
+    using Stress = typename CellArrays<dim>::Stress;
+
+    /** One side of a joint's face. */
+    struct Side
     {
-      unsigned int cell, face; ///< of the mesh, and of the cell
-      unsigned int local_cell;
-      double share; ///< of the force that its stress stands for [-]
+      unsigned int cell, face; ///< of this rank, and of the cell
+      /** Place in the list of the pair at each corner of the face, if any. */
+      std::array<unsigned int, Mesh<dim>::n_face_vertices> pair;
+      Vector<dim> area; ///< what its stress stands for [m^(dim-1)]
     };
 
     void add_side(const JointFace &face,
-                  const FaceSide &side,
+                  Side side,
+                  const unsigned int cell,
                   const PairAt &pair_at);
 
     const PairTopology<dim> &topology;
     const Interface<dim> &interface;
     const CellArrays<dim> &cells;
     const std::vector<unsigned int> &pairs;
-    std::vector<TractionWeight> weights;
+    std::vector<Side> sides;
+    /** Shares of Gauss points in the mean over a corner's shape function, by
+     * the cell's face and its corner. */
+    std::array<std::array<std::array<double, Mesh<dim>::n_cell_vertices>,
+                          Mesh<dim>::n_face_vertices>,
+               2 * dim>
+      weights;
     std::vector<Vector<dim>> traction;
   };
 } // namespace Keyblock

@@ -49,6 +49,9 @@ namespace Keyblock
     void pace_ramp(const Stage &stage);
     double ramp_duration_of(const Stage &stage) const;
 
+    /** Whether a dynamic stage moves or loads anything. */
+    bool is_shaken(const Stage &stage) const;
+
     /** Whether displacements of supports are still to be reached. */
     bool are_supports_to_move() const;
 
