@@ -42,6 +42,11 @@ keyblock_scene(verification/blocks_pyramid REFERENCES blocks_pyramid_turned RANK
   "Joints/front/Normal=-0.286788218175523, -0.496731764892154, 0.819152044288992"
   "Joints/back/Normal=0.482962913144534, 0.836516303737808, 0.258819045102521")
 keyblock_scene(verification/rotation)
+# what small kinematics leave out
+keyblock_scene(verification/rotation REFERENCES rotation_small RANKS 1 2
+  SET "Time stepping/Kinematics=small" "Stages/spin/Duration=0.5"
+  "Check/Closed form=none")
+keyblock_scene(verification/turned_column RANKS 1 2)
 foreach(case slides_and_topples topples_rough)
   keyblock_scene(verification/toppling_${case})
 endforeach()
