@@ -28,7 +28,7 @@ OPTIONAL = FREE - {"monitors", "checks", "seeds"} | {
     "block_theory", "blocks", "bolts", "exposed_stage", "geostress",
     "governed_by", "group", "largest_volumes", "mesh", "open_ends", "remark",
     "removable", "removed_in_stage", "support_demand", "least_factor",
-    "failed_volume"}
+    "failed_volume", "turned_most"}
 
 # of these damages_of_one() has more
 POINTS = {"centroid", "head", "end", "largest_overlap_at"}

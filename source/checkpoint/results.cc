@@ -88,6 +88,9 @@ namespace Keyblock
     action(report.largest_overlap);
     for (double &coordinate : report.overlap_place)
       action(coordinate);
+    action(report.turned_block);
+    action(report.turned_by);
+    action(report.arm_error);
     std::array<double, n_energy_terms> energies = report.energies.as_array();
     for (double &energy : energies)
       action(energy);

@@ -212,6 +212,10 @@ namespace Keyblock
         json["largest_overlap_at"] =
           std::vector<double>(stage.overlap_place.begin(),
                               stage.overlap_place.begin() + dim);
+      if (stage.turned_block != none)
+        json["turned_most"] = {{"block", stage.turned_block},
+                               {"rotation", stage.turned_by},
+                               {"arm_error", stage.arm_error}};
       json["energy"] = energies_as_json(stage.energies);
       return json;
     }

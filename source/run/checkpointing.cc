@@ -177,6 +177,7 @@ namespace Keyblock
     file.exchange("run/overlap", overlap);
     record.present.overlap.depth = overlap.back();
     std::copy_n(overlap.begin(), dim, record.present.overlap.place.begin());
+    file.exchange("run/turns", record.present.turns);
     file.exchange("run/has_removed", record.present.has_removed);
     file.exchange("run/is_reported", record.present.is_reported);
     file.exchange("run/wants_factors", record.present.wants_factors);

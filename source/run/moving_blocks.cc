@@ -10,6 +10,14 @@ namespace Keyblock
     /** Unbalanced force of a block over its own load from which on it is
      * driven [-]. */
     constexpr double driving_ratio = 1e-2;
+
+    /** The same from which on it is not held, slow as it may still be: what
+     * oscillates so does not pass for held by its speed either [-]. */
+    constexpr double loose_ratio = 0.1;
+
+    /** The same from which on it may also move against that, as one that was
+     * thrown up before it falls [-]. */
+    constexpr double free_ratio = 0.5;
   } // namespace
 
 
@@ -46,12 +54,15 @@ namespace Keyblock
         const Vector<dim> &velocity = velocities[b].shift;
         const BlockBalance<dim> balance =
           measure_balance(model.fields, nodes[b], model.communicator);
-        if (is_driven<dim>(balance, velocity) &&
-            norm<dim>(velocity) * duration >
-              compression_of_block(model.conditions->active_cells.ground(),
-                                   b,
-                                   block,
-                                   balance.load))
+        const double ratio = balance.unbalanced_ratio();
+        if (ratio > free_ratio ||
+            (is_driven<dim>(balance, velocity) &&
+             (ratio > loose_ratio ||
+              norm<dim>(velocity) * duration >
+                compression_of_block(model.conditions->active_cells.ground(),
+                                     b,
+                                     block,
+                                     balance.load))))
           return true;
       }
     return false;

@@ -12,6 +12,9 @@ namespace Keyblock
   {
     /** Time from one look at the growing history.csv to the next [s]. */
     constexpr double history_interval = 5.;
+
+    /** Steps from look to look at how far blocks have turned. */
+    constexpr unsigned int turn_interval = 50;
   } // namespace
 
 
@@ -28,6 +31,7 @@ namespace Keyblock
     , output(output)
     , checkpointing(checkpointing)
     , record(record)
+    , turns(model)
     , folder(folder)
   {}
 
@@ -59,6 +63,8 @@ namespace Keyblock
   void
   StageRecorder<dim>::stepped(StageProgress<dim> &progress, const Stage &stage)
   {
+    if (progress.n_done % turn_interval == 0)
+      turns.note(progress);
     if (is_vtu_due(progress, stage))
       write_vtu(progress);
     print_progress(progress);
@@ -85,6 +91,7 @@ namespace Keyblock
   void
   StageRecorder<dim>::ended(StageProgress<dim> &progress, const Stage &stage)
   {
+    turns.note(progress);
     // what follows does not stand behind the line of progress
     if (model.out.is_active())
       clear_progress(model.out.get_stream());

@@ -3,6 +3,7 @@
 #include <keyblock/law/joint_stiffness.h>
 #include <keyblock/mesh/place_digits.h>
 #include <keyblock/output/liner_output.h>
+#include <keyblock/run/block_turns.h>
 #include <keyblock/run/bolt_warnings.h>
 #include <keyblock/run/moving_blocks.h>
 #include <keyblock/run/stage_reporter.h>
@@ -261,6 +262,7 @@ namespace Keyblock
       }
     result.max_displacement = std::sqrt(model.communicator.max(largest));
     result.warning          = warning_of_stage(model, progress, result);
+    report_turns(model, progress, result);
     return result;
   }
 

@@ -42,6 +42,11 @@ keyblock_scene(verification/blocks_pyramid REFERENCES blocks_pyramid_turned RANK
   "Joints/front/Normal=-0.286788218175523, -0.496731764892154, 0.819152044288992"
   "Joints/back/Normal=0.482962913144534, 0.836516303737808, 0.258819045102521")
 keyblock_scene(verification/rotation)
+# what small kinematics leave out
+keyblock_scene(verification/rotation REFERENCES rotation_small RANKS 1 2
+  SET "Time stepping/Kinematics=small" "Stages/spin/Duration=0.5"
+  "Check/Closed form=none")
+keyblock_scene(verification/turned_column RANKS 1 2)
 foreach(case slides_and_topples topples_rough)
   keyblock_scene(verification/toppling_${case})
 endforeach()
@@ -204,6 +209,12 @@ keyblock_scene(verification/roof_corners REFERENCES wall_corner RANKS 1
 keyblock_scene(verification/creeping_slide RANKS 1 2)
 keyblock_scene(verification/creeping_slide REFERENCES creeping_slide_holds
   RANKS 1 SET "Joints/plane/Friction angle=35.3")
+# blocks that weigh little beside what is set free, and have only begun to fall
+keyblock_scene(verification/fall_seen RANKS 1 2)
+keyblock_scene(tutorial/roof_wedge REFERENCES roof_wedge_falls RANKS 1
+  SET "Ground/Depth=100" "Ground/K0=0.2" "Joints/*/Friction angle=10"
+  "Mesh/Cells across blocks=2" "Safety factor/Blocks=none"
+  "Stages/dig/Unbalanced ratio=1e-3")
 # of two blocks that slide past each other the one that moves is taken away
 foreach(friction 10 20 25)
   keyblock_scene(verification/passing_slab REFERENCES passing_slab_${friction}

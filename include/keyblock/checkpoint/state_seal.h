@@ -15,7 +15,7 @@ namespace Keyblock
   // zeros. HDF5 takes these bytes for a user block and passes over them.
 
   /** Format of state files; it is to grow whenever their entries change. */
-  constexpr unsigned int state_format = 22;
+  constexpr unsigned int state_format = 23;
 
   /** Length of the seal: the first place but 0 where HDF5 looks for its own
    * beginning [bytes]. */

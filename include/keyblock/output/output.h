@@ -39,6 +39,9 @@ namespace Keyblock
     unsigned int through_rock = 0; ///< contacts within a block, at the end
     double largest_overlap = 0.;   ///< of nodes in other blocks, at the end [m]
     std::array<double, 3> overlap_place{{0., 0., 0.}};
+    unsigned int turned_block = none; ///< id of the one that turned most
+    double turned_by          = 0.;   ///< since the start of the run [rad]
+    double arm_error          = 0.;   ///< of its weight by that [-]
     Energies energies;
   };
 

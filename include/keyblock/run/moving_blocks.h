@@ -17,8 +17,9 @@ namespace Keyblock
    * the whole of the model: a small block weighs next to nothing beside what an
    * excavation sets free. It is out of balance by a notable share of its own
    * load, moves against the rock in the direction of what drives it, and
-   * farther than loads deform it (collective).
-   * @param n_steps in which it does so
+   * farther than loads deform it; by a large share, however slow it is; by more
+   * than half, in whatever direction (collective).
+   * @param n_steps in which it moves as far
    */
   template <int dim>
   bool is_any_block_moving_off(const Model<dim> &model,

@@ -24,6 +24,10 @@ namespace Keyblock
     bool is_converged  = true;
     SlipRecord slips; ///< since the ramp has ended
 
+    /** Of each block the angle [rad] and the error of its weight's arm [-] when
+     * that was largest (BlockTurn); empty in large kinematics. */
+    std::vector<double> turns;
+
     /** When these were recorded last; empty: not yet. */
     SupportState<dim> support;
 

@@ -2,6 +2,7 @@
 #ifndef keyblock_run_stage_recorder_h
 #define keyblock_run_stage_recorder_h
 
+#include <keyblock/run/block_turns.h>
 #include <keyblock/run/checkpointing.h>
 #include <keyblock/run/progress_line.h>
 #include <keyblock/run/stage_observer.h>
@@ -58,6 +59,7 @@ namespace Keyblock
     Output<dim> &output;
     Checkpointing<dim> &checkpointing;
     RunRecord<dim> &record;
+    BlockTurns<dim> turns;
     std::string folder;        ///< of output, with '/' at its end, or empty
     double loop_start   = 0.;  ///< wall time [s]
     double next_history = 0.;  ///< wall time of the next append_csv() [s]
