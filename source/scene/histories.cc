@@ -264,6 +264,7 @@ namespace Keyblock
     std::vector<std::string> found = old_names;
     for (const auto &warnings : {warnings_of_facets(*this),
                                  warnings_of_units(*this),
+                                 warnings_of_loads(*this),
                                  warnings_of_idle_entries(*this),
                                  warnings_of_base_lines(*this),
                                  warnings_of_late_histories(*this),
