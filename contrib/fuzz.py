@@ -7,7 +7,7 @@ usage: contrib/fuzz.py [--kinds validate,run,mesh] [--number 100] [--seeds 1-3]
          [--seconds 60] [--memory 6] [--jobs 1] [--scenes WORD]
 
 validate: the scenes of prm/tutorial and prm/verification with changed numbers,
-lines, names and bytes, with --validate; run: the same with a few steps in each
+lines, names, lengths and bytes, with --validate; run: the same with a few steps in each
 stage; mesh: a small scene on damaged mesh files (MSH 2.2 and 4.1, UCD, VTK,
 Abaqus). Each seed gives --number mutants, every one from its own random
 numbers: --only repeats one. A mutant is at fault if it ends by a signal, with
@@ -143,9 +143,23 @@ def mutate_end(text, rng):
     return text[:rng.randrange(len(text))]
 
 
+def mutate_length(text, rng):
+    """A line of many kilobytes, with a fault somewhere."""
+    lines = text.split(b"\n")
+    i = rng.randrange(len(lines))
+    name, equal, value = lines[i].partition(b"=")
+    words = (value if equal else name).strip() or b"1"
+    glue = rng.choice((b"", b"; ", b", ", b" "))
+    long = glue.join([words] * (rng.choice((30000, 100000)) // len(words)))
+    at = rng.randrange(len(long) + 1)
+    long = long[:at] + rng.choice((b"", b"o", b"=", b".")) + long[at:]
+    lines[i] = name + b"= " + long if equal else long
+    return b"\n".join(lines)
+
+
 MUTATIONS = ((mutate_number, 10), (mutate_value, 4), (mutate_lines, 3),
              (mutate_words, 2), (mutate_list, 3), (mutate_bytes, 2),
-             (mutate_end, 1))
+             (mutate_end, 1), (mutate_length, 2))
 
 
 def mutate(text, rng):

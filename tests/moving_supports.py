@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Supports that move: displacements are reached once, each support moves its own
-directions, records begin with their stage, those of stress drive as velocities do,
+directions, records begin with their stage and leave their last velocity, those of stress drive as velocities do,
 free fields follow rock that changes, damping takes nothing of prescribed motions,
 ramps go on; and a stage that changes nothing is in balance.
 
@@ -229,6 +229,37 @@ def records(checks):
     checks.near("and a sentence on it", "no stage shakes it" in said, 1, 0)
 
 
+def ends_of_records(checks):
+    """A record of acceleration that ends before its stage leaves its velocity,
+    to the end of the shaking; one of velocity leaves none."""
+    rate, lasts, stage = (3., -2.), 0.02, 0.05  # m/s2, s
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    n = 21
+    times = [i * lasts / (n - 1) for i in range(n)]
+    for name, header, rows in (
+            ("acceleration", "ax,ay", [(t, *rate) for t in times]),
+            ("velocity", "vx,vy", [(t, *(a * t for a in rate)) for t in times])):
+        (FOLDER / f"{name}.csv").write_text(f"time,{header}\n" + "".join(
+            f"{t!r},{x!r},{y!r}\n" for t, x, y in rows))
+        support = {"Region": "1", "History file": f"{name}.csv",
+                   "History quantity": name}
+        text = PLATE + section("Supports", {"all": support}) + section(
+            "Stages", {"shake": {"Duration": stage},
+                       "rest": {"Kind": "quasi-static", "Maximum steps": 5}})
+        history, _ = run(f"end_of_{name}", text)
+        said, _, _ = start(f"end_of_{name}", text, "--validate")
+        goes_on = stage - lasts if name == "acceleration" else 0.
+        for axis, a in zip("xy", rate):
+            way = a * lasts ** 2 / 2 + a * lasts * goes_on
+            # a step is 1e-4 s
+            checks.near(f"{name} along {axis}: displacement",
+                        history[f"corner.u_{axis}"][-1], way,
+                        abs(a) * lasts * 2e-4)
+            checks.near("and a sentence on the velocity",
+                        f"ends with a velocity of {a * lasts:.3g} m/s along "
+                        f"{axis}" in said, 1, 0)
+
+
 def stresses(checks):
     """A record of stress is one of velocity times rho c, at a quiet bottom and
     at the feet of free fields beside it, which know the same wave."""
@@ -328,7 +359,8 @@ def ramps(checks):
 def main():
     """Exit with the number of what is wrong."""
     checks = Checks()
-    for part in (displacements, directions, ledger, records, stresses,
+    for part in (displacements, directions, ledger, records,
+                 ends_of_records, stresses,
                  rock_that_changes, ramps):
         part(checks)
     sys.exit(checks.n_faults)

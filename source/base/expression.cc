@@ -4,8 +4,10 @@
 #include <deal.II/base/function_parser.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/base/text_parts.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iostream>
 #include <mutex>
 #include <regex>
@@ -41,6 +43,27 @@ namespace Keyblock
     };
 
     std::mutex MutedErrors::mutex;
+
+    /** Whether a formula calls rand() or rand_seed(). */
+    bool
+    calls_random(const std::string &formula)
+    {
+      const std::string name = "rand", seed = "_seed";
+      for (auto place = formula.find(name); place != std::string::npos;
+           place      = formula.find(name, place + 1))
+        {
+               const char before = place > 0 ? formula[place - 1] : ' ';
+               auto next         = place + name.size();
+               if (formula.compare(next, seed.size(), seed) == 0)
+            next += seed.size();
+          next = formula.find_first_not_of(" \t\n", next);
+               if (next != std::string::npos && formula[next] == '(' &&
+              before != '_' &&
+              !std::isalnum(static_cast<unsigned char>(before)))
+            return true;
+        }
+      return false;
+    }
   } // namespace
 
 
@@ -54,13 +77,14 @@ namespace Keyblock
   {
     const unsigned int found = 1 + std::count(text.begin(), text.end(), ';');
     AssertThrow(found == n_components,
-                InputError("The formula '" + text + "' of the entry '" + entry +
-                           "' has " + std::to_string(found) +
-                           " component(s) where " +
+                InputError("The formula '" + excerpt(text) +
+                           "' of the entry '" + entry + "' has " +
+                           std::to_string(found) + " component(s) where " +
                            std::to_string(n_components) +
                            " are needed; separate components by ';'."));
-    AssertThrow(!std::regex_search(text, std::regex("\\brand(_seed)?\\s*\\(")),
-                InputError("The formula '" + text + "' of the entry '" + entry +
+    AssertThrow(!calls_random(text),
+                InputError("The formula '" + excerpt(text) +
+                           "' of the entry '" + entry +
                            "' contains rand(), which gives another number each "
                            "time it is asked and on each rank; write a formula "
                            "of " +
@@ -86,11 +110,11 @@ namespace Keyblock
         is_understood = false;
       }
     AssertThrow(is_understood,
-                InputError("The formula '" + text + "' of the entry '" + entry +
-                           "' cannot be understood; use the variables " +
-                           variables +
-                           ", numbers, + - * / ^ and functions such as sin, "
-                           "sqrt, if."));
+                InputError(
+                  "The formula '" + excerpt(text) + "' of the entry '" + entry +
+                  "' cannot be understood; use the variables " + variables +
+                  ", numbers, + - * / ^ and functions such as sin, "
+                  "sqrt, if."));
   }
 
 

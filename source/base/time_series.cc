@@ -202,6 +202,20 @@ namespace Keyblock
 
 
   TimeSeries
+  TimeSeries::held_until(const double until) const
+  {
+    constexpr double rounding = 1e-6; // of an interval
+    TimeSeries result(*this);
+    const double n_rows = std::ceil((until - start) / interval - rounding) + 1.;
+    for (std::vector<double> &v : result.values)
+      if (n_rows > v.size())
+        v.resize(n_rows, v.back());
+    return result;
+  }
+
+
+
+  TimeSeries
   TimeSeries::operator*(const double factor) const
   {
     TimeSeries result(*this);

@@ -68,7 +68,9 @@ namespace Keyblock
       "scene: a header, then rows of the "
       "time [s], at even intervals, and one value per axis. Linear between "
       "rows, zero before the first and after the last. Times are counted from "
-      "the beginning of History stage.");
+      "the beginning of History stage. The velocity with which an acceleration "
+      "ends stays to the end of the dynamic stages, but for those after the "
+      "first that have an Unbalanced ratio.");
     prm.add_parameter("History stage",
                       history_stage,
                       "Name of the stage from whose beginning the times of "

@@ -3,6 +3,8 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/base/number_text.h>
+#include <keyblock/base/text_parts.h>
 #include <keyblock/scene/complaints.h>
 #include <keyblock/scene/decimal_commas.h>
 #include <keyblock/scene/entries.h>
@@ -13,32 +15,45 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
-#include <regex>
 #include <set>
 #include <sstream>
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Whether a value would be a number if its comma were a point. */
+    bool
+    is_number_with_comma(const std::string &value)
+    {
+      double number    = 0.;
+      const auto comma = value.find(',');
+      return comma != std::string::npos && comma > 0 &&
+             comma + 1 < value.size() && read_number(value, true, number);
+    }
+  } // namespace
+
+
+
   std::vector<std::string>
   warnings_of_decimal_commas(const std::string &text)
   {
     // (others want as many numbers as the scene has dimensions, or one)
-    static const std::regex entry(
-      "set (K0|Lateral ratios|Spacing) ?= ?(-?[0-9]+),([0-9]+)");
+    static const std::set<std::string> names = {"K0",
+                                                "Lateral ratios",
+                                                "Spacing"};
     std::vector<std::string> warnings;
     std::istringstream lines(text);
-    std::smatch part;
     for (std::string line; std::getline(lines, line);)
       if (line.find(',') != std::string::npos)
-        {
-          line = significant_part(line);
-          if (std::regex_match(line, part, entry))
+        for (const auto &[entry, value] : list_entries(significant_part(line)))
+          if (names.count(entry) > 0 && is_number_with_comma(value))
             warnings.push_back(
-              "The entry '" + part[1].str() + "' is '" + part[2].str() + "," +
-              part[3].str() + "', which are two numbers; write " +
-              part[2].str() + "." + part[3].str() + " if it is one, or '" +
-              part[2].str() + ", " + part[3].str() + "'.");
-        }
+              "The entry '" + entry + "' is '" + excerpt(value) +
+              "', which are two numbers; write " +
+              excerpt(boost::replace_all_copy(value, ",", ".")) +
+              " if it is one, or '" +
+              excerpt(boost::replace_all_copy(value, ",", ", ")) + "'.");
     return warnings;
   }
 
@@ -203,32 +218,53 @@ namespace Keyblock
     std::string
     words_of_pattern(const std::string &pattern)
     {
-      std::smatch part;
-      if (std::regex_match(pattern,
-                           part,
-                           std::regex("\\[(Double|Integer)(?: range)? "
-                                      "(\\S+)\\.\\.\\.(\\S+) .*")))
-        {
-          const std::string kind = part[1] == "Double" ? "a number"
-                                                       : "a whole number",
-                            low = part[2], high = part[3];
-          const bool has_low  = low.find("MAX") == std::string::npos,
-                     has_high = high.find("MAX") == std::string::npos &&
-                                high.size() < 10;
-          // the least number that deal.II is told of stands for 0
-          return kind +
-                 (low == "1e-300" ? " above 0"
-                  : has_low       ? " from " + low
-                                  : "") +
-                 (has_high                     ? " to " + high
-                  : has_low && low != "1e-300" ? " on"
-                                               : "");
-        }
-      if (std::regex_match(pattern, part, std::regex("\\[Selection (.*) \\]")))
-        return "one of " + boost::replace_all_copy(part[1].str(), "|", ", ");
+      const bool is_double = boost::starts_with(pattern, "[Double ");
+      if (is_double || boost::starts_with(pattern, "[Integer "))
+        if (const auto parts =
+              parts_between(boost::replace_first_copy(pattern, " range ", " "),
+                            {is_double ? "[Double " : "[Integer ", "...", " "});
+            !parts.empty())
+          {
+            const std::string kind = is_double ? "a number" : "a whole number",
+                              low = parts[0], high = parts[1];
+            const bool has_low  = low.find("MAX") == std::string::npos,
+                       has_high = high.find("MAX") == std::string::npos &&
+                                  high.size() < 10;
+            // the least number that deal.II is told of stands for 0
+            return kind +
+                   (low == "1e-300" ? " above 0"
+                    : has_low       ? " from " + low
+                                    : "") +
+                   (has_high                     ? " to " + high
+                    : has_low && low != "1e-300" ? " on"
+                                                 : "");
+          }
+      if (const auto parts = parts_between(pattern, {"[Selection ", " ]"});
+          !parts.empty())
+        return "one of " + boost::replace_all_copy(parts[0], "|", ", ");
       if (pattern == "[Bool]")
         return "true or false";
       return pattern;
+    }
+
+    /** The first item of a list of numbers that is none, for the end of a
+     * sentence; empty if all are. */
+    std::string
+    wrong_item(const std::string &value, const std::string &pattern)
+    {
+      if (!boost::starts_with(pattern, "[List of ") ||
+          (pattern.find("[Double ") == std::string::npos &&
+           pattern.find("[Integer ") == std::string::npos))
+        return "";
+      std::vector<std::string> items;
+      boost::split(items, value, boost::is_any_of(",;"));
+      double number = 0.;
+      for (unsigned int i = 0; i < items.size(); ++i)
+        if (const std::string item = boost::trim_copy(items[i]);
+            !read_number(item, false, number))
+          return "number " + std::to_string(i + 1) + " of it is '" +
+                 excerpt(item) + "'; ";
+      return "";
     }
 
     /** What is wrong with a value. */
@@ -238,12 +274,12 @@ namespace Keyblock
                       const std::string &pattern)
     {
       std::string remedy = "correct it.";
-      if (std::regex_match(value,
-                           std::regex("[-+]?[0-9]+,[0-9]+([eE][-+]?[0-9]+)?")))
+      if (is_number_with_comma(value))
         remedy = "numbers have a point: write " +
-                 boost::replace_all_copy(value, ",", ".") + ".";
-      return "the entry '" + entry + "' is '" + value + "', which is not " +
-             words_of_pattern(pattern) + "; " + remedy;
+                 excerpt(boost::replace_all_copy(value, ",", ".")) + ".";
+      return "the entry '" + excerpt(entry) + "' is '" + excerpt(value) +
+             "', which is not " + words_of_pattern(pattern) + "; " +
+             wrong_item(value, pattern) + remedy;
     }
   } // namespace
 
@@ -256,41 +292,48 @@ namespace Keyblock
                     const std::string &source,
                     const bool has_lines)
   {
-    std::smatch part;
-    const auto is_like = [&](const std::string &pattern) {
-      return std::regex_match(
-        complaint, part, std::regex("Line <(\\d+)> of file <.*" + pattern));
+    std::vector<std::string> part;
+    const auto is_like = [&](std::vector<std::string> words) {
+      words.insert(words.begin(), {"Line <", "> of file <"});
+      part = parts_between(complaint, words);
+      return !part.empty();
     };
     std::string sentence;
-    const auto path = [&]() {
-      return path_of_line(text, std::stoul(part[1].str()));
-    };
+    const auto path = [&]() { return path_of_line(text, std::stoul(part[0])); };
     // as deal.II 9.4 says it, and 9.6
-    if (is_like("No entry with name <(.*)> was declared .*"))
-      sentence = "there is no entry '" + path() + part[2].str() + "'; " +
+    if (is_like({"No entry with name <", "> was declared "}))
+      sentence = "there is no entry '" + path() + excerpt(part[2]) + "'; " +
                  remedy_of_name(part[2], names_in_section(prm, path(), false));
-    else if (is_like("no such subsection to be entered: (.*)\\.") ||
-             is_like("to enter a subsection '([^']*)', but.*"))
+    else if (is_like({"no such subsection to be entered: "}) ||
+             is_like({"to enter a subsection '", "', but"}))
       {
-        const std::string name =
-          part[2].str().substr(part[2].str().rfind('.') + 1);
-        sentence = "there is no section '" + path() + name + "'; " +
+        const std::string names =
+                            boost::trim_right_copy_if(part[2],
+                                                      boost::is_any_of(".")),
+                          name = names.substr(names.rfind('.') + 1);
+        sentence = "there is no section '" + path() + excerpt(name) + "'; " +
                    remedy_of_name(name, names_in_section(prm, path(), true));
       }
-    else if (is_like("The entry value (.*) for the entry named (.*) does not "
-                     "match the given pattern: (.*)\\."))
-      sentence = complain_of_value(path() + part[3].str(), part[2], part[4]);
-    else if (is_like("The line <(.*)> could not be parsed: .*"))
-      sentence = "'" + part[2].str() +
+    else if (is_like({"The entry value",
+                      " for the entry named ",
+                      " does not match the given pattern: "}))
+      sentence = complain_of_value(path() + part[3],
+                                   boost::trim_copy(part[2]),
+                                   part[4].substr(0, part[4].rfind('.')));
+    else if (is_like({"The line <", "> could not be parsed: "}))
+      sentence = "'" + excerpt(part[2]) +
                  "' begins with none of set, subsection, end and include; "
                  "correct its first word.";
     else
-      return "In " + source + ": " + complaint;
-    std::string place = source;
+      return "In " + excerpt(source) + ": " + complaint;
+    std::string place = excerpt(source);
     if (has_lines)
-      place = std::regex_replace(source,
-                                 std::regex("^('.*?')(, from line \\d+ on)?"),
-                                 "$1, line " + part[1].str());
+      {
+        const std::string from = ", from line ";
+        const auto passage     = parts_between(source, {from, " on"});
+        place = source.substr(0, source.find(from)) + ", line " + part[0] +
+                (passage.empty() ? "" : passage[1]);
+      }
     return "In " + place + ": " + sentence;
   }
 } // namespace Keyblock

@@ -48,11 +48,11 @@ namespace Keyblock
       double
       required(const int code) const
       {
-        for (const auto &[c, value] : values)
-          if (c == code)
-            return to_number(value);
-        throw std::runtime_error("a " + type + " has no value of code " +
-                                 std::to_string(code));
+        const double found = number(code, std::nan(""));
+        if (std::isnan(found)) // no number is read as such
+          throw std::runtime_error("a " + type + " has no value of code " +
+                                   std::to_string(code));
+        return found;
       }
 
       static double
@@ -77,12 +77,6 @@ namespace Keyblock
       {
         return has_flag(1);
       }
-
-      bool
-      is_on_paper() const
-      {
-        return number(67, 0.) == 1.;
-      }
     };
 
     /** What stands in the section ENTITIES, but for what is drawn on the paper
@@ -96,7 +90,9 @@ namespace Keyblock
       std::istringstream lines(
         text.substr(boost::starts_with(text, "\xEF\xBB\xBF") ? 3 : 0));
       std::string code, value, section;
-      while (std::getline(lines, code) && std::getline(lines, value))
+      bool is_whole = false;
+      while (!is_whole && std::getline(lines, code) &&
+             std::getline(lines, value))
         {
           boost::trim(code);
           boost::trim(value);
@@ -107,11 +103,15 @@ namespace Keyblock
                                      "' stands where the code of a value is "
                                      "expected");
           const int number = std::stoi(code);
+          is_whole         = number == 0 && boost::iequals(value, "EOF");
           if (number == 0)
             entities.push_back({value, {}});
           else if (!entities.empty())
             entities.back().values.emplace_back(number, value);
         }
+      if (!is_whole)
+        throw std::runtime_error("the file ends before its 'EOF', as one that "
+                                 "was cut off");
       std::vector<Entity> drawn;
       for (const Entity &entity : entities)
         {
@@ -119,7 +119,7 @@ namespace Keyblock
             section = entity.values[0].second;
           else if (entity.type == "ENDSEC")
             section.clear();
-          else if (section == "ENTITIES" && !entity.is_on_paper())
+          else if (section == "ENTITIES" && entity.number(67, 0.) != 1.)
             drawn.push_back(entity);
         }
       return drawn;
@@ -329,12 +329,9 @@ namespace Keyblock
   std::vector<Point<2>>
   read_dxf_outline(const std::string &text, const unsigned int n_chords)
   {
-    std::vector<Path> paths = list_paths(read_entities(text), n_chords);
-    if (paths.empty())
-      throw std::runtime_error(
-        "it has no polyline, line, arc or circle in model space");
-    const double tolerance = closeness * extent_of(paths);
-    const Path outline     = close_path(paths, tolerance);
+    std::vector<Path> paths = read_dxf_paths(text, n_chords);
+    const double tolerance  = closeness * extent_of(paths);
+    const Path outline      = close_path(paths, tolerance);
     if (!paths.empty())
       throw std::runtime_error(
         "it has more than one outline (another begins at (" +

@@ -31,7 +31,7 @@ namespace Keyblock
         const auto equal = line.find('=');
         if (line.compare(0, 11, "subsection ") == 0)
           sections.push_back(line.substr(11) + '/');
-        else if (line == "end")
+        else if (line == "end" && !sections.empty())
           sections.pop_back();
         else if (line.compare(0, 4, "set ") == 0 && equal != std::string::npos)
           {

@@ -94,7 +94,31 @@ namespace Keyblock
 
 
 
-    /** Sentences on histories after which the ground stays displaced. */
+    /** Until when what is integrated from a history keeps its last value, from
+     * the beginning of its stage [s]: while dynamic stages follow each other,
+     * but for those after the first that are to come to rest. */
+    template <int dim>
+    double
+    end_of_shaking(const Scene<dim> &scene, const Support<dim> &support)
+    {
+      double duration          = 0.;
+      const unsigned int first = scene.history_stage(support);
+      for (const auto &stage : scene.stages)
+        if (const unsigned int number = scene.stage_number(stage->name);
+            number >= first)
+          {
+            if (!stage->is_dynamic() ||
+                (number > first && stage->unbalanced_ratio > 0.))
+              break;
+            duration += stage->duration;
+          }
+      return duration;
+    }
+
+
+
+    /** Sentences on histories after which the ground stays displaced, or goes
+     * on. */
     template <int dim>
     std::vector<std::string>
     warnings_of_base_lines(const Scene<dim> &scene)
@@ -105,11 +129,27 @@ namespace Keyblock
           {
             const bool is_stress =
               support->history_quantity == HistoryQuantity::stress;
-            const std::string unit = is_stress ? " Pa s" : " m";
-            const TimeSeries way   = support->history->integral();
+            const bool is_integrated =
+              support->history_quantity == HistoryQuantity::acceleration;
+            const std::string unit   = is_stress ? " Pa s" : " m";
+            const TimeSeries &motion = *support->history,
+                             way     = motion.integral();
             for (unsigned int d = 0; d < dim; ++d)
-              if (std::abs(way.last(d)) >
-                  largest_base_line_error * way.largest_magnitude())
+              if (!is_stress &&
+                  std::abs(motion.last(d)) >
+                    largest_base_line_error * motion.largest_magnitude())
+                found.push_back(
+                  "The history '" + support->history_file +
+                  "' ends with a velocity of " + text_of(motion.last(d), 3) +
+                  " m/s along " + "xyz"[d] + ", and has at most " +
+                  text_of(motion.largest_magnitude(), 3) +
+                  " m/s along any axis on the way: the support " +
+                  (is_integrated ? "goes on with it to the end of the shaking"
+                                 : "stops at once") +
+                  "; correct its base line, or add rows in which it comes to "
+                  "rest.");
+              else if (std::abs(way.last(d)) >
+                       largest_base_line_error * way.largest_magnitude())
                 found.push_back(
                   "The history '" + support->history_file + "' ends with " +
                   (is_stress ? "an impulse" : "a displacement") + " of " +
@@ -209,7 +249,8 @@ namespace Keyblock
                          dim,
                          unit_of(support->history_quantity));
           if (support->history_quantity == HistoryQuantity::acceleration)
-            history = history.integral();
+            history =
+              history.integral().held_until(end_of_shaking(*this, *support));
           support->history = std::make_shared<TimeSeries>(std::move(history));
         }
   }
@@ -223,6 +264,7 @@ namespace Keyblock
     std::vector<std::string> found = old_names;
     for (const auto &warnings : {warnings_of_facets(*this),
                                  warnings_of_units(*this),
+                                 warnings_of_loads(*this),
                                  warnings_of_idle_entries(*this),
                                  warnings_of_base_lines(*this),
                                  warnings_of_late_histories(*this),

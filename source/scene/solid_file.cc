@@ -104,10 +104,12 @@ namespace Keyblock
       TriangleSurface surface;
       std::array<Point<3>, 3> corners;
       unsigned int n = 0;
+      bool is_whole  = false; // all solids that begin also end
       std::istringstream in(text);
       for (std::string word; in >> word;)
-        if (word == "vertex")
+        if (boost::iequals(word, "vertex"))
           {
+            is_whole = false;
             for (unsigned int d = 0; d < 3; ++d)
               if (!(in >> word) || !read_number(word, false, corners[n][d]))
                 throw std::runtime_error("'" + word.substr(0, 30) +
@@ -119,8 +121,15 @@ namespace Keyblock
                 n = 0;
               }
           }
-        else if (word == "endfacet" && n != 0)
+        else if (boost::iequals(word, "endfacet") && n != 0)
           throw std::runtime_error("a facet has not three corners");
+        else if (boost::iequals(word, "facet"))
+          is_whole = false;
+        else if (boost::iequals(word, "endsolid"))
+          is_whole = n == 0;
+      if (!is_whole)
+        throw std::runtime_error("the file ends before its 'endsolid', as one "
+                                 "that was cut off");
       return surface;
     }
 
@@ -199,7 +208,10 @@ namespace Keyblock
   read_stl(const std::string &text)
   {
     const bool is_binary = is_binary_stl(text);
-    if (!is_binary && !boost::starts_with(text, "solid"))
+    const auto begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+    const bool is_ascii = boost::istarts_with(text.substr(begin, 5), "solid") &&
+                          text.find('\0') == std::string::npos;
+    if (!is_binary && !is_ascii)
       throw std::runtime_error(
         "it is neither ASCII STL, which begins with 'solid', nor binary STL of "
         "the length that its number of triangles asks for");

@@ -3,6 +3,7 @@
 // out.
 #include <keyblock/base/errors.h>
 #include <keyblock/base/number_text.h>
+#include <keyblock/base/text_parts.h>
 #include <keyblock/scene/joint_columns.h>
 #include <keyblock/scene/joint_table.h>
 #include <keyblock/scene/text.h>
@@ -12,7 +13,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <regex>
+#include <sstream>
 
 namespace Keyblock
 {
@@ -22,7 +23,7 @@ namespace Keyblock
     const auto bad = name.find_first_of(",;/#*?[]={}|\\\"\n\t");
     AssertThrow(!name.empty() && bad == std::string::npos &&
                   name == boost::trim_all_copy(name),
-                InputError(owner + " is called '" + name +
+                InputError(owner + " is called '" + excerpt(name) +
                            "', but names must not be empty and have no double "
                            "blanks and none of , ; / # * ? [ ] = { } | \\ \"; "
                            "give it another name."));
@@ -32,6 +33,22 @@ namespace Keyblock
 
   namespace
   {
+    /** Whether lines of a scene set an entry. */
+    bool
+    sets_entry(const std::string &text, const std::string &entry)
+    {
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);)
+        {
+          const std::string words = significant_part(line);
+          if (boost::trim_copy(words.substr(0, words.find('='))) ==
+                "set " + entry &&
+              words.find('=') != std::string::npos)
+            return true;
+        }
+      return false;
+    }
+
     /** Whether the scene gives this joint its friction by an entry: of its own,
      * of its set, or of a study. */
     template <int dim>
@@ -41,12 +58,10 @@ namespace Keyblock
                       const Joint<dim> &joint)
     {
       const std::string entry = "Friction angle";
-      static const std::regex assignment("(^|\\n)[ \\t]*set[ \\t]+" + entry +
-                                         "[ \\t]*=");
-      const auto gives = [&](const JointPassage &passage) {
+      const auto gives        = [&](const JointPassage &passage) {
         return (matches_name(passage.joint, joint.name) ||
                 matches_name(passage.joint, joint.set)) &&
-               std::regex_search(passage.text, assignment);
+               sets_entry(passage.text, entry);
       };
       return std::any_of(text.joint_subsections.begin(),
                          text.joint_subsections.end(),

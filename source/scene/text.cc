@@ -2,6 +2,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/base/text_parts.h>
 #include <keyblock/scene/complaints.h>
 #include <keyblock/scene/decimal_commas.h>
 #include <keyblock/scene/dropped_names.h>
@@ -16,7 +17,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <sstream>
 
 namespace Keyblock
@@ -29,21 +29,19 @@ namespace Keyblock
     require_listed(const std::string &complaint, const std::string &source)
     {
       // as deal.II 9.4 says it, and 9.6
-      const std::regex unknown(
-        "Line <(\\d+)>.*no such subsection to be entered: ([^.]+)\\.(.*)");
-      const std::regex newer(
-        "Line <(\\d+)>.*to enter a subsection '([^.']+)\\.([^']*)', but.*");
-      std::smatch found;
-      const bool is_unlisted = std::regex_match(complaint, found, unknown) ||
-                               std::regex_match(complaint, found, newer);
-      AssertThrow(!is_unlisted,
-                  InputError("In " + source + ", line " + found[1].str() +
-                             ": there is a subsection '" + found[2].str() +
-                             "/" + found[3].str() + "', but '" +
-                             found[2].str() + "/Names' does not list '" +
-                             found[3].str() +
-                             "'; add the name there, or take the subsection "
-                             "out."));
+      auto found = parts_between(
+        complaint, {"Line <", ">", "no such subsection to be entered: ", "."});
+      if (found.empty())
+        found = parts_between(
+          complaint, {"Line <", ">", "to enter a subsection '", ".", "', but"});
+      if (found.empty() || found[2].empty())
+        return;
+      const std::string name = excerpt(found[3]);
+      throw InputError("In " + excerpt(source) + ", line " + found[0] +
+                       ": there is a subsection '" + excerpt(found[2]) + "/" +
+                       name + "', but '" + excerpt(found[2]) +
+                       "/Names' does not list '" + name +
+                       "'; add the name there, or take the subsection out.");
     }
   } // namespace
 
@@ -302,7 +300,7 @@ namespace Keyblock
     {
       const auto equal = assignment.find('=');
       AssertThrow(equal != std::string::npos && equal > 0,
-                  InputError("The override '" + assignment +
+                  InputError("The override '" + excerpt(assignment) +
                              "' of --set has no '='; write "
                              "--set \"Section/Entry=value\"."));
       std::vector<std::string> parts;

@@ -92,8 +92,6 @@ namespace Keyblock
                    const double largest,
                    const std::string &what)
     {
-      constexpr double least = 1.; // [Pa]
-      doubt_stress(doubts, value, owner, "Cohesion", least);
       doubts.look_at(value,
                      owner,
                      "Cohesion",

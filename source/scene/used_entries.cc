@@ -5,12 +5,13 @@
 #include <keyblock/base/digest.h>
 #include <keyblock/base/errors.h>
 #include <keyblock/base/find_file.h>
+#include <keyblock/scene/entries.h>
 #include <keyblock/scene/joints.h>
 #include <keyblock/scene/scene.h>
 
 #include <filesystem>
 #include <fstream>
-#include <regex>
+#include <set>
 #include <sstream>
 
 namespace Keyblock
@@ -52,17 +53,20 @@ namespace Keyblock
                     const std::string &used,
                     const std::string &entries)
     {
-      const std::regex names("( *set (?:File|History file|Measured points) *= "
-                             ")([^#]*[^# ])( *#.*)?");
+      const std::set<std::string> names = {"File",
+                                           "History file",
+                                           "Measured points"};
       std::istringstream lines(entries);
       std::string text;
-      std::smatch parts;
       for (std::string line; std::getline(lines, line);)
-        text += (std::regex_match(line, parts, names)
-                   ? parts[1].str() + path_from(scene, used, parts[2]) +
-                       parts[3].str()
-                   : line) +
-                '\n';
+        {
+          for (const auto &[entry, value] : list_entries(line))
+            if (names.count(entry) > 0 && !value.empty())
+              line.replace(line.find(value, line.find('=')),
+                           value.size(),
+                           path_from(scene, used, value));
+          text += line + '\n';
+        }
       return text;
     }
   } // namespace

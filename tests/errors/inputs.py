@@ -61,6 +61,33 @@ def validate(scene, settings=()):
                + [word for s in settings for word in ("--set", s)])
 
 
+def long_values():
+    incline, endless = INCLINE.read_text("utf-8"), "1" * 100000
+    points = "; ".join(f"{i / 2000}, 0" for i in range(2000))
+    for change, fragment in (
+            (("set Dip = 40", f"set Vertices = {points}; 2.0o, 0"),
+             "number 4001 of it is '2.0o'; correct it"),
+            (("set Dip = 40", f"set Dip = 3o{endless}"), "is not a number"),
+            (("set Dip = 40", f"set Dip = 3,{endless}"),
+             "numbers have a point"),
+            (("set Dip = 40", f"set {endless} = 30"), "there is no entry"),
+            (("subsection Materials", f"subsection {endless}"),
+             "there is no section"),
+            (("set Dip = 40", endless), "begins with none of set"),
+            (("set Dimension = 2", f"set Dimension = 2\nset K0 = 0,{endless}"),
+             "there is no entry 'K0'"),
+            (("set Gravity = ", f"set Gravity = rand{' ' * 100000}(1) + "),
+             "contains rand()")):
+        assert change[0] in incline, change[0]
+        pathlib.Path("s.prm").write_text(incline.replace(*change, 1), "utf-8")
+        done = validate("s.prm")
+        refused(done, fragment)
+        assert len(done.stderr) < 800, "all of a long value is told"
+    done = validate(INCLINE, [f"Joints/base/Dip={endless}x"])
+    refused(done, "is not a number")
+    assert len(done.stderr) < 800
+
+
 def byte_order_mark():
     pathlib.Path("s.prm").write_bytes(b"\xef\xbb\xbf" + INCLINE.read_bytes())
     valid(validate("s.prm"))

@@ -19,6 +19,8 @@
 #include <keyblock/scene/shape_files.h>
 #include <keyblock/scene/solid_file.h>
 
+#include <boost/algorithm/string/case_conv.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -304,6 +306,41 @@ BOOST_AUTO_TEST_CASE(bad_drawings)
   check(drawing("0 CIRCLE 67 1 10 5 20 6 40 2"), "circle in model space");
   check("AutoCAD Binary DXF\r\n", "binary");
   check("zero\nSECTION\n", "where the code of a value is expected");
+}
+
+
+
+BOOST_AUTO_TEST_CASE(files_that_are_cut_off)
+{
+  const std::string text = ascii_stl(make_angle()),
+                    line =
+                      drawing("0 LINE 10 0 20 0 11 4 21 0 0 CIRCLE 10 5 20 6 "
+                              "40 2");
+  // (the name of the last solid may be cut, and the end of the last line)
+  for (std::size_t n = 0; n < text.rfind("endsolid") + 8; ++n)
+    BOOST_TEST(reason_of_failure([&]() { read_stl(text.substr(0, n)); }) != "");
+  for (std::size_t n = 0; n < line.rfind("EOF") + 3; ++n)
+    BOOST_TEST(reason_of_failure(
+                 [&]() { read_dxf_paths(line.substr(0, n), 24); }) != "");
+  BOOST_TEST(read_dxf_paths(line + "\r\n\r\n\x1a", 24).size() == 2u);
+  const std::string binary = binary_stl(make_angle());
+  for (std::size_t n = 0; n < binary.size(); ++n)
+    BOOST_TEST(reason_of_failure([&]() { read_stl(binary.substr(0, n)); }) !=
+               "");
+  const auto fault = [](const std::string &part) {
+    return reason_of_failure([&]() { read_stl(part); });
+  };
+  BOOST_TEST(fault(text.substr(0, text.rfind("facet"))).find("'endsolid'") !=
+             std::string::npos);
+  // a name that is not told, capital letters, blank lines, several solids
+  const std::string facets =
+    text.substr(text.find('\n'), text.rfind("endsolid") - text.find('\n'));
+  for (const std::string &whole :
+       {"solid" + facets + "endsolid",
+        boost::to_upper_copy(text) + "\n\n",
+        "\nsolid a" + facets + "endsolid a\nsolid b\nendsolid b\n"})
+    BOOST_TEST(read_stl(whole).triangles.size() == make_angle().size());
+  BOOST_TEST(fault(text + "solid b" + facets) != "");
 }
 
 

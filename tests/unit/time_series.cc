@@ -62,6 +62,16 @@ BOOST_AUTO_TEST_CASE(time_series_between_rows)
   BOOST_TEST(series.value(2.01, 0) == 0.);
   BOOST_TEST(series.largest_magnitude() == 4.);
   BOOST_TEST(series.integral().last(1) == 2.);
+  // what is integrated stays as long as it is told to
+  const TimeSeries way = series.integral(), held = way.held_until(2.7);
+  BOOST_TEST(way.value(2.5, 1) == 0.);
+  BOOST_TEST(way.held_until(1.2).end_time() == 2.);
+  BOOST_TEST(held.end_time() == 3.);
+  BOOST_TEST(held.value(0.99, 1) == 0.);
+  BOOST_TEST(held.value(1.5, 1) == way.value(1.5, 1));
+  BOOST_TEST(held.value(2., 1) == 2.);
+  BOOST_TEST(held.value(2.7, 1) == 2.);
+  BOOST_TEST(held.value(3.01, 1) == 0.);
 }
 
 BOOST_AUTO_TEST_CASE(time_series_frequency)

@@ -33,6 +33,10 @@ namespace Keyblock
     /** Its integral over time, by the trapezoidal rule, from 0 at the start. */
     TimeSeries integral() const;
 
+    /** With rows of the last value up to the time @p until [s], or the first
+     * one after it. */
+    TimeSeries held_until(const double until) const;
+
     TimeSeries operator*(const double factor) const;
 
     /** Value of the last row. */

@@ -16,6 +16,11 @@ namespace Keyblock
   template <int dim>
   std::vector<std::string> warnings_of_units(const Scene<dim> &scene);
 
+  /** Loads, strengths and accelerations that look as if they were in another
+   * unit, or gravity upside down, one sentence each. */
+  template <int dim>
+  std::vector<std::string> warnings_of_loads(const Scene<dim> &scene);
+
   /** What is hardly ever meant: water above the ground, gravity that no ground
    * has or that is across a profile, benches dug from below, dips in radians.
    */
