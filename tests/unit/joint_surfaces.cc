@@ -146,7 +146,8 @@ BOOST_AUTO_TEST_CASE(faces_of_drawings)
   const std::string head   = "0\nSECTION\n2\nENTITIES\n0\n3DFACE\n",
                     first  = "10\n0\n20\n0\n30\n0\n11\n2\n21\n0\n31\n0\n",
                     third  = "12\n2\n22\n2\n32\n1\n",
-                    fourth = "13\n0\n23\n2\n33\n1\n", end = "0\nENDSEC\n";
+                    fourth = "13\n0\n23\n2\n33\n1\n",
+                    end    = "0\nENDSEC\n0\nEOF\n";
   const auto surface = read_dxf_faces(head + first + third + fourth + end);
   BOOST_TEST(surface.triangles.size() == 2);
   BOOST_TEST(surface.vertices.size() == 4);
