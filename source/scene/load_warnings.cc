@@ -13,13 +13,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 namespace Keyblock
 {
   namespace
   {
-    constexpr double endless = std::numeric_limits<double>::infinity();
+    constexpr const char *small_units = "MPa or kPa"; // of stresses
 
     /** Stress below which nothing matters beside the weight of the rock [Pa]: a
      * thousandth of it, but no more than some kN/m2 in other units are. */
@@ -49,23 +48,6 @@ namespace Keyblock
       return largest;
     }
 
-    void
-    doubt_stress(Doubts &doubts,
-                 const double value,
-                 const std::string &owner,
-                 const std::string &name,
-                 const double least)
-    {
-      doubts.look_at(value,
-                     owner,
-                     name,
-                     0.,
-                     least,
-                     "Pa",
-                     "is it in MPa or kPa? Stresses are in pascals, 1 MPa is "
-                     "1e6.");
-    }
-
     template <int dim>
     void
     doubt_initial_state(Doubts &doubts,
@@ -75,10 +57,10 @@ namespace Keyblock
       constexpr double least_gradient = 1e3; // [Pa/m]
       const auto &state               = scene.initial_state;
       const std::string owner         = "Initial state";
-      doubt_stress(
-        doubts, largest_component(state.stress), owner, "Stress", least);
-      doubt_stress(
-        doubts, state.surface_stress, owner, "Surface stress", least);
+      doubts.look_at_stress(
+        largest_component(state.stress), owner, "Stress", least, small_units);
+      doubts.look_at_stress(
+        state.surface_stress, owner, "Surface stress", least, small_units);
       doubts.look_at(state.vertical_stress_gradient,
                      owner,
                      "Vertical stress gradient",
@@ -93,7 +75,7 @@ namespace Keyblock
                      owner,
                      "Gravity",
                      0.5 * gravity.norm(),
-                     endless,
+                     Doubts::endless,
                      "m/s2 along " + std::string(1, "xyz"[dim - 1]),
                      "that is upwards, and elevations, water and sides called "
                      "top are not turned with it; is " +
@@ -145,39 +127,36 @@ namespace Keyblock
   {
     constexpr double largest_pressure = 1e8; // of water 10 km deep [Pa]
     Doubts doubts;
-    const double least = least_stress(scene);
+    const double least         = least_stress(scene);
+    const auto doubt_strengths = [&](const auto &one,
+                                     const std::string &owner) {
+      doubts.look_at_stress(
+        one.cohesion, owner, "Cohesion", least, small_units);
+      doubts.look_at_stress(
+        one.tensile_strength, owner, "Tensile strength", least, small_units);
+    };
     for (const auto &joint : scene.joints)
       {
         const std::string owner = "Joints/" + joint->name;
-        doubt_stress(doubts, joint->cohesion, owner, "Cohesion", least);
-        doubt_stress(
-          doubts, joint->tensile_strength, owner, "Tensile strength", least);
+        doubt_strengths(*joint, owner);
         doubts.look_at(largest_component(joint->water_pressure),
                        owner,
                        "Water pressure",
                        largest_pressure,
-                       endless,
+                       Doubts::endless,
                        "Pa",
                        "no water is as deep; pressures are in pascals, 1 MPa "
                        "is 1e6.");
       }
     for (const auto &material : scene.materials)
       if (material->is_plastic())
-        {
-          const std::string owner = "Materials/" + material->name;
-          doubt_stress(doubts, material->cohesion, owner, "Cohesion", least);
-          doubt_stress(doubts,
-                       material->tensile_strength,
-                       owner,
-                       "Tensile strength",
-                       least);
-        }
+        doubt_strengths(*material, "Materials/" + material->name);
     for (const auto &traction : scene.tractions)
-      doubt_stress(doubts,
-                   largest_component(traction->expression),
-                   "Tractions/" + traction->name,
-                   "Traction",
-                   least);
+      doubts.look_at_stress(largest_component(traction->expression),
+                            "Tractions/" + traction->name,
+                            "Traction",
+                            least,
+                            small_units);
     doubt_initial_state(doubts, scene, least);
     std::vector<std::string> found = doubts.sentences();
     for (const std::string &warning : warnings_of_accelerations(scene))

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace Keyblock
 {
@@ -39,18 +38,9 @@ namespace Keyblock
                  const std::string &name,
                  const double least)
     {
-      doubts.look_at(value,
-                     owner,
-                     name,
-                     0.,
-                     least,
-                     "Pa",
-                     "is it in " +
-                       std::string(least > 1. ? "GPa or MPa" : "MPa") +
-                       "? Stresses are in pascals, 1 MPa is 1e6.");
+      doubts.look_at_stress(
+        value, owner, name, least, least > 1. ? "GPa or MPa" : "MPa");
     }
-
-    constexpr double endless = std::numeric_limits<double>::infinity();
 
     constexpr double least_modulus     = 1e5;  // [Pa]
     constexpr double largest_modulus   = 1e13; // [Pa]
@@ -78,7 +68,7 @@ namespace Keyblock
                      owner,
                      "Density",
                      largest,
-                     endless,
+                     Doubts::endless,
                      "kg/m3",
                      "is it a unit weight in N/m3? " + what + " has about " +
                        std::to_string(usual) + " kg/m3.");
@@ -96,7 +86,7 @@ namespace Keyblock
                      owner,
                      "Cohesion",
                      largest,
-                     endless,
+                     Doubts::endless,
                      "Pa",
                      "no " + what +
                        " has as much; stresses are in pascals, 1 MPa is "
@@ -116,7 +106,7 @@ namespace Keyblock
                        owner,
                        name,
                        largest,
-                       endless,
+                       Doubts::endless,
                        "[-]",
                        "no ground has so much more horizontal than vertical "
                        "stress; is " +
@@ -137,7 +127,7 @@ namespace Keyblock
         owner,
         "Seismic coefficient",
         largest,
-        endless,
+        Doubts::endless,
         "[-]",
         "as a vector; is it in m/s2? It is acceleration over 9.81 m/s2: that "
         "would be " +
@@ -183,14 +173,14 @@ namespace Keyblock
                      owner,
                      "Residual friction angle",
                      largest_residual,
-                     endless,
+                     Doubts::endless,
                      "degrees",
                      "residual angles of rock are about 20 to 40 degrees.");
       doubts.look_at(strength.value_of("JRC"),
                      owner,
                      "JRC",
                      largest_roughness,
-                     endless,
+                     Doubts::endless,
                      "[-]",
                      "the roughest joints have 20.");
       double pressure = 0.;
@@ -222,7 +212,7 @@ namespace Keyblock
                      owner,
                      "Area",
                      largest_area,
-                     endless,
+                     Doubts::endless,
                      "m2",
                      "is it in mm2? That would be " +
                        text_of(1e-6 * bolts.area) + " m2.");
@@ -261,7 +251,7 @@ namespace Keyblock
                      owner,
                      "Shear strength",
                      largest_shear_strength,
-                     endless,
+                     Doubts::endless,
                      "Pa",
                      "no shotcrete has as much; stresses are in pascals, 1 MPa "
                      "is 1e6.");
@@ -269,7 +259,7 @@ namespace Keyblock
                      owner,
                      "Thickness",
                      largest_thickness,
-                     endless,
+                     Doubts::endless,
                      "m",
                      "is it in mm or cm?");
       doubt_density(doubts, liner.density, owner, "Shotcrete", 2400);
@@ -317,7 +307,7 @@ namespace Keyblock
                          owner,
                          "Young modulus",
                          largest_modulus,
-                         endless,
+                         Doubts::endless,
                          "Pa",
                          "no rock is so stiff, and time steps are short by it; "
                          "1 GPa is 1e9.");
@@ -336,7 +326,7 @@ namespace Keyblock
                          owner,
                          "Unbalanced ratio",
                          largest_unbalanced,
-                         endless,
+                         Doubts::endless,
                          "[-]",
                          "the stage ends before its rock has come to rest; "
                          "1e-3 to 1e-5 are usual.");
@@ -356,7 +346,7 @@ namespace Keyblock
                    "Ground",
                    "Depth",
                    largest_depth,
-                   endless,
+                   Doubts::endless,
                    "m",
                    "is it in mm or cm?");
     doubts.look_at(scene.water.unit_weight,

@@ -4,6 +4,7 @@
 
 #include <keyblock/base/number_text.h>
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ namespace Keyblock
   class Doubts
   {
   public:
+    /** An upper bound that is none. */
+    static constexpr double endless = std::numeric_limits<double>::infinity();
+
     /** Doubt the value of an entry between two bounds, both exclusive. */
     void
     look_at(const double value,
@@ -35,6 +39,23 @@ namespace Keyblock
                            text_of(value) + " " + unit;
           doubt.question = question;
         }
+    }
+
+    /** Doubt a stress [Pa] below a bound that may be in one of @p units. */
+    void
+    look_at_stress(const double value,
+                   const std::string &owner,
+                   const std::string &name,
+                   const double least,
+                   const std::string &units)
+    {
+      look_at(value,
+              owner,
+              name,
+              0.,
+              least,
+              "Pa",
+              "is it in " + units + "? Stresses are in pascals, 1 MPa is 1e6.");
     }
 
     std::vector<std::string>
