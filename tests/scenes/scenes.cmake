@@ -211,7 +211,7 @@ keyblock_scene(verification/creeping_slide REFERENCES creeping_slide_holds
   RANKS 1 SET "Joints/plane/Friction angle=35.3")
 # blocks that weigh little beside what is set free, and have only begun to fall
 keyblock_scene(verification/fall_seen RANKS 1 2)
-keyblock_scene(tutorial/roof_wedge REFERENCES roof_wedge_falls RANKS 1
+keyblock_scene(tutorial/roof_wedge REFERENCES roof_wedge_falls RANKS 1 SLOW
   SET "Ground/Depth=100" "Ground/K0=0.2" "Joints/*/Friction angle=10"
   "Mesh/Cells across blocks=2" "Safety factor/Blocks=none"
   "Stages/dig/Unbalanced ratio=1e-3")
