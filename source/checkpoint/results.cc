@@ -52,6 +52,9 @@ namespace Keyblock
     action(factor.group_undecided_upper);
     action(factor.limit_factor);
     action(factor.limit_once_gone.factor);
+    action(factor.facts.is_complete);
+    action(factor.facts.loses_friction);
+    action(factor.facts.bears_tension);
     action(factor.stress_ratio);
     action(factor.support_demand.factor);
     action(factor.support_demand.force);
@@ -147,6 +150,21 @@ namespace Keyblock
         }
     }
 
+    /** Modes of factors; @p mode is one of a factor. */
+    void
+    exchange_modes(StateFile &file,
+                   const std::string &name,
+                   std::vector<SafetyFactor> &factors,
+                   BlockMode SafetyFactor::*const mode)
+    {
+      std::vector<std::string> texts;
+      for (const SafetyFactor &factor : factors)
+        texts.push_back((factor.*mode).to_lines());
+      file.exchange(name, texts);
+      for (unsigned int f = 0; f < factors.size(); ++f)
+        factors[f].*mode = BlockMode::from_lines(texts.at(f));
+    }
+
     /** Trials of factors, or of their demands; @p list gives those of one. */
     template <typename List>
     void
@@ -210,12 +228,12 @@ namespace Keyblock
   {
     exchange_rows(file, group + "numbers", factors);
     exchange_texts(file, group + "stage", factors, &SafetyFactor::stage);
-    exchange_texts(file,
+    exchange_modes(file,
                    group + "failure_mode",
                    factors,
                    &SafetyFactor::failure_mode);
     exchange_texts(file, group + "held_by", factors, &SafetyFactor::held_by);
-    exchange_texts(file,
+    exchange_modes(file,
                    group + "limit_mode",
                    factors,
                    &SafetyFactor::limit_mode);
@@ -294,8 +312,8 @@ namespace Keyblock
         packed.first.push_back(
           row_of_bolts(factor.tried_demand.numbers, tried_sets));
         for (const std::string &text : {factor.stage,
-                                        factor.failure_mode,
-                                        factor.limit_mode,
+                                        factor.failure_mode.to_lines(),
+                                        factor.limit_mode.to_lines(),
                                         factor.limit_remark,
                                         factor.held_by,
                                         sets,
@@ -330,8 +348,8 @@ namespace Keyblock
           auto factor         = from_numbers<SafetyFactor>(row[0].data());
           factor.trials       = trials_of(row[1]);
           factor.stage        = text[0];
-          factor.failure_mode = text[1];
-          factor.limit_mode   = text[2];
+          factor.failure_mode = BlockMode::from_lines(text[1]);
+          factor.limit_mode   = BlockMode::from_lines(text[2]);
           factor.limit_remark = text[3];
           factor.group.assign(row[2].begin(), row[2].end());
           factor.held_by                = text[4];

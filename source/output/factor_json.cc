@@ -110,7 +110,7 @@ namespace Keyblock
           json["undecided_upper"] = factor.undecided_upper;
         }
       json["outcome"]      = describe_outcome(factor);
-      json["failure_mode"] = factor.failure_mode;
+      json["failure_mode"] = factor.failure_mode.text();
       if (!factor.group.empty())
         json["group"] = group_as_json(factor);
       if (factor.tried_demand.outcome != TriedDemand::Outcome::not_sought)
@@ -145,7 +145,7 @@ namespace Keyblock
         if (factor.block != block)
           continue;
         Json cheap = {{"stage", factor.stage},
-                      {"mode", factor.limit_mode},
+                      {"mode", factor.limit_mode.text()},
                       {"remark", factor.limit_remark}};
         put_limit_factor(factor.limit_factor, cheap);
         if (const OnceGone &then = factor.limit_once_gone; !then.blocks.empty())
@@ -161,7 +161,7 @@ namespace Keyblock
         ratio.push_back({{"stage", factor.stage}});
         if (factor.stress_ratio > 0.)
           ratio.back()["value"] = factor.stress_ratio;
-        json["failure_mode"] = factor.failure_mode;
+        json["failure_mode"] = factor.failure_mode.text();
       }
     if (!limit.empty())
       json["limit_equilibrium"] = limit;

@@ -136,9 +136,9 @@ namespace Keyblock
               factor.undecided_upper > 0. ? positive(factor.undecided_lower)
                                           : "",
               positive(factor.undecided_upper),
-              factor.failure_mode,
+              factor.failure_mode.text(),
               limit_factor_of(factor),
-              factor.limit_mode,
+              factor.limit_mode.text(),
               factor.limit_remark,
               positive(factor.stress_ratio),
               group,

@@ -195,10 +195,10 @@ namespace Keyblock::Python
     result.lower        = factor.lower;
     result.upper        = factor.upper > 0. ? factor.upper
                                             : std::numeric_limits<double>::infinity();
-    result.failure_mode = factor.failure_mode;
+    result.failure_mode = factor.failure_mode.text();
     result.group        = factor.group;
     result.limit_factor = factor.limit_factor;
-    result.limit_mode   = factor.limit_mode;
+    result.limit_mode   = factor.limit_mode.text();
     result.stress_ratio =
       factor.stress_ratio > 0. ? factor.stress_ratio : unknown;
     result.n_trials = factor.trials.size();

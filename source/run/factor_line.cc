@@ -3,9 +3,6 @@
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/run/safety_study.h>
 #include <keyblock/safety/block_statics.h>
-#include <keyblock/safety/friction_loss.h>
-
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,19 +71,12 @@ namespace Keyblock
     std::string
     pressed_beside(const SafetyFactor &factor)
     {
-      const auto joints = [](const std::string &mode) {
-        const std::size_t on = mode.find(" on ");
-        return on == std::string::npos
-                 ? std::vector<std::string>()
-                 : dealii::Utilities::split_string_list(mode.substr(on + 4),
-                                                        '/');
-      };
-      const std::vector<std::string> known = joints(factor.limit_mode);
-      std::string pressed;
-      for (const std::string &name : joints(factor.failure_mode))
+      const std::vector<std::string> &known = factor.limit_mode.joints;
+      BlockMode pressed;
+      for (const std::string &name : factor.failure_mode.joints)
         if (std::find(known.begin(), known.end(), name) == known.end())
-          pressed += (pressed.empty() ? "" : "/") + name;
-      return pressed;
+          pressed.add_joint(name);
+      return pressed.names();
     }
 
 
@@ -95,7 +85,7 @@ namespace Keyblock
      * known; else empty. */
     template <int dim>
     std::string
-    explain_more(const SafetyFactor &factor, const Scene<dim> &scene)
+    explain_more(const SafetyFactor &factor)
     {
       // shear across the way has held wedges at up to this times limit
       // equilibrium
@@ -107,10 +97,10 @@ namespace Keyblock
       if (!pressed.empty())
         return "; more than limit equilibrium, as " + pressed +
                " is pressed, too, by turning or by stress" + advice;
-      if (!is_known_to_statics(scene))
+      if (!factor.facts.is_complete)
         return "";
       const bool is_on_two_planes =
-        dim == 3 && factor.limit_mode.find('/') != std::string::npos;
+        dim == 3 && factor.limit_mode.joints.size() > 1;
       if (factor.lower > most_by_shear * factor.limit_factor)
         return "; far more than limit equilibrium, and nothing known holds it" +
                advice;
@@ -134,10 +124,10 @@ namespace Keyblock
           !std::isfinite(limit) || limit < 0.)
         return "";
       if (factor.lower > more * limit)
-        return explain_more(factor, scene);
+        return explain_more<dim>(factor);
       if (factor.upper >= less * limit)
         return "";
-      if (loses_friction(scene))
+      if (factor.facts.loses_friction)
         return "; less than limit equilibrium, as friction falls where points "
                "slip";
       if (!has_initial_stress(scene))
@@ -249,15 +239,15 @@ namespace Keyblock
       out << factor.value() << " [" << factor.lower << ", " << factor.upper
           << "]";
     else if (factor.outcome == SafetyFactor::Outcome::falls_freely &&
-             factor.failure_mode != "falling")
+             factor.failure_mode.motion != "falling")
       out << "below " << factor.upper;
     else if (is_tried)
       out << describe_outcome(factor);
     if (factor.undecided_upper > 0.)
       out << ", undecided from " << factor.undecided_lower << " to "
           << factor.undecided_upper;
-    if (!factor.failure_mode.empty())
-      out << ", " << factor.failure_mode;
+    if (!factor.failure_mode.motion.empty())
+      out << ", " << factor.failure_mode.text();
     if (!factor.group.empty())
       out << "; " << describe_group(factor);
     out << (is_tried ? "; " : "") << "limit equilibrium "
@@ -266,7 +256,7 @@ namespace Keyblock
       out << factor.limit_factor << " ";
     else
       out << "above all ";
-    out << "(" << factor.limit_mode << (factor.limit_remark.empty() ? "" : "; ")
+    out << "(" << factor.limit_mode.text() << (factor.limit_remark.empty() ? "" : "; ")
         << factor.limit_remark << ")";
     if (factor.stress_ratio > 0.)
       out << ", stress ratio " << factor.stress_ratio;
@@ -276,13 +266,8 @@ namespace Keyblock
       if (trial.is_stable && !trial.is_of_group && trial.factor == factor.lower)
         last = trial;
     // a bond that keeps its cohesion has lost no more than its tensile strength
-    const bool bears_tension =
-      std::any_of(scene.joints.begin(),
-                  scene.joints.end(),
-                  [](const auto &joint) {
-                    return joint->tensile_strength > 0.;
-                  });
-    if (last.n_broken > 0 && (bears_tension || last.weakened_area > 0.))
+    if (last.n_broken > 0 &&
+        (factor.facts.bears_tension || last.weakened_area > 0.))
       out << "; " << last.n_broken << " bonds broke in the last that held";
     if (last.weakened_area > 0.)
       out << "; cohesion lost on " << last.weakened_area

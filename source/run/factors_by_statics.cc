@@ -72,7 +72,9 @@ namespace Keyblock
         factor.block           = one.block;
         factor.stage           = model.scene.stages[record.present.index]->name;
         factor.outcome         = SafetyFactor::Outcome::by_statics;
-        factor.limit_mode      = one.statics.mode();
+        factor.limit_mode =
+          one.statics.limit.block_mode(one.statics.around.faces);
+        factor.facts           = one.statics.facts;
         factor.limit_remark    = one.statics.remark();
         factor.limit_factor    = one.statics.limit.factor;
         factor.limit_once_gone = one.once_gone;

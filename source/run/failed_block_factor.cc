@@ -163,7 +163,7 @@ namespace Keyblock
       }
     // how it went is not looked at
     result.failure_mode =
-      std::isfinite(result.limit_factor) ? result.limit_mode : "";
+      std::isfinite(result.limit_factor) ? result.limit_mode : BlockMode();
     result.held_by.clear();
     if (model.scene.safety.is_demand_tried())
       result.tried_demand.outcome = TriedDemand::Outcome::undecided;

@@ -4,6 +4,7 @@
 #include <keyblock/run/stage_runner.h>
 #include <keyblock/run/static_stage.h>
 #include <keyblock/safety/block_stiffness.h>
+#include <keyblock/safety/caught_block.h>
 #include <keyblock/scene/step_count.h>
 #include <keyblock/step/guided_blocks.h>
 
@@ -39,7 +40,7 @@ namespace Keyblock
     /** Whatever drives it. What decays, or goes with the root of time, slows
      * down more from a quarter of the time to the half after it; soft blocks
      * that rock on a corner until they rest go this far, slender ones. */
-    constexpr Failure goes_on = {0.75, 1e-3, 50.};
+    constexpr Failure goes_on = {0.75, size_of_place, compressions_of_place};
 
     /** One that forces drive all the while, as damping takes up what they do:
      * what decays so little goes seven times as far as in that half. */
@@ -178,9 +179,9 @@ namespace Keyblock
             observer.sampled(progress);
           }
         // the ledger starts anew when a block is taken away
-        progress.has_removed = stage.is_quasi_static() &&
-                               i % removal_interval == 0 &&
-                               remove_failed_blocks(stage, progress);
+        progress.has_removed =
+          stage.is_quasi_static() && i % removal_interval == 0 &&
+          remove_blocks(list_failed_blocks(progress), stage, progress);
         if (stage.is_quasi_static() && i % pace_interval == 0 &&
             model.conditions->loads.is_ramping())
           pace_ramp(stage);
@@ -193,6 +194,11 @@ namespace Keyblock
             !(stage.is_quasi_static() &&
               is_any_block_moving_off(model, quasi_static_interval)))
           {
+            progress.has_removed =
+              stage.is_quasi_static() &&
+              remove_blocks(list_caught_blocks(progress), stage, progress);
+            if (progress.has_removed)
+              continue;
             progress.is_converged = true;
             break;
           }
@@ -300,7 +306,7 @@ namespace Keyblock
   {
     if (model.contact == nullptr || model.scene.safety.removal_slip == 0.)
       return {};
-    std::vector<unsigned int> failed;
+    std::vector<unsigned int> failed = list_caught_blocks(progress);
     std::vector<double> ways(model.blocks.blocks.size(), 0.);
     const auto motions =
       model.contact->motions().measure(progress.way_in_stage(model.fields));
@@ -312,31 +318,70 @@ namespace Keyblock
     const std::vector<bool> is_steady =
       mark_steady_blocks(motions, ways, progress);
     for (unsigned int b = 0; b < ways.size(); ++b)
-      if (can_fail(b) && (ways[b] > model.scene.safety.removal_slip *
-                                      model.blocks.blocks[b].size ||
-                          is_steady[b]))
+      if (can_fail(b) &&
+          (ways[b] > model.scene.safety.removal_slip *
+                       model.blocks.blocks[b].size ||
+           is_steady[b]) &&
+          std::count(failed.begin(), failed.end(), b) == 0)
         failed.push_back(b);
-    if (failed.empty())
+    return without_guided(failed);
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  StageRunner<dim>::list_caught_blocks(
+    const StageProgress<dim> &progress) const
+  {
+    if (model.contact == nullptr || model.scene.safety.removal_slip == 0.)
       return {};
-    const std::vector<bool> is_guided = mark_guided_blocks(
-      model.fields,
-      owned_nodes_of_blocks(model.split, *model.numbering, ways.size()),
-      model.communicator);
-    failed.erase(std::remove_if(failed.begin(),
-                                failed.end(),
-                                [&](const auto b) { return is_guided[b]; }),
-                 failed.end());
-    return failed;
+    const auto motions =
+      model.contact->motions().measure(progress.way_in_stage(model.fields));
+    std::vector<unsigned int> caught;
+    for (unsigned int b = 0; b < motions.size(); ++b)
+      if (can_fail(b) &&
+          motions[b].way() > size_of_place * model.blocks.blocks[b].size &&
+          is_caught_elsewhere<dim>(model.conditions->active_cells.ground(),
+                                   model.blocks,
+                                   b,
+                                   model.step->time,
+                                   motions[b].way(),
+                                   motions[b].load,
+                                   model.contact->report().sum_over_block(b)))
+        caught.push_back(b);
+    return without_guided(caught);
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  StageRunner<dim>::without_guided(std::vector<unsigned int> list) const
+  {
+    if (list.empty())
+      return list;
+    const std::vector<bool> is_guided =
+      mark_guided_blocks(model.fields,
+                         owned_nodes_of_blocks(model.split,
+                                               *model.numbering,
+                                               model.blocks.blocks.size()),
+                         model.communicator);
+    list.erase(std::remove_if(list.begin(),
+                              list.end(),
+                              [&](const auto b) { return is_guided[b]; }),
+               list.end());
+    return list;
   }
 
 
 
   template <int dim>
   bool
-  StageRunner<dim>::remove_failed_blocks(const Stage &stage,
-                                         StageProgress<dim> &progress)
+  StageRunner<dim>::remove_blocks(const std::vector<unsigned int> &failed,
+                                  const Stage &stage,
+                                  StageProgress<dim> &progress)
   {
-    const std::vector<unsigned int> failed = list_failed_blocks(progress);
     if (failed.empty())
       return false;
     progress.restart_slips();

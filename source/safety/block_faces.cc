@@ -187,7 +187,8 @@ namespace Keyblock
                 const unsigned int joint)
       {
         result.faces.push_back(
-          make_block_face<dim>(inward, name, law, has_reduced(reduced, joint)));
+          make_block_face<dim>(
+            inward, name, law, joint, has_reduced(reduced, joint)));
         result.others.emplace_back();
         return result.faces.size() - 1;
       }
@@ -209,6 +210,7 @@ namespace Keyblock
             faces.push_back(make_block_face<dim>(inward,
                                                  joint.name,
                                                  make_joint_law(joint),
+                                                 j,
                                                  has_reduced(reduced, j)));
             result.others_of_crumbs.emplace_back();
           }

@@ -66,7 +66,7 @@ namespace Keyblock
         for (unsigned int j = 0; j < scene.joints.size(); ++j)
           is_varying =
             is_varying ||
-            (!around.loads.water.empty() &&
+            (around.touches(j) &&
              depends_on_time(scene.water_pressure(j, ground.stage_number)));
         if (is_varying)
           add() << "loads of t = " << time << " s";
@@ -140,13 +140,10 @@ namespace Keyblock
                       : "");
         // facets of bent joints, by their pieces
         std::map<std::string, std::map<unsigned int, unsigned int>> n_facets;
-        for (const auto &joint : scene.joints)
+        for (unsigned int j = 0; j < scene.joints.size(); ++j)
           {
-            if (std::none_of(around.faces.begin(),
-                             around.faces.end(),
-                             [&](const BlockFace<dim> &face) {
-                               return face.name == joint->name;
-                             }) ||
+            const auto &joint = scene.joints[j];
+            if (!around.touches(j) ||
                 (!joint->surface.empty() &&
                  (++n_facets[joint->surface][joint->piece] > 1 ||
                   n_facets[joint->surface].size() > 1)))
@@ -158,7 +155,8 @@ namespace Keyblock
             if (joint->cohesion_of_sliding() < joint->cohesion)
               add() << "peak cohesion of " << name << ", residual "
                     << joint->cohesion_of_sliding() << " Pa";
-            if (const FrictionLoss loss(*joint); loss.is_felt())
+            if (const FrictionLoss loss(*make_joint_law(*joint));
+                loss.is_felt())
               add() << loss.describe(name);
           }
         names.clear();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/number_text.h>
 #include <keyblock/safety/block_remarks.h>
-#include <keyblock/safety/friction_loss.h>
 #include <keyblock/safety/hanging_group.h>
 
 #include <algorithm>
@@ -168,6 +167,22 @@ namespace Keyblock
              ": try the other sign, too, with which it is " +
              text_for(factor_for(-1.));
     }
+
+    template <int dim>
+    BlockFacts
+    find_facts(const Scene<dim> &scene, const BlockStatics<dim> &statics)
+    {
+      const std::vector<BlockFace<dim>> &faces = statics.around.faces;
+      BlockFacts facts;
+      facts.loses_friction = statics.around.loses_friction();
+      facts.bears_tension =
+        std::any_of(faces.begin(), faces.end(), [](const auto &face) {
+          return face.tensile_strength > 0.;
+        });
+      facts.is_complete = !has_initial_stress(scene) &&
+                          !facts.loses_friction && !statics.support.acts();
+      return facts;
+    }
   } // namespace
 
 
@@ -190,6 +205,7 @@ namespace Keyblock
       find_motion<dim>(statics.around, statics.support, is_passive);
     const std::string lost_remark =
       leave_out_lost_faces(statics, is_passive, motion);
+    statics.facts = find_facts(ground.scene, statics);
     statics.limit = statics.alone = motion.limit;
     const std::string seismic_remark =
       remark_on_seismic(statics, is_passive, motion.limit.factor);
@@ -227,16 +243,6 @@ namespace Keyblock
            !scene.initial_state.measured_points.empty();
   }
 
-
-
-  template <int dim>
-  bool
-  is_known_to_statics(const Scene<dim> &scene)
-  {
-    return !has_initial_stress(scene) && !loses_friction(scene) &&
-           scene.bolts.empty() && scene.liners.empty();
-  }
-
   template BlockStatics<2> judge_block(const Ground<2> &,
                                        const FreeFaces<2> &,
                                        const Blocks<2> &,
@@ -251,6 +257,4 @@ namespace Keyblock
                                        const BrokenSegments &);
   template bool has_initial_stress(const Scene<2> &);
   template bool has_initial_stress(const Scene<3> &);
-  template bool is_known_to_statics(const Scene<2> &);
-  template bool is_known_to_statics(const Scene<3> &);
 } // namespace Keyblock

@@ -142,6 +142,7 @@ namespace Keyblock
               {
                 const double strength =
                   liner.shear_strength * liner.thickness * trace.length;
+                support.has_liner = true;
                 support.shotcrete_length += trace.length;
                 support.shotcrete_strength += strength;
                 support.sections.push_back(
@@ -151,6 +152,7 @@ namespace Keyblock
             if (part.block == block && !ground.is_excavated(part.cell))
               {
                 const double m = part.area * liner.thickness * liner.density;
+                support.has_liner = true;
                 mass += m;
                 support.shotcrete_center +=
                   m * Tensor<1, dim>(ground.split.mesh.vertices[part.vertex]);

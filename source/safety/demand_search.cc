@@ -123,11 +123,13 @@ namespace Keyblock
       return pressed;
     pressed.area_of_force =
       statics.around.free_area_ratio * pressed.area.norm();
-    if (std::isfinite(statics.demand.pressure))
-      pressed.by_statics = statics.demand.pressure;
+    const double by_statics =
+      std::isfinite(statics.demand.pressure) ? statics.demand.pressure : 0.;
+    if (statics.facts.is_complete)
+      pressed.slides_below = by_statics;
     pressed.first_guess =
-      pressed.by_statics > 0.
-        ? pressed.by_statics
+      by_statics > 0.
+        ? by_statics
         : guess_pressure(pressed,
                          unbalanced_in_failure(result, scene.safety.wanted));
     return pressed;

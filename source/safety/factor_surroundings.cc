@@ -51,27 +51,26 @@ namespace Keyblock
       std::ostringstream text;
       text << std::setprecision(4);
       for (const unsigned int i : statics.limit.faces)
-        for (unsigned int j = 0; j < losses.size(); ++j)
-          {
-            const StrengthLoss &loss = losses[j];
-            BlockFace<dim> &face     = weakened.faces[i];
-            if (scene.joints[j]->name != face.name)
-              continue;
-            if (loss.area > 0.)
-              text << (text.tellp() > 0 ? ", " : "") << "cohesion of "
-                   << face.name << " counted on " << loss.area
-                   << (dim == 2 ? " m" : " m2") << " that have lost it";
-            const double tangent =
-              std::max(0., face.tangent_friction - loss.tangent);
-            if (tangent < (1. - least) * face.tangent_friction)
-              text << (text.tellp() > 0 ? ", " : "") << "friction of "
-                   << face.name << " counted with "
-                   << degrees(face.tangent_friction) << " degrees, of which "
-                   << degrees(tangent) << " are left";
-            face.tangent_friction = tangent;
-            face.cohesion =
-              std::max(0., face.cohesion - loss.cohesion / face.area);
-          }
+        {
+          BlockFace<dim> &face = weakened.faces[i];
+          if (face.joint == none)
+            continue;
+          const StrengthLoss &loss = losses[face.joint];
+          if (loss.area > 0.)
+            text << (text.tellp() > 0 ? ", " : "") << "cohesion of "
+                 << face.name << " counted on " << loss.area
+                 << (dim == 2 ? " m" : " m2") << " that have lost it";
+          const double tangent =
+            std::max(0., face.tangent_friction - loss.tangent);
+          if (tangent < (1. - least) * face.tangent_friction)
+            text << (text.tellp() > 0 ? ", " : "") << "friction of "
+                 << face.name << " counted with "
+                 << degrees(face.tangent_friction) << " degrees, of which "
+                 << degrees(tangent) << " are left";
+          face.tangent_friction = tangent;
+          face.cohesion =
+            std::max(0., face.cohesion - loss.cohesion / face.area);
+        }
       if (text.tellp() == 0)
         return;
       const bool is_passive =
@@ -225,15 +224,15 @@ namespace Keyblock
     remark_on_lost_strength(scene,
                             run.contact->report().lost_strength(block),
                             statics);
-    result.limit_mode     = statics.mode();
+    result.limit_mode = statics.limit.block_mode(statics.around.faces);
+    result.facts      = statics.facts;
     result.limit_remark   = statics.remark();
     result.limit_factor   = statics.limit.factor;
     result.limit_alone    = statics.alone.factor;
     result.limit_moves    = statics.alone.direction.norm() > 0.;
     result.support_demand = statics.demand;
     result.stress_ratio =
-      stress_ratio<dim>(scene,
-                        statics.around.faces,
+      stress_ratio<dim>(statics.around.faces,
                         statics.limit,
                         run.contact->report().sum_over_block(block));
   }
@@ -241,23 +240,23 @@ namespace Keyblock
 
 
   template <int dim>
-  std::string
+  BlockMode
   StrengthReductionSearch<dim>::mode_if_not_held(const unsigned int block) const
   {
     const BlockStatics<dim> statics          = judge_now(blocks, block, run);
     const std::vector<BlockFace<dim>> &faces = statics.around.faces;
     const std::set<unsigned int> pressed =
       statics.limit.pressed_faces(faces, statics.around.loads.without_water());
+    BlockMode mode;
+    mode.motion = "falling";
     if (pressed.empty() ||
         is_seated(faces, pressed, statics.around.loads.all()))
-      return "falling";
-    std::set<std::string> names;
+      return mode;
+    mode.motion = "rotating";
     for (const unsigned int i : pressed)
-      names.insert(faces[i].name);
-    std::string text = "rotating on ";
-    for (const std::string &name : names)
-      text += (name == *names.begin() ? "" : "/") + name;
-    return text;
+      mode.add_joint(faces[i].name);
+    std::sort(mode.joints.begin(), mode.joints.end());
+    return mode;
   }
 
 
@@ -352,9 +351,9 @@ namespace Keyblock
   StrengthReductionSearch<3>::freeze_beyond_reach(const TriedBlocks &);
   template TriedBlocks
   StrengthReductionSearch<2>::with_row(const TriedBlocks &) const;
-  template std::string
+  template BlockMode
   StrengthReductionSearch<2>::mode_if_not_held(const unsigned int) const;
-  template std::string
+  template BlockMode
   StrengthReductionSearch<3>::mode_if_not_held(const unsigned int) const;
   template Tensor<1, 2>
   StrengthReductionSearch<2>::tell_ways(const TriedBlocks &);

@@ -268,41 +268,32 @@ namespace Keyblock
 
 
   template <int dim>
-  std::string
-  LimitEquilibrium<dim>::describe(const std::vector<BlockFace<dim>> &all) const
+  BlockMode
+  LimitEquilibrium<dim>::block_mode(
+    const std::vector<BlockFace<dim>> &all) const
   {
+    BlockMode result;
     switch (mode)
       {
         case Mode::stable:
-          return "stable";
+          result.motion = "stable";
+          return result;
         case Mode::falling:
-          return "falling";
+          result.motion = "falling";
+          return result;
         case Mode::lifting:
-          return "lifting";
+          result.motion = "lifting";
+          return result;
         case Mode::one_plane:
         case Mode::two_planes:
-          return "sliding on " + names(all);
+          result.motion = "sliding";
+          break;
         case Mode::rotating:
-          return n_pressed == 0 ? "rotating" : "rotating on " + names(all);
+          result.motion = "rotating";
       }
-    return "";
-  }
-
-
-
-  template <int dim>
-  std::string
-  LimitEquilibrium<dim>::names(const std::vector<BlockFace<dim>> &all) const
-  {
-    std::vector<std::string> found;
     for (unsigned int i = 0; i < n_pressed; ++i)
-      if (const std::string &name = all[faces[i]].name;
-          std::find(found.begin(), found.end(), name) == found.end())
-        found.push_back(name);
-    std::string text;
-    for (const std::string &name : found)
-      text += (text.empty() ? "" : "/") + name;
-    return text;
+      result.add_joint(all[faces[i]].name);
+    return result;
   }
 
   template struct LimitEquilibrium<2>;

@@ -71,7 +71,7 @@ namespace Keyblock
     TriedBlocks tried;
     tried.block = block;
     if (result.limit_moves && std::isfinite(result.limit_alone) &&
-        is_known_to_statics(scene))
+        result.facts.is_complete)
       tried.limit = result.limit_alone;
     if (result.limit_moves && std::isfinite(result.limit_alone))
       tried.limit_without_stress = result.limit_alone;
@@ -88,7 +88,7 @@ namespace Keyblock
            dealii::ExcInternalError());
     if (result.outcome != SafetyFactor::Outcome::immovable)
       result.failure_mode = result.outcome == SafetyFactor::Outcome::met
-                              ? ""
+                              ? BlockMode()
                               : trials.failure.mode();
     else if (result.limit_moves)
       result.outcome = SafetyFactor::Outcome::clamped;

@@ -17,8 +17,7 @@ namespace Keyblock
 
   template <int dim>
   double
-  stress_ratio(const Scene<dim> &scene,
-               const std::vector<BlockFace<dim>> &faces,
+  stress_ratio(const std::vector<BlockFace<dim>> &faces,
                const LimitEquilibrium<dim> &limit,
                const std::vector<JointSums<dim>> &sums)
   {
@@ -33,42 +32,38 @@ namespace Keyblock
           continue;
         const double along =
           leaves_all ? std::sqrt(std::max(0., 1. - leaves * leaves)) : 1.;
-        for (unsigned int j = 0; j < scene.joints.size(); ++j)
-          if (scene.joints[j]->name == face.name)
-            {
-              const JointSums<dim> &sum = sums[j];
-              Tensor<1, dim> force;
-              for (unsigned int d = 0; d < dim; ++d)
-                force[d] = sum.force[d];
-              const double normal = force * face.inward;
-              shear += force - normal * face.inward;
-              const unsigned int n_closed = sum.n_sliding + sum.n_sticking;
-              if (n_closed == 0)
-                continue;
-              double tangent = face.tangent_friction;
-              if (face.law != nullptr && face.area > 0.)
-                {
-                  JointPointState state;
-                  state.pressure = std::max(0., normal) / face.area;
-                  tangent        = face.law->envelope(state).static_tangent;
-                }
-              const double cohesion =
-                face.cohesion * face.area * n_closed / (sum.n_open + n_closed);
-              (face.is_reduced ? reduced : fixed) +=
-                along * std::max(0., cohesion + tangent * normal);
-            }
+        if (face.joint == none)
+          continue;
+        const JointSums<dim> &sum = sums[face.joint];
+        Tensor<1, dim> force;
+        for (unsigned int d = 0; d < dim; ++d)
+          force[d] = sum.force[d];
+        const double normal = force * face.inward;
+        shear += force - normal * face.inward;
+        const unsigned int n_closed = sum.n_sliding + sum.n_sticking;
+        if (n_closed == 0)
+          continue;
+        double tangent = face.tangent_friction;
+        if (face.law != nullptr && face.area > 0.)
+          {
+            JointPointState state;
+            state.pressure = std::max(0., normal) / face.area;
+            tangent        = face.law->envelope(state).static_tangent;
+          }
+        const double cohesion =
+          face.cohesion * face.area * n_closed / (sum.n_open + n_closed);
+        (face.is_reduced ? reduced : fixed) +=
+          along * std::max(0., cohesion + tangent * normal);
       }
     const double force =
       leaves_all ? std::abs(shear * limit.direction) : shear.norm();
     return force > fixed && reduced > 0. ? reduced / (force - fixed) : 0.;
   }
 
-  template double stress_ratio(const Scene<2> &,
-                               const std::vector<BlockFace<2>> &,
+  template double stress_ratio(const std::vector<BlockFace<2>> &,
                                const LimitEquilibrium<2> &,
                                const std::vector<JointSums<2>> &);
-  template double stress_ratio(const Scene<3> &,
-                               const std::vector<BlockFace<3>> &,
+  template double stress_ratio(const std::vector<BlockFace<3>> &,
                                const LimitEquilibrium<3> &,
                                const std::vector<JointSums<3>> &);
 } // namespace Keyblock

@@ -44,7 +44,7 @@ namespace Keyblock
   void
   TrialFailure<dim>::forget()
   {
-    last_mode.clear();
+    last_mode = BlockMode();
     last_way = Vector<dim>{};
     along.clear();
     moving.clear();
@@ -77,7 +77,7 @@ namespace Keyblock
   void
   TrialFailure<dim>::note(const unsigned int block, const Vector<dim> &slip)
   {
-    last_mode = name_mode(block, slip);
+    last_mode = find_mode(block, slip);
     list_blocks_that_moved(block);
   }
 
@@ -124,8 +124,8 @@ namespace Keyblock
 
 
   template <int dim>
-  std::string
-  TrialFailure<dim>::name_mode(const unsigned int block,
+  BlockMode
+  TrialFailure<dim>::find_mode(const unsigned int block,
                                const Vector<dim> &slip) const
   {
     // a motion that varies over the block more than its mean is a rotation
@@ -152,19 +152,19 @@ namespace Keyblock
     if (scene.safety.reduces_rock &&
         norm<dim>(Keyblock::add<dim>(slip, -1., slip_before)) <
           yielding_share * std::sqrt(sums[1] / sums[0]))
-      return "yielding";
+      return {"yielding", {}};
 
     const double total =
       std::accumulate(joint_force.begin(), joint_force.end(), 0.);
-    std::string names;
+    BlockMode mode;
     for (unsigned int j = 0; j < joint_force.size(); ++j)
       if (joint_force[j] > 0.01 * total && joint_force[j] > 0.)
-        names += (names.empty() ? "" : "/") + (j < scene.joints.size()
-                                                 ? scene.joints[j]->name
-                                                 : std::string("a free face"));
-    if (names.empty())
-      return "falling";
-    return (rotates ? "rotating on " : "sliding on ") + names;
+        mode.add_joint(j < scene.joints.size() ? scene.joints[j]->name :
+                                                 "a free face");
+    mode.motion = mode.joints.empty() ? "falling" :
+                  rotates             ? "rotating" :
+                                        "sliding";
+    return mode;
   }
 
   template class TrialFailure<2>;

@@ -30,12 +30,22 @@ namespace Keyblock
   private:
     void step_through(const Stage &stage, StageProgress<dim> &progress);
 
-    /** Whether any was there to be removed. */
-    bool remove_failed_blocks(const Stage &stage, StageProgress<dim> &progress);
+    /** Take blocks (by index) away; whether there were any. */
+    bool remove_blocks(const std::vector<unsigned int> &failed,
+                       const Stage &stage,
+                       StageProgress<dim> &progress);
 
-    /** Blocks that have gone too far, or at a steady speed, and not where
-     * supports move them. */
+    /** Blocks that have moved too far, move at a steady speed, or have been
+     * caught, and not where supports move them. */
     std::vector<unsigned int> list_failed_blocks(StageProgress<dim> &progress);
+
+    /** Those that have left their places and lie on other faces. */
+    std::vector<unsigned int>
+    list_caught_blocks(const StageProgress<dim> &progress) const;
+
+    /** A list of blocks without those that supports hold or move. */
+    std::vector<unsigned int>
+    without_guided(std::vector<unsigned int> list) const;
 
     /** Whether a block is there that can be taken away. */
     bool can_fail(const unsigned int block) const;

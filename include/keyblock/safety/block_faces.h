@@ -39,16 +39,24 @@ namespace Keyblock
     bool is_attached   = false; ///< to rock that is not excavated yet
     bool is_on_fill    = false;
     bool has_free_face = false; ///< that touches another one
+
+    /** Whether one of the faces lies on a joint (by index). */
+    bool touches(const unsigned int joint) const;
+
+    /** Whether friction of a joint that it touches falls where it slips. */
+    bool loses_friction() const;
   };
 
   /** A face with the strength of a joint that has not slipped, without area or
    * corners.
    * @param inward unit normal, into the block
+   * @param joint index, or none
    * @param is_reduced strength reduction divides its strength */
   template <int dim>
   BlockFace<dim> make_block_face(const Tensor<1, dim> &inward,
                                  const std::string &name,
                                  const std::shared_ptr<const JointLaw> &law,
+                                 const unsigned int joint,
                                  const bool is_reduced);
 
   /** Whether the mesh has plane parts of a bent joint on a block (known between

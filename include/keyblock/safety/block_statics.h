@@ -58,6 +58,17 @@ namespace Keyblock
                             const BlockSupport<dim> &support,
                             const double factor);
 
+  /** What may make strength reduction differ from limit equilibrium. */
+  struct BlockFacts
+  {
+    /** Limit equilibrium knows all that acts on the block: there is no initial
+     * stress, no support acts on it, and friction of its joints stays. */
+    bool is_complete = false;
+
+    bool loses_friction = false; ///< of one of its joints, where it slips
+    bool bears_tension  = false; ///< one of its joints
+  };
+
   /** What limit equilibrium says of a block at a stage. */
   template <int dim>
   struct BlockStatics
@@ -69,6 +80,7 @@ namespace Keyblock
                                       ///< and that stand with it
     std::vector<unsigned int> others; ///< that it moves with, by index
     SupportDemand demand;             ///< of SafetySettings::wanted
+    BlockFacts facts;
 
     /** What is special, and what was left out. */
     std::vector<std::string> remarks;
@@ -106,10 +118,6 @@ namespace Keyblock
    * equilibrium leaves out. */
   template <int dim>
   bool has_initial_stress(const Scene<dim> &scene);
-
-  /** Whether limit equilibrium knows all that acts on blocks. */
-  template <int dim>
-  bool is_known_to_statics(const Scene<dim> &scene);
 
   /**
    * The table for people: of each block with a free face its factor, mode and

@@ -47,6 +47,7 @@ namespace Keyblock
     };
     std::vector<Section> sections;
 
+    bool has_liner = false;        ///< shotcrete or another liner on it
     Tensor<1, dim> shotcrete_load; ///< of that on the block: weight, and
                                    ///< seismic [N]
     Point<dim> shotcrete_center;   ///< where that acts [m]
@@ -56,6 +57,13 @@ namespace Keyblock
     holds() const
     {
       return !pulls.empty() || shotcrete_strength > 0.;
+    }
+
+    /** Whether support acts on the block, if only by its weight. */
+    bool
+    acts() const
+    {
+      return !pulls.empty() || has_liner;
     }
 
     /** Sum of the forces along the bolts [N]. */

@@ -5,9 +5,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <keyblock/law/joint_law.h>
-#include <keyblock/scene/scene.h>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -19,15 +17,14 @@ namespace Keyblock
   {
     double peak, residual;
 
-    explicit FrictionLoss(const JointStrength &joint)
+    explicit FrictionLoss(const JointLaw &law)
     {
-      const std::shared_ptr<const JointLaw> law = make_joint_law(joint);
-      constexpr double long_way                 = 1e6; // [m]
+      constexpr double long_way = 1e6; // [m]
       JointPointState slid;
       slid.is_intact = false;
-      slid.history   = law->advance({}, long_way, 0.);
-      peak           = law->envelope({}).static_tangent;
-      residual       = law->envelope(slid).kinetic_tangent;
+      slid.history   = law.advance({}, long_way, 0.);
+      peak           = law.envelope({}).static_tangent;
+      residual       = law.envelope(slid).kinetic_tangent;
     }
 
     bool
@@ -47,20 +44,6 @@ namespace Keyblock
       return text.str();
     }
   };
-
-
-
-  /** Whether friction of a joint falls where it slips. */
-  template <int dim>
-  bool
-  loses_friction(const Scene<dim> &scene)
-  {
-    return std::any_of(scene.joints.begin(),
-                       scene.joints.end(),
-                       [](const auto &joint) {
-                         return FrictionLoss(*joint).is_felt();
-                       });
-  }
 } // namespace Keyblock
 
 #endif

@@ -5,6 +5,8 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <keyblock/safety/block_mode.h>
+
 #include <memory>
 #include <set>
 #include <string>
@@ -30,6 +32,11 @@ namespace Keyblock
 
     bool is_lost    = false; ///< between the planes, but not in the mesh
     bool is_reduced = true;  ///< the factor divides its strength
+
+    bool loses_friction = false; ///< where it slips
+
+    /** Index of its joint; none: it lies against a free face of other rock. */
+    unsigned int joint = dealii::numbers::invalid_unsigned_int;
 
     // only for judge_rotation()
     double tensile_strength = 0.;               ///< [Pa]
@@ -104,11 +111,15 @@ namespace Keyblock
     pressed_faces(const std::vector<BlockFace<dim>> &all,
                   const dealii::Tensor<1, dim> &load) const;
 
-    /** The mode in words: falling, sliding on J1, sliding on J1/J2. */
-    std::string describe(const std::vector<BlockFace<dim>> &all) const;
+    /** The mode with the joints of the faces that the block presses. */
+    BlockMode block_mode(const std::vector<BlockFace<dim>> &all) const;
 
-    /** Names of the faces it is pressed on, J1/J2. */
-    std::string names(const std::vector<BlockFace<dim>> &all) const;
+    /** The same in words: falling, sliding on J1, sliding on J1/J2. */
+    std::string
+    describe(const std::vector<BlockFace<dim>> &all) const
+    {
+      return block_mode(all).text();
+    }
   };
 
   /**

@@ -144,14 +144,6 @@ namespace Keyblock
                                                 : 0.5 * (low + driven_from);
     }
 
-    /** Whether limit equilibrium, where it knows all that acts, says that the
-     * block alone slides under @p pressure [Pa]. */
-    bool
-    slides_by_statics(const double pressure) const
-    {
-      return pressure < pressed.by_statics && is_known_to_statics(owner.scene);
-    }
-
     /** One with @p pressure [Pa]. */
     Trial
     try_pressure(const double pressure)
@@ -162,7 +154,7 @@ namespace Keyblock
       if (!is_at_rest)
         owner.run.conditions.trial_pressure.value = pressure;
       TriedBlocks tried = origin.tried;
-      tried.limit       = slides_by_statics(pressure) ? 0.5 * wanted : 0.;
+      tried.limit       = pressure < pressed.slides_below ? 0.5 * wanted : 0.;
       Trial trial       = owner.trials.try_factor(tried,
                                             origin.number,
                                             origin.start_of(wanted),

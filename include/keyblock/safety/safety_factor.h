@@ -2,6 +2,7 @@
 #ifndef keyblock_safety_safety_factor_h
 #define keyblock_safety_safety_factor_h
 
+#include <keyblock/safety/block_statics.h>
 #include <keyblock/safety/once_gone.h>
 #include <keyblock/safety/strength_trial.h>
 #include <keyblock/safety/support_demand.h>
@@ -36,7 +37,7 @@ namespace Keyblock
      * none. */
     double undecided_lower = 0., undecided_upper = 0.;
 
-    std::string failure_mode;
+    BlockMode failure_mode;
 
     /** What holds it at the highest factor, if it is clamped: clamping, bolts,
      * or both, and so on. */
@@ -57,7 +58,9 @@ namespace Keyblock
     TriedDemand tried_demand; ///< of SafetySettings::wanted
 
     // the two cheap answers
-    std::string limit_mode, limit_remark;
+    BlockMode limit_mode;
+    std::string limit_remark;
+    BlockFacts facts;
     double limit_factor = 0.;     ///< infinite: stable
     OnceGone limit_once_gone;     ///< the least factor without others
     double limit_alone  = 0.;     ///< by BlockStatics::alone, and whether it
@@ -108,9 +111,12 @@ namespace Keyblock
     Tensor<1, dim> area; ///< sum of the faces' areas, outwards [m^(dim-1)]
     double area_of_force = 0.; ///< its size for limit equilibrium, which takes
                                ///< that of the exact block [m^(dim-1)]
-    double unit        = 0.; ///< the block's load over it [Pa]; 0: no such face
-    double by_statics  = 0.; ///< what limit equilibrium asks for; 0: not [Pa]
-    double first_guess = 0.; ///< [Pa]
+    double unit = 0.; ///< the block's load over it [Pa]; 0: no such face
+
+    /** Pressure below which the block alone slides by limit equilibrium, where
+     * that knows all that acts on it; 0: unknown [Pa]. */
+    double slides_below = 0.;
+    double first_guess  = 0.; ///< [Pa]
   };
 
   template <int dim>
@@ -192,7 +198,7 @@ namespace Keyblock
 
     /** How @p block moves, if not even strong joints hold it: it rotates on
      * what it is not seated on, see is_seated(), else it falls. */
-    std::string mode_if_not_held(const unsigned int block) const;
+    BlockMode mode_if_not_held(const unsigned int block) const;
 
     /** Tell support which ways the blocks that are @p tried would take without
      * it, for reduced strengths; returns that of the one that is looked at. */

@@ -17,8 +17,7 @@ namespace Keyblock
    * reduced is taken from the force instead.
    */
   template <int dim>
-  double stress_ratio(const Scene<dim> &scene,
-                      const std::vector<BlockFace<dim>> &faces,
+  double stress_ratio(const std::vector<BlockFace<dim>> &faces,
                       const LimitEquilibrium<dim> &limit,
                       const std::vector<JointSums<dim>> &sums);
 } // namespace Keyblock

@@ -5,9 +5,8 @@
 #include <keyblock/blocks/blocks.h>
 #include <keyblock/contact/report.h>
 #include <keyblock/rock/fields.h>
+#include <keyblock/safety/block_mode.h>
 #include <keyblock/scene/scene.h>
-
-#include <string>
 
 namespace Keyblock
 {
@@ -39,8 +38,8 @@ namespace Keyblock
     void note(const unsigned int block, const Vector<dim> &slip);
 
     /** Falling, sliding or rotating, and on what, or yielding where the
-     * strength of rock is reduced, too; empty: nothing has failed. */
-    const std::string &
+     * strength of rock is reduced, too; without a motion nothing has failed. */
+    const BlockMode &
     mode() const
     {
       return last_mode;
@@ -69,8 +68,8 @@ namespace Keyblock
     }
 
   private:
-    std::string name_mode(const unsigned int block,
-                          const Vector<dim> &slip) const;
+    BlockMode find_mode(const unsigned int block,
+                        const Vector<dim> &slip) const;
     void list_blocks_that_moved(const unsigned int block);
 
     const Scene<dim> &scene;
@@ -81,7 +80,7 @@ namespace Keyblock
     std::vector<double> displacement_before; ///< of the second phase [m]
     Vector<dim> slip_before{};       ///< mean, on contacts, of that phase [m]
     std::vector<double> joint_force; ///< at its windows' ends, added up [N]
-    std::string last_mode;
+    BlockMode last_mode;
     Vector<dim> last_way{}; ///< [m]
     std::vector<unsigned int> along, moving;
   };
