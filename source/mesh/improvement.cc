@@ -155,7 +155,8 @@ namespace Keyblock
           return mesh.surfaces[s].is_curved;
         }))
       return false;
-    const auto locked = mesh.locked_directions(vertex, may_leave_joints);
+    const bool may_leave = !may_leave_joints.empty() && may_leave_joints[vertex];
+    const auto locked    = mesh.locked_directions(vertex, may_leave);
     if (locked.size() >= dim)
       return false;
     Point<dim> mean;
@@ -187,7 +188,7 @@ namespace Keyblock
           std::min(length, longest_move * size) / norm * direction;
         mesh.return_to_circles(vertex);
         const double now = mesh.least_quality_at(vertex, best);
-        if (now > best && (!may_leave_joints || is_near_its_joints(vertex)))
+        if (now > best && (!may_leave || is_near_its_joints(vertex)))
           best = now;
         else
           mesh.vertices[vertex] = before;
@@ -215,13 +216,16 @@ namespace Keyblock
   void
   MeshImprovement<dim>::improve_by_bending(const double wanted_quality,
                                            const unsigned int n_passes,
-                                           const double allowed_bend)
+                                           const double allowed_bend,
+                                           const std::vector<unsigned int> &fixed)
   {
     const double usual = this->allowed_bend;
     this->allowed_bend = allowed_bend;
-    may_leave_joints   = true;
+    may_leave_joints.assign(mesh.vertices.size(), true);
+    for (const unsigned int v : fixed)
+      may_leave_joints[v] = false;
     improve(wanted_quality, n_passes);
-    may_leave_joints   = false;
+    may_leave_joints.clear();
     this->allowed_bend = usual;
   }
 

@@ -24,25 +24,16 @@ namespace Keyblock
      * of one joint. */
     constexpr double wanted_at_joints = 0.35, wanted_between = 0.25;
 
-    /** At the end joints are bent so far, over the target size, where cells are
-     * below this: the stable step is then a tenth of that of cells of the
-     * wanted size without joints, or more. */
+    /** At the end joints between rock that stays are bent so far, over the
+     * target size, where cells are below this: the stable step is then a tenth
+     * of that of cells of the wanted size without joints, or more. */
     constexpr double largest_bend = 0.25;
     template <int dim>
     constexpr double least_quality = (dim == 2) ? 0.12 : 0.16;
 
-    /** Up to so many joints, each of the blocks that they make is looked at:
-     * if moved faces have changed pieces for good, or lost some, joints are cut
-     * once more with less of Mesh/Snap. */
-    template <int dim>
-    constexpr unsigned int few_joints = (dim == 2) ? 40 : 12;
-    constexpr double less_snap        = 0.25;
-
-    /** Such pieces are put right for cells of this quality, where some joints
-     * are bent or there are more than half as many, and where there are many.
-     */
-    constexpr double least_quality_of_few = 0.03, least_quality_of_more = 0.08,
-                     least_quality_of_many = 0.1;
+    /** Where moved faces have changed a piece for good, joints are cut again
+     * with a smaller snap around it, so many times in all at most. */
+    constexpr unsigned int most_cuts = 3;
 
     /** Joints are put back into their planes where cells stay as good. */
     constexpr double least_quality_of_flattening = 0.2;
@@ -252,39 +243,20 @@ namespace Keyblock
 
 
 
-    template <int dim>
-    double
-    least_quality_of_pieces(const JointSheets<dim> &sheets)
-    {
-      if (sheets.sheets.size() > few_joints<dim>)
-        return least_quality_of_many;
-      return sheets.sheets.size() <= few_joints<dim> / 2 &&
-                 std::all_of(sheets.sheets.begin(),
-                             sheets.sheets.end(),
-                             [](const auto &sheet) {
-                               return sheet->is_plane();
-                             })
-               ? least_quality_of_few
-               : least_quality_of_more;
-    }
-
-
-
     /** A mesh with its joints, and what had to be simplified. */
     template <int dim>
     struct CutMesh
     {
       SimplexMesh<dim> mesh;
       MeshReport<dim> report;
-      unsigned int n_changed = 0; ///< pieces, see straighten_pieces()
+      ChangedPieces<dim> changed; ///< see straighten_pieces()
 
       /** What is worse comes first: pieces that are there, but wrong. */
       std::pair<unsigned int, unsigned int>
       faults() const
       {
-        return {n_changed, report.n_lost_blocks};
-      }
-    };
+        return {changed.n, report.n_lost_blocks};
+      }    };
 
 
 
@@ -293,7 +265,7 @@ namespace Keyblock
     cut_with(const SimplexMesh<dim> &uncut,
              const Scene<dim> &scene,
              const JointSheets<dim> &sheets,
-             const double snap)
+             const SnapDistance<dim> &snap)
     {
       CutMesh<dim> result;
       result.mesh = uncut;
@@ -319,9 +291,11 @@ namespace Keyblock
       improvement.improve(wanted_at_joints, 2);
       improvement.flatten(least_quality_of_flattening);
 
-      improvement.improve_by_bending(least_quality<dim>, 8, largest_bend);
-      result.n_changed =
-        straighten_pieces(mesh, scene, least_quality_of_pieces(sheets));
+      improvement.improve_by_bending(least_quality<dim>,
+                                     8,
+                                     largest_bend,
+                                     list_block_vertices(mesh, scene));
+      result.changed = straighten_pieces(mesh, scene);
       return result;
     }
   } // namespace
@@ -336,13 +310,15 @@ namespace Keyblock
              const double coarsening)
   {
     const JointSheets<dim> sheets = make_sheets(scene);
-    CutMesh<dim> best             = cut_with(mesh, scene, sheets, snap);
-    if (best.faults() > std::make_pair(0u, 0u) &&
-        sheets.sheets.size() <= few_joints<dim>)
+    SnapDistance<dim> distance(snap);
+    CutMesh<dim> best   = cut_with(mesh, scene, sheets, distance);
+    CutMesh<dim> latest = best;
+    for (unsigned int i = 1; i < most_cuts && latest.changed.n > 0; ++i)
       {
-        CutMesh<dim> nearer = cut_with(mesh, scene, sheets, less_snap * snap);
-        if (nearer.faults() < best.faults())
-          best = std::move(nearer);
+        distance.reduce(latest.changed.vertices);
+        latest = cut_with(mesh, scene, sheets, distance);
+        if (latest.faults() < best.faults())
+          best = latest;
       }
     mesh            = std::move(best.mesh);
     best.report.way = "cut";

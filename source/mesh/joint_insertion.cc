@@ -40,7 +40,7 @@ namespace Keyblock
       Insertion(SimplexMesh<dim> &mesh,
                 const unsigned int surface,
                 const JointSheet<dim> &sheet,
-                const double snap,
+                const SnapDistance<dim> &snap,
                 MeshReport<dim> &report)
         : mesh(mesh)
         , surface(surface)
@@ -140,9 +140,9 @@ namespace Keyblock
               {
                 const double relative =
                   std::abs(distance[v]) / mesh.target_size[v];
-                if (relative < (mesh.is_fixed[v]
-                                  ? std::min(snap, through_corner)
-                                  : snap) &&
+                if (relative < snap.largest() &&
+                    relative < (mesh.is_fixed[v] ? through_corner : 1.) &&
+                    relative < snap.at(mesh.vertices[v]) &&
                     (is_cut || sheet.depth_inside(mesh.vertices[v]) > 0.))
                   near.insert({relative, v});
               }
@@ -243,7 +243,10 @@ namespace Keyblock
             const double size =
               0.5 * (mesh.target_size[a] + mesh.target_size[b]);
             // neither part becomes much shorter than vertices are moved
-            const double least = snap * std::min(1., -size / minus_length);
+            const double least =
+              snap.at(mesh.vertices[a] +
+                      0.5 * (mesh.vertices[b] - mesh.vertices[a])) *
+              std::min(1., -size / minus_length);
             const double part  = std::clamp(crossing(a, b), least, 1. - least);
             const unsigned int middle =
               mesh.split_edge(a,
@@ -296,7 +299,7 @@ namespace Keyblock
       SimplexMesh<dim> &mesh;
       const unsigned int surface;
       const JointSheet<dim> &sheet;
-      const double snap;
+      const SnapDistance<dim> &snap;
       MeshReport<dim> &report;
       unsigned int n_losses = 0;
       typename MeshReport<dim>::ThinRock thinnest{no_index, {}, 1e300};
@@ -312,7 +315,7 @@ namespace Keyblock
   insert_joint(SimplexMesh<dim> &mesh,
                const unsigned int surface,
                const JointSheet<dim> &sheet,
-               const double snap,
+               const SnapDistance<dim> &snap,
                MeshReport<dim> &report)
   {
     Insertion<dim>(mesh, surface, sheet, snap, report).run();
@@ -321,11 +324,11 @@ namespace Keyblock
   template void insert_joint(SimplexMesh<2> &,
                              const unsigned int,
                              const JointSheet<2> &,
-                             const double,
+                             const SnapDistance<2> &,
                              MeshReport<2> &);
   template void insert_joint(SimplexMesh<3> &,
                              const unsigned int,
                              const JointSheet<3> &,
-                             const double,
+                             const SnapDistance<3> &,
                              MeshReport<3> &);
 } // namespace Keyblock

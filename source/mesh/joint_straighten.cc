@@ -23,17 +23,17 @@ namespace Keyblock
 
     /** Qualities to which cells may go for it, and the least step with them,
      * and how often each vertex is tried: its neighbours must make way. */
-    constexpr double qualities[]   = {0.12, 0.08, 0.05, 0.03};
+    constexpr double qualities[]   = {0.12, 0.08, 0.05};
     constexpr unsigned int n_tries = 3;
 
 
 
     /** Finds the pieces that moved faces have changed. */
     template <int dim>
-    class ChangedPieces
+    class PieceCheck
     {
     public:
-      ChangedPieces(const SimplexMesh<dim> &mesh, const Scene<dim> &scene)
+      PieceCheck(const SimplexMesh<dim> &mesh, const Scene<dim> &scene)
         : pieces(mesh)
         , most_outer_cells(is_truncated_all_around(scene) ? 0. : most_cells)
         , surplus(pieces.volume.size(), 0.)
@@ -46,8 +46,12 @@ namespace Keyblock
             for (unsigned int i = 0; i <= dim; ++i)
               look_at_facet(mesh, c, i);
         for (unsigned int p = 0; p < pieces.volume.size(); ++p)
-          if (is_changed(p) && !is_excavated(scene, pieces.center[p]))
-            changed.insert(p);
+          if (counts(p) && !is_excavated(scene, pieces.center[p]))
+            {
+              counted.insert(p);
+              if (is_changed(p))
+                changed.insert(p);
+            }
       }
 
       unsigned int
@@ -60,16 +64,30 @@ namespace Keyblock
       std::vector<unsigned int>
       vertices_on_joints(const SimplexMesh<dim> &mesh) const
       {
+        return vertices_of(changed, mesh);
+      }
+
+      /** Those of all pieces whose faces count. */
+      std::vector<unsigned int>
+      vertices_that_count(const SimplexMesh<dim> &mesh) const
+      {
+        return vertices_of(counted, mesh);
+      }
+
+    private:
+      std::vector<unsigned int>
+      vertices_of(const std::set<unsigned int> &list,
+                  const SimplexMesh<dim> &mesh) const
+      {
         std::set<unsigned int> found;
         for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-          if (mesh.cells[c].is_alive && changed.count(pieces.of_cell[c]) > 0)
+          if (mesh.cells[c].is_alive && list.count(pieces.of_cell[c]) > 0)
             for (const unsigned int v : mesh.cells[c].vertices)
               if (!mesh.bound_to[v].empty())
                 found.insert(v);
         return {found.begin(), found.end()};
       }
 
-    private:
       /** To first order: the integral of the distance from the joint. */
       void
       look_at_facet(const SimplexMesh<dim> &mesh,
@@ -85,6 +103,7 @@ namespace Keyblock
           return;
         if (!mesh.surfaces[found->second.front().surface].is_joint())
           is_bare[piece] = true;
+        double farthest_mean = 0.; // of several joints that share the facet
         for (const auto &mark : found->second)
           if (const Surface<dim> &joint = mesh.surfaces[mark.surface];
               joint.is_joint())
@@ -100,21 +119,28 @@ namespace Keyblock
                 }
               const bool is_above =
                 mesh.is_on_positive_side(cell, i) == mark.plus_is_positive;
-              surplus[piece] +=
-                (is_above ? -1. : 1.) * mean * mesh.measure(facet);
-              return;
+              if (std::abs(mean) > std::abs(farthest_mean))
+                farthest_mean = is_above ? -mean : mean;
             }
+        surplus[piece] += farthest_mean * mesh.measure(facet);
+      }
+
+      /** Whether a piece may fall out of an outline. */
+      bool
+      counts(const unsigned int piece) const
+      {
+        return is_bare[piece] &&
+               (!is_outer[piece] ||
+                pieces.volume[piece] <
+                  most_outer_cells * pieces.wanted_volume[piece]);
       }
 
       bool
       is_changed(const unsigned int piece) const
       {
-        const double volume = pieces.volume[piece];
-        return is_bare[piece] &&
-               (!is_outer[piece] ||
-                volume < most_outer_cells * pieces.wanted_volume[piece]) &&
-               (std::abs(surplus[piece]) > largest_change * volume ||
-                off_joint[piece] > farthest);
+        return std::abs(surplus[piece]) >
+                 largest_change * pieces.volume[piece] ||
+               off_joint[piece] > farthest;
       }
 
       static bool
@@ -141,32 +167,49 @@ namespace Keyblock
       std::vector<double> off_joint; ///< the farthest vertex, see above [-]
       std::vector<bool> is_outer;    ///< at the model's outer faces
       std::vector<bool> is_bare;     ///< at an outline
-      std::set<unsigned int> changed;
+      std::set<unsigned int> counted, changed;
     };
   } // namespace
 
 
 
   template <int dim>
-  unsigned int
+  std::vector<unsigned int>
+  list_block_vertices(const SimplexMesh<dim> &mesh, const Scene<dim> &scene)
+  {
+    return PieceCheck<dim>(mesh, scene).vertices_that_count(mesh);
+  }
+
+
+
+  template <int dim>
+  ChangedPieces<dim>
   straighten_pieces(SimplexMesh<dim> &mesh,
-                    const Scene<dim> &scene,
-                    const double least_quality)
+                    const Scene<dim> &scene)
   {
     MeshImprovement<dim> improvement(mesh, 0.);
     for (const double quality : qualities)
-      for (unsigned int i = 0; i < n_tries && quality >= least_quality; ++i)
+      for (unsigned int i = 0; i < n_tries; ++i)
         {
-          const ChangedPieces<dim> changed(mesh, scene);
+          const PieceCheck<dim> changed(mesh, scene);
           if (changed.n() == 0)
-            return 0;
+            return {};
           improvement.flatten(quality, changed.vertices_on_joints(mesh));
         }
-    return ChangedPieces<dim>(mesh, scene).n();
+    const PieceCheck<dim> left(mesh, scene);
+    ChangedPieces<dim> result;
+    result.n = left.n();
+    for (const unsigned int v : left.vertices_on_joints(mesh))
+      result.vertices.emplace_back(mesh.vertices[v], mesh.target_size[v]);
+    return result;
   }
 
-  template unsigned int
-  straighten_pieces(SimplexMesh<2> &, const Scene<2> &, const double);
-  template unsigned int
-  straighten_pieces(SimplexMesh<3> &, const Scene<3> &, const double);
+  template std::vector<unsigned int>
+  list_block_vertices(const SimplexMesh<2> &, const Scene<2> &);
+  template std::vector<unsigned int>
+  list_block_vertices(const SimplexMesh<3> &, const Scene<3> &);
+  template ChangedPieces<2> straighten_pieces(SimplexMesh<2> &,
+                                              const Scene<2> &);
+  template ChangedPieces<3> straighten_pieces(SimplexMesh<3> &,
+                                              const Scene<3> &);
 } // namespace Keyblock

@@ -37,11 +37,13 @@ namespace Keyblock
                  const unsigned int n_passes,
                  const unsigned int first_cell = 0);
 
-    /** The same, but vertices may also leave the planes of their joints, as far
-     * as @p allowed_bend (over the target size) in all [-]. */
+    /** The same, but vertices, other than those in @p fixed, may also leave the
+     * planes of their joints, as far as @p allowed_bend (over the target size)
+     * in all [-]. */
     void improve_by_bending(const double wanted_quality,
                             const unsigned int n_passes,
-                            const double allowed_bend);
+                            const double allowed_bend,
+                            const std::vector<unsigned int> &fixed);
 
     /** Put vertices back into the planes of their joints where no cell falls
      * below @p least_quality for it (or all around become better). */
@@ -95,7 +97,7 @@ namespace Keyblock
 
     SimplexMesh<dim> &mesh;
     double allowed_bend;
-    bool may_leave_joints = false;
+    std::vector<bool> may_leave_joints; ///< by vertex; empty: none may
     std::mt19937 bits;
   };
 } // namespace Keyblock

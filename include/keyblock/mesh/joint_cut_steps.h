@@ -5,6 +5,7 @@
 #include <keyblock/mesh/joint_sheet.h>
 #include <keyblock/mesh/report.h>
 #include <keyblock/mesh/simplex_mesh.h>
+#include <keyblock/mesh/snap_distance.h>
 
 #include <vector>
 
@@ -39,7 +40,7 @@ namespace Keyblock
   void insert_joint(SimplexMesh<dim> &mesh,
                     const unsigned int surface,
                     const JointSheet<dim> &sheet,
-                    const double snap,
+                    const SnapDistance<dim> &snap,
                     MeshReport<dim> &report);
 
   /**
@@ -60,17 +61,31 @@ namespace Keyblock
   template <int dim>
   void dissolve_crumbs(SimplexMesh<dim> &mesh, MeshReport<dim> &report);
 
-  /**
-   * Put the faces of pieces at an outline back into the planes of their joints,
-   * where leaving these has changed the volume or the shape of a piece, for
-   * cells there of down to @p least_quality. Pieces inside excavations and
-   * large ones at the model's outer faces stay as they are. Returns how many
-   * pieces stay changed.
+  /** Pieces of rock that moved faces have changed. */
+  template <int dim>
+  struct ChangedPieces
+  {
+    unsigned int n = 0;
+
+    /** Their vertices on joints, with the target size there [m]. */
+    std::vector<std::pair<Point<dim>, double>> vertices;
+  };
+
+  /** Vertices on the joints of pieces that may fall out of an outline: all at
+   * one but those inside excavations and large ones at the model's outer faces.
    */
   template <int dim>
-  unsigned int straighten_pieces(SimplexMesh<dim> &mesh,
-                                 const Scene<dim> &scene,
-                                 const double least_quality);
+  std::vector<unsigned int> list_block_vertices(const SimplexMesh<dim> &mesh,
+                                                const Scene<dim> &scene);
+
+  /**
+   * Put the faces of pieces at an outline back into the planes of their joints,
+   * where leaving these has changed the volume or the shape of a piece, as far
+   * as the quality of cells allows: those of list_block_vertices().
+   */
+  template <int dim>
+  ChangedPieces<dim> straighten_pieces(SimplexMesh<dim> &mesh,
+                                       const Scene<dim> &scene);
 } // namespace Keyblock
 
 #endif
