@@ -12,7 +12,6 @@
 #include <keyblock/mesh/size.h>
 #include <keyblock/mesh/size_limit.h>
 #include <keyblock/scene/domain_outline.h>
-#include <keyblock/scene/joint_facets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,26 +37,6 @@ namespace Keyblock
      * pairing of all, which not every mesh has, and one pair after the other.
      */
     constexpr int blossom = 1, one_by_one = 0;
-
-    /** With more joints the exact way is not tried: it takes long and small
-     * features are certain. */
-    template <int dim>
-    constexpr unsigned int most_exact_joints = (dim == 2) ? 40 : 12;
-
-    /** Facets of a bent joint that count as one then: they meet their
-     * neighbours only. */
-    constexpr unsigned int facets_of_exact_joint = 20;
-
-    template <int dim>
-    unsigned int
-    count_joints(const Scene<dim> &scene)
-    {
-      unsigned int n = 0;
-      for (const auto &joints : joints_by_surface(scene))
-        n +=
-          (joints.size() + facets_of_exact_joint - 1) / facets_of_exact_joint;
-      return n;
-    }
 
     /** An exact mesh is taken if its thinnest cell has this part of the median
      * altitude [-]. */
@@ -340,34 +319,27 @@ namespace Keyblock
     Mesh<dim> exact;
     double thinness     = 0.; // of the exact mesh, if there is one
     const bool is_exact = snap == 0. || scene.joints.empty();
-    if (is_exact || count_joints(scene) <= most_exact_joints<dim>)
+    reason              = reason_of_failure([&]() {
+      exact =
+        to_mesh(mesh_exactly(scene, demands, is_exact), scene, remedy.str());
+    });
+    if (reason.empty())
       {
-        reason = reason_of_failure([&]() {
-          exact = to_mesh(mesh_exactly(scene, demands, is_exact),
-                          scene,
-                          remedy.str());
-        });
-        if (reason.empty())
-          {
-            exact.report.way = "exact";
-            thinness         = least_over_median_thickness(exact);
-            if (is_exact || thinness >= least_thinness)
-              return exact;
-            std::ostringstream text;
-            text << "the thinnest cell would have " << std::setprecision(2)
-                 << thinness << " of the usual thickness";
-            reason = text.str();
-          }
-        AssertThrow(!is_exact,
-                    InputError(
-                      "Gmsh could not mesh the scene with its " +
-                      std::to_string(scene.joints.size()) + " joints and " +
-                      std::to_string(scene.excavations.size()) +
-                      " excavations (" + reason + "); " + remedy.str() + "."));
+        exact.report.way = "exact";
+        thinness         = least_over_median_thickness(exact);
+        if (is_exact || thinness >= least_thinness)
+          return exact;
+        std::ostringstream text;
+        text << "the thinnest cell would have " << std::setprecision(2)
+             << thinness << " of the usual thickness";
+        reason = text.str();
       }
-    else
-      reason = std::to_string(scene.joints.size()) + " joints are more than " +
-               std::to_string(most_exact_joints<dim>);
+    AssertThrow(!is_exact,
+                InputError(
+                  "Gmsh could not mesh the scene with its " +
+                  std::to_string(scene.joints.size()) + " joints and " +
+                  std::to_string(scene.excavations.size()) + " excavations (" +
+                  reason + "); " + remedy.str() + "."));
     Mesh<dim> mesh;
     MeshReport<dim> report;
     const std::string failure = reason_of_failure([&]() {

@@ -155,8 +155,9 @@ namespace Keyblock
           return mesh.surfaces[s].is_curved;
         }))
       return false;
-    const bool may_leave = !may_leave_joints.empty() && may_leave_joints[vertex];
-    const auto locked    = mesh.locked_directions(vertex, may_leave);
+    const bool may_leave =
+      !may_leave_joints.empty() && may_leave_joints[vertex];
+    const auto locked = mesh.locked_directions(vertex, may_leave);
     if (locked.size() >= dim)
       return false;
     Point<dim> mean;
@@ -214,10 +215,11 @@ namespace Keyblock
 
   template <int dim>
   void
-  MeshImprovement<dim>::improve_by_bending(const double wanted_quality,
-                                           const unsigned int n_passes,
-                                           const double allowed_bend,
-                                           const std::vector<unsigned int> &fixed)
+  MeshImprovement<dim>::improve_by_bending(
+    const double wanted_quality,
+    const unsigned int n_passes,
+    const double allowed_bend,
+    const std::vector<unsigned int> &fixed)
   {
     const double usual = this->allowed_bend;
     this->allowed_bend = allowed_bend;

@@ -31,10 +31,6 @@ namespace Keyblock
     template <int dim>
     constexpr double least_quality = (dim == 2) ? 0.12 : 0.16;
 
-    /** Where moved faces have changed a piece for good, joints are cut again
-     * with a smaller snap around it, so many times in all at most. */
-    constexpr unsigned int most_cuts = 3;
-
     /** Joints are put back into their planes where cells stay as good. */
     constexpr double least_quality_of_flattening = 0.2;
 
@@ -256,7 +252,8 @@ namespace Keyblock
       faults() const
       {
         return {changed.n, report.n_lost_blocks};
-      }    };
+      }
+    };
 
 
 
@@ -311,14 +308,13 @@ namespace Keyblock
   {
     const JointSheets<dim> sheets = make_sheets(scene);
     SnapDistance<dim> distance(snap);
-    CutMesh<dim> best   = cut_with(mesh, scene, sheets, distance);
-    CutMesh<dim> latest = best;
-    for (unsigned int i = 1; i < most_cuts && latest.changed.n > 0; ++i)
+    CutMesh<dim> best = cut_with(mesh, scene, sheets, distance);
+    if (best.changed.n > 0)
       {
-        distance.reduce(latest.changed.vertices);
-        latest = cut_with(mesh, scene, sheets, distance);
-        if (latest.faults() < best.faults())
-          best = latest;
+        distance.reduce(best.changed.vertices);
+        CutMesh<dim> nearer = cut_with(mesh, scene, sheets, distance);
+        if (nearer.faults() < best.faults())
+          best = std::move(nearer);
       }
     mesh            = std::move(best.mesh);
     best.report.way = "cut";

@@ -247,7 +247,7 @@ namespace Keyblock
               snap.at(mesh.vertices[a] +
                       0.5 * (mesh.vertices[b] - mesh.vertices[a])) *
               std::min(1., -size / minus_length);
-            const double part  = std::clamp(crossing(a, b), least, 1. - least);
+            const double part = std::clamp(crossing(a, b), least, 1. - least);
             const unsigned int middle =
               mesh.split_edge(a,
                               b,

@@ -184,8 +184,7 @@ namespace Keyblock
 
   template <int dim>
   ChangedPieces<dim>
-  straighten_pieces(SimplexMesh<dim> &mesh,
-                    const Scene<dim> &scene)
+  straighten_pieces(SimplexMesh<dim> &mesh, const Scene<dim> &scene)
   {
     MeshImprovement<dim> improvement(mesh, 0.);
     for (const double quality : qualities)
@@ -204,10 +203,10 @@ namespace Keyblock
     return result;
   }
 
-  template std::vector<unsigned int>
-  list_block_vertices(const SimplexMesh<2> &, const Scene<2> &);
-  template std::vector<unsigned int>
-  list_block_vertices(const SimplexMesh<3> &, const Scene<3> &);
+  template std::vector<unsigned int> list_block_vertices(const SimplexMesh<2> &,
+                                                         const Scene<2> &);
+  template std::vector<unsigned int> list_block_vertices(const SimplexMesh<3> &,
+                                                         const Scene<3> &);
   template ChangedPieces<2> straighten_pieces(SimplexMesh<2> &,
                                               const Scene<2> &);
   template ChangedPieces<3> straighten_pieces(SimplexMesh<3> &,

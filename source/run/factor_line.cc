@@ -256,8 +256,9 @@ namespace Keyblock
       out << factor.limit_factor << " ";
     else
       out << "above all ";
-    out << "(" << factor.limit_mode.text() << (factor.limit_remark.empty() ? "" : "; ")
-        << factor.limit_remark << ")";
+    out << "(" << factor.limit_mode.text()
+        << (factor.limit_remark.empty() ? "" : "; ") << factor.limit_remark
+        << ")";
     if (factor.stress_ratio > 0.)
       out << ", stress ratio " << factor.stress_ratio;
     const Block<dim> &block = blocks.blocks[factor.block];

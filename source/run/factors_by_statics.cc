@@ -69,9 +69,9 @@ namespace Keyblock
                               record.present.removed_since()))
       {
         SafetyFactor factor;
-        factor.block           = one.block;
-        factor.stage           = model.scene.stages[record.present.index]->name;
-        factor.outcome         = SafetyFactor::Outcome::by_statics;
+        factor.block   = one.block;
+        factor.stage   = model.scene.stages[record.present.index]->name;
+        factor.outcome = SafetyFactor::Outcome::by_statics;
         factor.limit_mode =
           one.statics.limit.block_mode(one.statics.around.faces);
         factor.facts           = one.statics.facts;

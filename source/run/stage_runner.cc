@@ -319,8 +319,8 @@ namespace Keyblock
       mark_steady_blocks(motions, ways, progress);
     for (unsigned int b = 0; b < ways.size(); ++b)
       if (can_fail(b) &&
-          (ways[b] > model.scene.safety.removal_slip *
-                       model.blocks.blocks[b].size ||
+          (ways[b] >
+             model.scene.safety.removal_slip * model.blocks.blocks[b].size ||
            is_steady[b]) &&
           std::count(failed.begin(), failed.end(), b) == 0)
         failed.push_back(b);
@@ -331,8 +331,7 @@ namespace Keyblock
 
   template <int dim>
   std::vector<unsigned int>
-  StageRunner<dim>::list_caught_blocks(
-    const StageProgress<dim> &progress) const
+  StageRunner<dim>::list_caught_blocks(const StageProgress<dim> &progress) const
   {
     if (model.contact == nullptr || model.scene.safety.removal_slip == 0.)
       return {};

@@ -186,9 +186,8 @@ namespace Keyblock
                 const std::shared_ptr<const JointLaw> &law,
                 const unsigned int joint)
       {
-        result.faces.push_back(
-          make_block_face<dim>(
-            inward, name, law, joint, has_reduced(reduced, joint)));
+        result.faces.push_back(make_block_face<dim>(
+          inward, name, law, joint, has_reduced(reduced, joint)));
         result.others.emplace_back();
         return result.faces.size() - 1;
       }

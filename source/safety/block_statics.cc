@@ -179,8 +179,8 @@ namespace Keyblock
         std::any_of(faces.begin(), faces.end(), [](const auto &face) {
           return face.tensile_strength > 0.;
         });
-      facts.is_complete = !has_initial_stress(scene) &&
-                          !facts.loses_friction && !statics.support.acts();
+      facts.is_complete = !has_initial_stress(scene) && !facts.loses_friction &&
+                          !statics.support.acts();
       return facts;
     }
   } // namespace

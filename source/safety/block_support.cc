@@ -151,7 +151,7 @@ namespace Keyblock
           for (const LinerArea &part : ground.split.liners[i].areas)
             if (part.block == block && !ground.is_excavated(part.cell))
               {
-                const double m = part.area * liner.thickness * liner.density;
+                const double m    = part.area * liner.thickness * liner.density;
                 support.has_liner = true;
                 mass += m;
                 support.shotcrete_center +=

@@ -224,8 +224,8 @@ namespace Keyblock
     remark_on_lost_strength(scene,
                             run.contact->report().lost_strength(block),
                             statics);
-    result.limit_mode = statics.limit.block_mode(statics.around.faces);
-    result.facts      = statics.facts;
+    result.limit_mode     = statics.limit.block_mode(statics.around.faces);
+    result.facts          = statics.facts;
     result.limit_remark   = statics.remark();
     result.limit_factor   = statics.limit.factor;
     result.limit_alone    = statics.alone.factor;

@@ -45,7 +45,7 @@ namespace Keyblock
   TrialFailure<dim>::forget()
   {
     last_mode = BlockMode();
-    last_way = Vector<dim>{};
+    last_way  = Vector<dim>{};
     along.clear();
     moving.clear();
   }
@@ -159,11 +159,11 @@ namespace Keyblock
     BlockMode mode;
     for (unsigned int j = 0; j < joint_force.size(); ++j)
       if (joint_force[j] > 0.01 * total && joint_force[j] > 0.)
-        mode.add_joint(j < scene.joints.size() ? scene.joints[j]->name :
-                                                 "a free face");
-    mode.motion = mode.joints.empty() ? "falling" :
-                  rotates             ? "rotating" :
-                                        "sliding";
+        mode.add_joint(j < scene.joints.size() ? scene.joints[j]->name
+                                               : "a free face");
+    mode.motion = mode.joints.empty() ? "falling"
+                  : rotates           ? "rotating"
+                                      : "sliding";
     return mode;
   }
 
