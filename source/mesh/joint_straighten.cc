@@ -15,7 +15,7 @@ namespace Keyblock
     /** What moved faces may change of the volume of a piece [-], and how far
      * a vertex may lie off its joints, over the target size: one that is caught
      * at a toe holds a whole block. */
-    constexpr double largest_change = 0.02, farthest = 0.02;
+    constexpr double largest_change = 0.02, farthest = 1e-3;
 
     /** Pieces at the model's outer faces of more cells than this are rock that
      * stays, or so large that moved faces change little. */
