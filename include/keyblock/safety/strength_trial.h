@@ -148,10 +148,16 @@ namespace Keyblock
                                 Trial &trial);
 
     /** Weaken the joints until the block has slipped as far as its elasticity
-     * lets it, and give them their strength back while it slides on as far
-     * again, or comes to rest: what presses on the joints and shears them then
-     * is that of sliding. False if it does not slide. */
+     * lets it, and give them their strength back while it slides on: what
+     * presses on the joints and shears them then is that of sliding. False if
+     * it does not slide. */
     bool slide_on(const TriedBlocks &tried, Trial &trial);
+
+    /** Whether a block that slides gains speed: the trend over windows, as
+     * waves in the block shake it meanwhile. */
+    bool slides_faster(const TriedBlocks &tried,
+                       const Vector<dim> &first,
+                       Trial &trial);
 
     /** Phase 1; whether the block has come to rest.
      * @param full_damping of the masses, where no slow mode shows [1/s] */
