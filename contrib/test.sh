@@ -24,7 +24,7 @@ mkdir -p "$sessions/ompi.$(hostname -s).$(id -u)/jf.0/keep"
 export OMPI_MCA_orte_tmpdir_base="$sessions"
 cd "$build"
 code=0
-ctest --output-on-failure -j "${JOBS:-$(nproc)}" --timeout 120 "$@" || code=$?
+ctest --output-on-failure -j "${JOBS:-$(nproc)}" "$@" || code=$?
 echo
 echo "The ten longest tests [s]:"
 awk '/^[0-9]+\/[0-9]+ Testing: / { name = $3 } /^Test time = / { print $4, name }' \

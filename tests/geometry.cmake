@@ -1,8 +1,9 @@
 # bent joints against planes: see surfaces.py
-foreach(case physical_groups_2d physical_groups_3d roof_wedge trough small_parts
-    touching_solids)
-  keyblock_test(surfaces/${case} quick
-    COMMAND surfaces.py ${keyblock} ${prm} ${out}/surfaces_${case} ${case})
+foreach(case "physical_groups_2d quick" "physical_groups_3d quick" "roof_wedge nightly"
+    "trough quick" "small_parts quick" "touching_solids quick")
+  string(REGEX MATCH "(.*) (.*)" case ${case})
+  keyblock_test(surfaces/${CMAKE_MATCH_1} ${CMAKE_MATCH_2} COMMAND surfaces.py
+    ${keyblock} ${prm} ${out}/surfaces_${CMAKE_MATCH_1} ${CMAKE_MATCH_1})
 endforeach()
 
 # exact volumes between random planes: see arrangement.py
@@ -38,8 +39,10 @@ keyblock_networks(planes nightly --kinds planes --numbers 4 --seeds 1-2 --least 
 keyblock_networks(two_ranks nightly --kinds traces --numbers 50 --seeds 4 --least 0.05
   --ranks 2)
 set_property(TEST networks/two_ranks PROPERTY PROCESSORS 2)
-keyblock_networks(hydrostatic quick --kinds traces,discs,faces --numbers 5,20 --seeds 1
+keyblock_networks(hydrostatic quick --kinds traces,discs,faces --numbers 5 --seeds 1
   --initial)
+keyblock_networks(hydrostatic_more nightly --kinds traces,discs,faces --numbers 20
+  --seeds 1 --initial)
 keyblock_networks(hydrostatic_planes nightly --kinds planes --numbers 12 --seeds 2
   --initial)
 keyblock_networks(hydrostatic_planes_more nightly --kinds planes --numbers 5,20

@@ -30,9 +30,11 @@ foreach(case "validate quick" "run nightly" "mesh nightly")
     COMMAND ${contrib}/fuzz.py --keyblock ${keyblock} --kinds ${CMAKE_MATCH_1}
       --number 24 --seeds 7 --memory $<IF:${no_limit},0,6>)
 endforeach()
-keyblock_test(fuzz/checkpoints.1 quick
-  COMMAND ${contrib}/damaged_checkpoints.py --keyblock ${keyblock} --number 30
-    --seeds 7 --ranks 1 --memory $<IF:${no_limit},0,2>)
-keyblock_test(fuzz/checkpoints.2 nightly RANKS 2
-  COMMAND ${contrib}/damaged_checkpoints.py --keyblock ${keyblock} --number 8
-    --seeds 7 --ranks 2 --memory $<IF:${no_limit},0,2>)
+foreach(case "checkpoints 1 10 quick" "more_checkpoints 1 30 nightly"
+    "checkpoints_2 2 8 nightly") # ranks, number
+  string(REGEX MATCH "(.*) (.*) (.*) (.*)" case ${case})
+  keyblock_test(fuzz/${CMAKE_MATCH_1} ${CMAKE_MATCH_4} RANKS ${CMAKE_MATCH_2}
+    COMMAND ${contrib}/damaged_checkpoints.py --keyblock ${keyblock}
+      --number ${CMAKE_MATCH_3} --seeds 7 --ranks ${CMAKE_MATCH_2}
+      --memory $<IF:${no_limit},0,2>)
+endforeach()

@@ -1,6 +1,6 @@
 # bitwise the same history when repeated on equal ranks
-foreach(case "incline_30 1 quick" "incline_3d 2 ranks" "incline_30 2 nightly"
-    "incline_3d 1 nightly" "toppling_slides_and_topples 1 nightly"
+foreach(case "incline_30 1 quick" "incline_30 2 ranks" "incline_3d 1 nightly"
+    "incline_3d 2 nightly" "toppling_slides_and_topples 1 nightly"
     "toppling_slides_and_topples 2 nightly")
   string(REGEX MATCH "(.*) (.*) (.*)" case ${case})
   keyblock_test(repeat/${CMAKE_MATCH_1}.${CMAKE_MATCH_2} ${CMAKE_MATCH_3}
@@ -31,7 +31,10 @@ keyblock_test(moving_supports quick COMMAND moving_supports.py ${keyblock}
 # time and memory of a run as --validate prints them
 keyblock_test(estimate quick COMMAND estimate.py ${keyblock} ${prm} ${out}/estimate)
 # summary.json and study.json are as doc/*.schema.json say, what is damaged is not
-keyblock_test(schema quick COMMAND schema.py ${keyblock} ${prm} ${out}/schema)
+keyblock_test(schema quick COMMAND schema.py ${keyblock} ${prm} ${out}/schema
+  bolted_incline)
+keyblock_test(schema_of_more_scenes nightly COMMAND schema.py ${keyblock} ${prm}
+  ${out}/schema_of_more_scenes)
 # blocks that fail side by side, one of which trials alone would call safe
 keyblock_test(failed_neighbours quick COMMAND failed_neighbours.py ${keyblock}
   ${verification}/failed_neighbours.prm ${out}/failed_neighbours)
@@ -49,10 +52,12 @@ foreach(ranks 1 2)
     keyblock_test(law/${law}.${ranks} ${label} RANKS ${ranks} COMMAND law/${law}.py
       ${keyblock} ${verification}/incline_30.prm ${out}/${law}.${ranks} ${ranks})
   endforeach()
-  foreach(case wave box block dilates rigid)
-    keyblock_test(law/compliant_${case}.${ranks} ${label} RANKS ${ranks}
-      COMMAND law/compliant_joints.py ${case} ${keyblock} ${verification}
-        ${out}/compliant_${case}.${ranks} ${ranks})
+  foreach(case "wave nightly" "box ${label}" "block ${label}" "dilates nightly"
+      "rigid ${label}")
+    string(REGEX MATCH "(.*) (.*)" case ${case})
+    keyblock_test(law/compliant_${CMAKE_MATCH_1}.${ranks} ${CMAKE_MATCH_2} RANKS ${ranks}
+      COMMAND law/compliant_joints.py ${CMAKE_MATCH_1} ${keyblock} ${verification}
+        ${out}/compliant_${CMAKE_MATCH_1}.${ranks} ${ranks})
   endforeach()
   keyblock_test(law/newmark_block.${ranks} ${label} RANKS ${ranks}
     COMMAND law/newmark_block.py ${keyblock} ${verification}/shaken_incline.prm
@@ -88,11 +93,15 @@ keyblock_factors(wedge_bent quick wedge 129 --tolerance 1e-3)
 # bolts in both conventions
 keyblock_factors(bolted nightly bolted_active,bolted_passive,bolted_roof 1-4)
 # limit equilibrium of the same, bent and not, as --validate prints it
-keyblock_factors(statics quick incline,incline_3d,wedge 1-6 --statics --tolerance 1e-4)
+keyblock_factors(statics quick incline,incline_3d,wedge 1-2 --statics --tolerance 1e-4)
+keyblock_factors(more_statics nightly incline,incline_3d,wedge 3-6 --statics
+  --tolerance 1e-4)
 # strong discs and traces that end beside the plane, nearer than cells are large:
 # they closed against it and held the block, factor 11531 for 1.95
-keyblock_factors(statics_beside quick incline,incline_3d
-  1026,1038,1063,1066,1068,1071,1079,1080 --statics --tolerance 1e-4)
+keyblock_factors(statics_beside quick incline,incline_3d 1026,1063 --statics
+  --tolerance 1e-4)
+keyblock_factors(more_statics_beside nightly incline,incline_3d
+  1038,1066,1068,1071,1079,1080 --statics --tolerance 1e-4)
 
 # a finer mesh for the spherical cavity
 foreach(case elastic mohr_coulomb)

@@ -7,7 +7,12 @@ target_link_libraries(unit_tests keyblock_library)
 set_up_code(unit_tests)
 use_precompiled(unit_tests)
 
-keyblock_test(unit_tests.1 quick COST 50 COMMAND unit_tests --log_level=message)
+# but for many random meshes and large files
+set(long joint_cut/random_planes_make_their_blocks joint_cut/mesh_stays_sound_3d
+  shape_files/cylinder_from_step scene_joints/ten_thousand_rows)
+list(JOIN long ":!" long)
+keyblock_test(unit_tests.1 quick COST 50
+  COMMAND unit_tests --log_level=message --run_test=!${long})
 # suites whose results could depend on ranks
 set(suites cell_order contact_search dispersion excavation_marks far_field
   force_element loads mass_scaling patch quiet_boundary rank_groups refinement
@@ -17,7 +22,7 @@ list(JOIN suites ":" suites)
 set(mpirun mpirun --allow-run-as-root --oversubscribe -n)
 keyblock_test(unit_tests.2 ranks RANKS 2
   COMMAND ${mpirun} 2 $<TARGET_FILE:unit_tests> --log_level=message --run_test=${suites})
-foreach(ranks 2 4)
+foreach(ranks 1 2 4)
   keyblock_test(unit_tests_all.${ranks} nightly RANKS ${ranks}
     COMMAND ${mpirun} ${ranks} $<TARGET_FILE:unit_tests> --log_level=message)
 endforeach()
