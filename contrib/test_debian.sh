@@ -3,6 +3,7 @@
 # usage: contrib/test_debian.sh SUITE [FOLDER] [ctest options]
 #   SUITE    bookworm, trixie, ...
 #   FOLDER   of that system, made if it is not there (/var/tmp/keyblock-SUITE)
+# Options take the place of those that choose the labels quick and ranks.
 # environment: MIRROR (http://deb.debian.org/debian), JOBS (all cores).
 # Needs root and debootstrap. The system stays for the next call; to be rid of it,
 # remove the folder.
@@ -34,6 +35,7 @@ mount -t sysfs none "$system/sys"
 mkdir -p "$system/keyblock"
 find "$system/keyblock" -mindepth 1 -maxdepth 1 ! -name 'build*' \
   -exec rm -rf {} +
+[ $# -gt 0 ] || set -- -L '^(quick|ranks)$'
 tar -C "$root" --exclude='./build*' --exclude='./.git' -c . |
   tar -C "$system/keyblock" -x
 chroot "$system" env JOBS="${JOBS:-$(nproc)}" HOME=/root LC_ALL=C.UTF-8 OMPI_MCA_btl=^tcp \

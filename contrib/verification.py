@@ -3,7 +3,7 @@
 
 usage: contrib/verification.py [KEYBLOCK]        (default: build/keyblock)
 
-All numbers of that file come from here; runs take some ten minutes.
+All numbers of that file come from here; runs take a quarter of an hour.
 """
 import json
 import os
@@ -12,11 +12,13 @@ import re
 import subprocess
 import sys
 import tempfile
-import typing
 
 import footing
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, f"{ROOT}/tests")
+from scene_table import read_scenes  # noqa: E402
+
 KEYBLOCK = sys.argv[1] if len(sys.argv) > 1 else f"{ROOT}/build/keyblock"
 FOLDER = tempfile.mkdtemp()
 
@@ -36,89 +38,12 @@ def run(scene, *overrides, ranks=1):
         return json.load(file)
 
 
-class Test(typing.NamedTuple):
-    """A call of keyblock_scene in tests/scenes/scenes.cmake."""
-    scene: str  # as in verification/incline_30
-    name: str  # of the references
-    ranks: list
-    overrides: list
-    is_slow: bool
-
-
-def split_words(text):
-    """Words of CMake: quoted ones may hold blanks, comments are left out."""
-    return [quoted or plain for quoted, plain in
-            re.findall(r'#[^\n]*|"([^"]*)"|([^\s"#]+)', text)
-            if quoted or plain]
-
-
-def put_in_lists(text):
-    """The text without set(NAME word...), the words in place of ${NAME}."""
-    definition = re.compile(r'set\((\w+) ((?:"[^"]*"|[^")])*)\)\n')
-    for name, words in definition.findall(text):
-        # within quotes of its own a word has lost those it was set with
-        text = text.replace(f"=${{{name}}}", f"={words.strip(chr(34))}")
-        text = text.replace(f"${{{name}}}", words)
-    return definition.sub("", text)
-
-
-def expand_loops(text):
-    """The text with each foreach written out."""
-    loop = re.compile(r"foreach\((\w+) ([^)]*)\)\n(.*?)endforeach\(\)", re.S)
-
-    def write_out(found):
-        variable, items, body = found.groups()
-        copies = []
-        for item in split_words(items):
-            values = {variable: item}
-            copy = body
-            # string(REPLACE from to list name), list(GET list index name)
-            for old, new, target, source in re.findall(
-                    r'string\(REPLACE "([^"]*)" "([^"]*)" (\w+) '
-                    r'\$\{(\w+)\}\)', body):
-                values[target] = values[source].replace(old, new)
-            for source, index, target in re.findall(
-                    r"list\(GET (\w+) (\d+) (\w+)\)", body):
-                values[target] = values[source].split(";")[int(index)]
-            for name, value in values.items():
-                copy = copy.replace(f"${{{name}}}", value)
-            copies.append(copy)
-        return "\n".join(copies)
-
-    return loop.sub(write_out, text)
-
-
-def read_tests():
-    """All scene tests, one for each variant."""
-    with open(f"{ROOT}/tests/scenes/scenes.cmake", encoding="utf-8") as file:
-        text = put_in_lists(expand_loops(file.read()))
-    text = text.replace("${CMAKE_CURRENT_SOURCE_DIR}", f"{ROOT}/tests")
-    # to the bracket that closes the call: quoted ones do not count
-    calls = re.findall(r'keyblock_scene\(((?:"[^"]*"|[^")])*)\)',
-                       re.sub(r"(?m)^\s*#.*", "", text))
-    tests = []
-    for call in calls:
-        scene, *words = split_words(call)
-        options, option = {}, None
-        for word in words:
-            if word in ("ALIKE", "RANKS", "REFERENCES", "SET", "SLOW"):
-                option = word
-                options[option] = []
-            else:
-                options[option].append(word)
-        name, = options.get("REFERENCES", [os.path.basename(scene)])
-        tests.append(Test(scene, name,
-                          [int(n) for n in options.get("RANKS", [])],
-                          options.get("SET", []), "SLOW" in options))
-    return tests
-
-
 def gallery(out):
     """The pictures of doc/pictures, three in a row, with titles of scenes.
 
     They are drawn by contrib/pictures.py."""
     cells = []
-    for scene in dict.fromkeys(test.scene for test in read_tests()):
+    for scene in dict.fromkeys(test.scene for test in read_scenes().values()):
         name = os.path.basename(scene)
         if not os.path.exists(f"{ROOT}/doc/pictures/{name}.png"):
             continue
@@ -150,14 +75,12 @@ def scene_table(out):
     """Each line of each reference file with what was measured."""
     out.write("| scene | quantity | measured | reference | tolerance |\n"
               "|---|---|---|---|---|\n")
-    for test in read_tests():
-        if test.is_slow:
-            continue
+    for test in read_scenes().values():
         done = subprocess.run(
             [sys.executable, f"{ROOT}/tests/compare.py", KEYBLOCK,
              f"{ROOT}/prm/{test.scene}.prm",
              f"{ROOT}/tests/scenes/{test.name}.ref",
-             str(min(test.ranks, default=1)), FOLDER] +
+             (test.ranks + test.nightly_ranks)[0], FOLDER] +
             [f"--set={assignment}" for assignment in test.overrides],
             capture_output=True, text=True)
         lines = re.findall(r"(?m)^(ok|FAIL) +(.+?) (\S+)"

@@ -56,9 +56,7 @@ def look_up(summary, folder, name):
 
 def main():
     keyblock, scene, references, ranks, folder = sys.argv[1:6]
-    # CMake splits lists at semicolons: @ stands for one
-    overrides = [text.replace("@", ";") for text in sys.argv[6:]]
-    command = [keyblock, scene, "--output", folder] + overrides
+    command = [keyblock, scene, "--output", folder] + sys.argv[6:]
     if int(ranks) > 1:
         command = ["mpirun", "--allow-run-as-root", "--oversubscribe",
                    "-n", ranks] + command

@@ -14,6 +14,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
 
 import schema
 
@@ -116,10 +117,11 @@ def main():
                settings=FINE + ["Safety factor/Stages=dig"])
     assert factors_of(one) == wanted and len(one["stages"]) == 2
     # without a trial
+    begin = time.monotonic()
     static = done("--factors", kept, "--output", FOLDER / "static",
                   settings=FINE + ["Safety factor/Method=limit equilibrium"])
     # no part of it is the time of the run that kept them
-    assert 2. * static["run"]["wall_time"] < coarse["run"]["wall_time"]
+    assert static["run"]["wall_time"] < time.monotonic() - begin
     assert any("limit_equilibrium" in block for block in static["blocks"])
     assert not factors_of(static)
     after = {path.name: path.read_bytes() for path in kept.iterdir()}

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Looks whether summary.json and study.json are as their schemas say.
 
-usage: schema.py KEYBLOCK PRM FOLDER   the schemas themselves, what a few scenes
+usage: schema.py KEYBLOCK PRM FOLDER [SCENE...]   the schemas themselves, what a few
+                                       scenes, or those named, and a study
                                        write, and damaged copies of that
        schema.py FILE.json...          files named summary.json or study.json
 """
@@ -241,10 +242,13 @@ def run(command, folder):
                    stdout=subprocess.DEVNULL)
 
 
-def faults_of_scenes(keyblock, prm, folder):
-    """What is wrong with the results of scenes, damaged or not."""
+def faults_of_scenes(keyblock, prm, folder, names):
+    """What is wrong with the results of scenes, damaged or not; no names: of all."""
     for scene, arguments, shown in SCENES:
-        output = folder / pathlib.Path(scene).stem
+        name = pathlib.Path(scene).stem
+        if names and name not in names:
+            continue
+        output = folder / name
         run([keyblock, str(prm / scene), *arguments,
              "--set", "Output/Write VTU=false"], output)
         summary = read(output / "summary.json")
@@ -272,10 +276,10 @@ def main():
         faults = [f"{path.parent}: {fault}" for path in paths
                   for fault in faults_of(read(path), path.stem)]
     else:
-        keyblock, prm, folder = sys.argv[1:]
+        keyblock, prm, folder, *names = sys.argv[1:]
         faults = [*faults_of_schema("summary"), *faults_of_schema("study"),
                   *faults_of_scenes(keyblock, pathlib.Path(prm),
-                                    pathlib.Path(folder))]
+                                    pathlib.Path(folder), names)]
     print("\n".join(faults) or "all as the schemas say")
     return 1 if faults else 0
 
