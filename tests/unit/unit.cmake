@@ -1,4 +1,7 @@
 file(GLOB unit_files CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.cc)
+# (its main() defines macros before Boost's headers)
+set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/main.cc PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON)
 add_executable(unit_tests ${unit_files})
 target_compile_definitions(unit_tests PRIVATE
   KEYBLOCK_VERIFICATION_SCENES="${verification}"
