@@ -1,6 +1,6 @@
 # bitwise the same history when repeated on equal ranks
-foreach(case "incline_30 1 quick" "incline_30 2 ranks" "incline_3d 1 nightly"
-    "incline_3d 2 nightly" "toppling_slides_and_topples 1 nightly"
+foreach(case "incline_30 1 quick" "incline_3d 2 ranks" "incline_30 2 nightly"
+    "incline_3d 1 nightly" "toppling_slides_and_topples 1 nightly"
     "toppling_slides_and_topples 2 nightly")
   string(REGEX MATCH "(.*) (.*) (.*)" case ${case})
   keyblock_test(repeat/${CMAKE_MATCH_1}.${CMAKE_MATCH_2} ${CMAKE_MATCH_3}
