@@ -159,10 +159,10 @@ namespace Keyblock
     {
       std::vector<std::string> texts;
       for (const SafetyFactor &factor : factors)
-        texts.push_back((factor.*mode).to_lines());
+        texts.push_back((factor.*mode).packed());
       file.exchange(name, texts);
       for (unsigned int f = 0; f < factors.size(); ++f)
-        factors[f].*mode = BlockMode::from_lines(texts.at(f));
+        factors[f].*mode = BlockMode::unpacked(texts.at(f));
     }
 
     /** Trials of factors, or of their demands; @p list gives those of one. */
@@ -312,8 +312,8 @@ namespace Keyblock
         packed.first.push_back(
           row_of_bolts(factor.tried_demand.numbers, tried_sets));
         for (const std::string &text : {factor.stage,
-                                        factor.failure_mode.to_lines(),
-                                        factor.limit_mode.to_lines(),
+                                        factor.failure_mode.packed(),
+                                        factor.limit_mode.packed(),
                                         factor.limit_remark,
                                         factor.held_by,
                                         sets,
@@ -348,8 +348,8 @@ namespace Keyblock
           auto factor         = from_numbers<SafetyFactor>(row[0].data());
           factor.trials       = trials_of(row[1]);
           factor.stage        = text[0];
-          factor.failure_mode = BlockMode::from_lines(text[1]);
-          factor.limit_mode   = BlockMode::from_lines(text[2]);
+          factor.failure_mode = BlockMode::unpacked(text[1]);
+          factor.limit_mode   = BlockMode::unpacked(text[2]);
           factor.limit_remark = text[3];
           factor.group.assign(row[2].begin(), row[2].end());
           factor.held_by                = text[4];

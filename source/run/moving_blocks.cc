@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/run/moving_blocks.h>
 #include <keyblock/safety/block_stiffness.h>
+#include <keyblock/safety/caught_block.h>
 #include <keyblock/step/guided_blocks.h>
 
 namespace Keyblock
@@ -68,8 +69,33 @@ namespace Keyblock
     return false;
   }
 
+  template <int dim>
+  std::vector<unsigned int>
+  list_caught_blocks(const Model<dim> &model,
+                     const std::vector<BlockMotion<dim>> &motions)
+  {
+    std::vector<unsigned int> caught;
+    for (unsigned int b = 0; b < motions.size(); ++b)
+      if (!model.blocks.blocks[b].is_infinite &&
+          !model.conditions->active_cells.is_removed_block(b) &&
+          motions[b].way() > size_of_place * model.blocks.blocks[b].size &&
+          is_caught_elsewhere<dim>(model.conditions->active_cells.ground(),
+                                   model.blocks,
+                                   b,
+                                   model.step->time,
+                                   motions[b].way(),
+                                   motions[b].load,
+                                   model.contact->report().sum_over_block(b)))
+        caught.push_back(b);
+    return caught;
+  }
+
   template bool is_driven<2>(const BlockBalance<2> &, const Vector<2> &);
   template bool is_driven<3>(const BlockBalance<3> &, const Vector<3> &);
   template bool is_any_block_moving_off(const Model<2> &, const unsigned int);
   template bool is_any_block_moving_off(const Model<3> &, const unsigned int);
+  template std::vector<unsigned int>
+  list_caught_blocks(const Model<2> &, const std::vector<BlockMotion<2>> &);
+  template std::vector<unsigned int>
+  list_caught_blocks(const Model<3> &, const std::vector<BlockMotion<3>> &);
 } // namespace Keyblock

@@ -196,7 +196,7 @@ namespace Keyblock
           {
             progress.has_removed =
               stage.is_quasi_static() &&
-              remove_blocks(list_caught_blocks(progress), stage, progress);
+              remove_blocks(list_failed_blocks(progress), stage, progress);
             if (progress.has_removed)
               continue;
             progress.is_converged = true;
@@ -306,10 +306,10 @@ namespace Keyblock
   {
     if (model.contact == nullptr || model.scene.safety.removal_slip == 0.)
       return {};
-    std::vector<unsigned int> failed = list_caught_blocks(progress);
     std::vector<double> ways(model.blocks.blocks.size(), 0.);
     const auto motions =
       model.contact->motions().measure(progress.way_in_stage(model.fields));
+    std::vector<unsigned int> failed = list_caught_blocks(model, motions);
     for (unsigned int b = 0; b < ways.size(); ++b)
       if (can_fail(b))
         ways[b] = motions[b].way();
@@ -324,53 +324,18 @@ namespace Keyblock
            is_steady[b]) &&
           std::count(failed.begin(), failed.end(), b) == 0)
         failed.push_back(b);
-    return without_guided(failed);
-  }
-
-
-
-  template <int dim>
-  std::vector<unsigned int>
-  StageRunner<dim>::list_caught_blocks(const StageProgress<dim> &progress) const
-  {
-    if (model.contact == nullptr || model.scene.safety.removal_slip == 0.)
+    if (failed.empty())
       return {};
-    const auto motions =
-      model.contact->motions().measure(progress.way_in_stage(model.fields));
-    std::vector<unsigned int> caught;
-    for (unsigned int b = 0; b < motions.size(); ++b)
-      if (can_fail(b) &&
-          motions[b].way() > size_of_place * model.blocks.blocks[b].size &&
-          is_caught_elsewhere<dim>(model.conditions->active_cells.ground(),
-                                   model.blocks,
-                                   b,
-                                   model.step->time,
-                                   motions[b].way(),
-                                   motions[b].load,
-                                   model.contact->report().sum_over_block(b)))
-        caught.push_back(b);
-    return without_guided(caught);
-  }
-
-
-
-  template <int dim>
-  std::vector<unsigned int>
-  StageRunner<dim>::without_guided(std::vector<unsigned int> list) const
-  {
-    if (list.empty())
-      return list;
-    const std::vector<bool> is_guided =
-      mark_guided_blocks(model.fields,
-                         owned_nodes_of_blocks(model.split,
-                                               *model.numbering,
-                                               model.blocks.blocks.size()),
-                         model.communicator);
-    list.erase(std::remove_if(list.begin(),
-                              list.end(),
-                              [&](const auto b) { return is_guided[b]; }),
-               list.end());
-    return list;
+    const std::vector<bool> is_guided = mark_guided_blocks(
+      model.fields,
+      owned_nodes_of_blocks(model.split, *model.numbering, ways.size()),
+      model.communicator);
+    failed.erase(std::remove_if(failed.begin(),
+                                failed.end(),
+                                [&](const auto b) { return is_guided[b]; }),
+                 failed.end());
+    std::sort(failed.begin(), failed.end());
+    return failed;
   }
 
 

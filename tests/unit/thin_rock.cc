@@ -110,9 +110,10 @@ BOOST_AUTO_TEST_CASE(smaller_cells_keep_skins)
 
 BOOST_AUTO_TEST_CASE(least_size_is_named)
 {
-  const Skin skin(0.04, " set Cells across blocks = 4\n");
+  const Skin skin(0.05, " set Cells across blocks = 4\n");
   if (world.is_root())
-    BOOST_TEST(says(skin.warnings(), "lower 'Mesh/Least size' to about 0.01"));
+    BOOST_TEST(
+      says(skin.warnings(), "lower 'Mesh/Least size' to about 0.0125"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -24,6 +24,15 @@ namespace Keyblock
   template <int dim>
   bool is_any_block_moving_off(const Model<dim> &model,
                                const unsigned int n_steps);
+
+  /** Finite blocks (by index, ascending) that have left their places in a stage
+   * and lie on faces that they do not touch there, see is_caught_elsewhere()
+   * (collective).
+   * @param motions of all blocks since the stage began */
+  template <int dim>
+  std::vector<unsigned int>
+  list_caught_blocks(const Model<dim> &model,
+                     const std::vector<BlockMotion<dim>> &motions);
 } // namespace Keyblock
 
 #endif

@@ -39,14 +39,6 @@ namespace Keyblock
      * caught, and not where supports move them. */
     std::vector<unsigned int> list_failed_blocks(StageProgress<dim> &progress);
 
-    /** Those that have left their places and lie on other faces. */
-    std::vector<unsigned int>
-    list_caught_blocks(const StageProgress<dim> &progress) const;
-
-    /** A list of blocks without those that supports hold or move. */
-    std::vector<unsigned int>
-    without_guided(std::vector<unsigned int> list) const;
-
     /** Whether a block is there that can be taken away. */
     bool can_fail(const unsigned int block) const;
 

@@ -39,30 +39,33 @@ namespace Keyblock
       return motion + (joints.empty() ? "" : " on ") + names();
     }
 
-    /** Lines of a text that holds it: the motion, then the joints. */
+    /** A text to keep it in: the motion, then the joints. */
     std::string
-    to_lines() const
+    packed() const
     {
-      std::string lines = motion;
+      std::string text = motion;
       for (const std::string &name : joints)
-        lines += '\n' + name;
-      return lines;
+        text += separator + name;
+      return text;
     }
 
     static BlockMode
-    from_lines(const std::string &lines)
+    unpacked(const std::string &text)
     {
       BlockMode mode;
-      std::size_t end = lines.find('\n');
-      mode.motion     = lines.substr(0, end);
+      std::size_t end = text.find(separator);
+      mode.motion     = text.substr(0, end);
       while (end != std::string::npos)
         {
           const std::size_t begin = end + 1;
-          end                     = lines.find('\n', begin);
-          mode.joints.push_back(lines.substr(begin, end - begin));
+          end                     = text.find(separator, begin);
+          mode.joints.push_back(text.substr(begin, end - begin));
         }
       return mode;
     }
+
+  private:
+    static constexpr char separator = '\x1f'; // in no name of a scene
   };
 } // namespace Keyblock
 
