@@ -162,9 +162,7 @@ namespace Keyblock
         {
           const Excavation<dim> &above = *scene.excavations[i - 1],
                                 &below = *scene.excavations[i];
-          if (below.name.find(" bench ") != std::string::npos &&
-              below.height == above.height &&
-              below.bench_levels == above.bench_levels &&
+          if (below.bench > 0 &&
               scene.stage_number(below.stage) < scene.stage_number(above.stage))
             found.push_back("The excavation '" + below.name + "' is dug in '" +
                             below.stage + "', before '" + above.name +

@@ -368,6 +368,7 @@ namespace Keyblock
         joints.push_back(std::make_unique<Joint<dim>>());
         Joint<dim> &joint = *joints.back();
         joint.origin      = row.place();
+        joint.table_line  = table.rows[i].line;
         joint.name =
           row.has(C::name) ? row.text(C::name) : "J" + std::to_string(i + 1);
         has_name.push_back(row.has(C::name));

@@ -316,6 +316,7 @@ namespace Keyblock
             part->vertices   = cut_out(section, low, high);
             if (i > 0)
               {
+                part->bench = i;
                 part->name += " bench " + std::to_string(i);
                 part->stage = e->bench_stages[i - 1];
               }

@@ -102,20 +102,23 @@ namespace Keyblock
       const auto column           = columns.find(JointColumn::friction_angle);
       std::string lines;
       unsigned int n = 0;
-      // joints of the table are the first ones that name a line, in its order
+      // joints of the table stand in its order
       auto row = table.rows.begin();
       for (const auto &joint : scene.joints)
-        if (joint->origin.rfind("Line ", 0) == 0 && row != table.rows.end())
+        if (joint->table_line > 0)
           {
-            const DelimitedText::Row &own = *row++;
-            const bool has_none           = column == columns.end() ||
-                                  own.fields[column->second.index].empty();
+            while (row != table.rows.end() && row->line < joint->table_line)
+              ++row;
+            if (row == table.rows.end())
+              break;
+            const bool has_none = column == columns.end() ||
+                                  row->fields[column->second.index].empty();
             // the only law without it has its friction otherwise
             if (!has_none || joint->law == "barton-bandis" ||
                 is_friction_given(scene, text, *joint))
               continue;
             if (n++ < most)
-              lines += (n == 1 ? "" : ", ") + std::to_string(own.line);
+              lines += (n == 1 ? "" : ", ") + std::to_string(row->line);
           }
       if (n == 0)
         return "";
@@ -160,9 +163,7 @@ namespace Keyblock
     const bool has_row =
       std::any_of(scene.joints.begin(),
                   scene.joints.end(),
-                  [](const auto &joint) {
-                    return joint->origin.rfind("Line ", 0) == 0;
-                  });
+                  [](const auto &joint) { return joint->table_line > 0; });
     if (!has_row)
       warnings.push_back(
         "The table '" + scene.network.file +

@@ -142,8 +142,9 @@ namespace Keyblock
     unsigned int segments = 0; ///< 0: by the size of cells
     std::vector<double> bench_levels;
     std::vector<std::string> bench_stages;
-    double from = 0.;
-    double to   = 0.;
+    unsigned int bench = 0; ///< of a part: its number below the first one
+    double from        = 0.;
+    double to          = 0.;
     std::string formula;
     std::string file;
     double scale      = 1.; ///< length of the file's unit [m]

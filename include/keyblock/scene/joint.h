@@ -97,6 +97,7 @@ namespace Keyblock
     std::string name;
     std::string set;    ///< name of the set it belongs to; empty: none
     std::string origin; ///< for messages: the row of the table; empty: entries
+    unsigned int table_line = 0; ///< of the table's file; 0: from elsewhere
     Point<dim> point;
     std::vector<double> normal_entry;
     double dip           = 0.;
