@@ -34,6 +34,7 @@ target_include_directories(room_python SYSTEM PRIVATE ${python_headers})
 target_link_libraries(room_python pybind11::headers)
 # (pybind11 hides its symbols, so that modules by several versions get along)
 target_compile_options(room_python PRIVATE -fvisibility=hidden)
+compile_quickly(room_python)
 
 # The library's code can stand anywhere in memory as deal.II's flags have it, and
 # the loops over cells as the compilers of Debian and Ubuntu do (-fPIE): the program

@@ -8,6 +8,7 @@ target_compile_definitions(unit_tests PRIVATE
   KEYBLOCK_TEST_SHAPES="${CMAKE_CURRENT_SOURCE_DIR}/shapes")
 target_link_libraries(unit_tests keyblock_library)
 set_up_code(unit_tests)
+compile_quickly(unit_tests)
 use_precompiled(unit_tests)
 
 # but for many random meshes and large files
