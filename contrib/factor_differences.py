@@ -137,13 +137,13 @@ class Comparison:
     def compare_shape(self, pair):
         """Volumes, classes, and whether joints let a block move."""
         old, new = pair.old, pair.new
-        tolerance = EXACT if self.variant.keeps_mesh else VOLUMES_OF_MESHES
-        for entry, limit in (("volume", tolerance), ("exact_volume", EXACT)):
-            if entry not in old or entry not in new:
-                continue
-            if not is_close(old[entry], self.volume(new, entry), limit):
-                self.add(old["id"], "", entry, f"{old[entry]:.9g}",
-                         f"{self.volume(new, entry):.9g}")
+        both = "exact_volume" in old and "exact_volume" in new
+        entry = ("exact_volume" if both and not self.variant.keeps_mesh
+                 else "volume")
+        limit = EXACT if both or self.variant.keeps_mesh else VOLUMES_OF_MESHES
+        if not is_close(old[entry], self.volume(new, entry), limit):
+            self.add(old["id"], "", entry.replace("_", " "),
+                     f"{old[entry]:.9g}", f"{self.volume(new, entry):.9g}")
         for entry in ("class", "removable", "removed_in_stage"):
             if old.get(entry) != new.get(entry):
                 self.add(old["id"], "", entry, old.get(entry), new.get(entry))

@@ -36,7 +36,8 @@ from factor_differences import Comparison
 from scene_additions import IRRELEVANT
 from scene_domain import CannotExpress
 from scene_order import ORDER
-from scene_relations import NUMERICS, PLACE, SCALE, Scene, plain_tree
+from scene_relations import (NUMERICS, OF_STEPS, PLACE, SCALE, Scene,
+                             plain_tree)
 from scene_tree import SceneError, read_scene, scene_text
 from scene_units import read_entries
 from script_tools import make_parser, numbers, split_arguments, without_mpirun
@@ -99,10 +100,11 @@ class Report:
     def __init__(self):
         self.counts = Counter()
 
-    def say(self, kind, line):
-        """Print a line and count it."""
+    def count(self, kind, line):
+        """Count something, and print its line if it has one."""
         self.counts[kind] += 1
-        print(line, flush=True)
+        if line:
+            print(line, flush=True)
 
     def summary(self):
         """The last line."""
@@ -139,8 +141,7 @@ class Examination:
         self.summary = run(options, file, folder / "scene", 1, arguments)
         used = with_absolute_files(read_scene(folder / "scene" / "used.prm"),
                                    folder / "scene")
-        self.scene = Scene(plain_tree(used), self.summary, options.entries,
-                           method)
+        self.scene = Scene(plain_tree(used), self.summary, options.entries)
 
     def has_factors(self):
         """Whether the scene asks for factors by this method."""
@@ -154,7 +155,7 @@ class Examination:
         try:
             variant = RELATIONS[name](self.scene)
         except CannotExpress as reason:
-            return [("not expressible", f"{label}: not expressible, {reason}")]
+            return [("not expressible", str(reason))]
         for file, text in variant.files.items():
             (self.folder / file).write_text(text, "utf-8")
         scene = self.folder / f"{name}.prm"
@@ -165,6 +166,8 @@ class Examination:
             return [("variant", ""), ("timeout", f"{label}: more than "
                                       f"{self.options.timeout:g} s")]
         except RunFailed as failure:
+            if variant.refusal and variant.refusal in str(failure):
+                return [("not expressible", str(failure))]
             return [("variant", ""), ("failure", f"{label}: fails, {failure}")]
         differences = Comparison(self.summary, found, variant,
                                  self.scene.stages()).differences()
@@ -174,14 +177,21 @@ class Examination:
                                     for difference in differences]
 
     def examine_all(self, names):
-        """Run all variants and report."""
+        """Run all variants and report; relations that the scene cannot express
+        come last, by their reason."""
+        reasons = {}
+        if self.method == "statics":
+            names = [name for name in names if name not in OF_STEPS]
         with concurrent.futures.ThreadPoolExecutor(self.options.jobs) as pool:
-            for results in pool.map(self.examine, names):
+            for name, results in zip(names, pool.map(self.examine, names)):
                 for kind, line in results:
-                    if line:
-                        self.report.say(kind, line)
-                    else:
-                        self.report.counts[kind] += 1
+                    self.report.count(kind, line if kind != "not expressible"
+                                      else "")
+                    if kind == "not expressible":
+                        reasons.setdefault(line, []).append(name)
+        for reason, relations in reasons.items():
+            print(f"{self.label} cannot express {', '.join(relations)}: {reason}",
+                  flush=True)
 
 
 def relations_of(text):
@@ -246,16 +256,16 @@ def examine_scene(options, report, file, folder, is_network):
             one = Examination(options, report, file, folder / file.stem / method,
                               method, is_network)
         except TimedOut:
-            report.say("timeout", f"{label}: more than {options.timeout:g} s")
+            report.count("timeout", f"{label}: more than {options.timeout:g} s")
             continue
         except (RunFailed, SceneError) as failure:
-            report.say("failure", f"{label}: fails, {failure}")
+            report.count("failure", f"{label}: fails, {failure}")
             continue
         if one.has_factors():
             one.examine_all(options.relations)
         else:
-            report.say("not expressible", f"{label}: all relations are not "
-                       "expressible, no block has a factor")
+            report.count("not expressible", f"{label} cannot express any "
+                         "relation: no block has a factor")
 
 
 def main():

@@ -13,7 +13,8 @@ BOLT = {"Area": 5e-4, "Yield force": 150e3, "Bond stiffness": 1e8,
         "Bond strength": 2e5, "Plate strength": 1e5}
 WEAKENING = {"Friction angle": 30, "Kinetic friction angle": 15,
              "Cohesion": 1e4, "Residual cohesion": 0}
-N_SMALL_JOINTS = 50
+# fewer in structured meshes where so many have no room
+N_SMALL_JOINTS, FEWEST_SMALL_JOINTS = 50, 10
 
 
 def far_place(scene):
@@ -100,7 +101,7 @@ def shotcrete_later(scene):
     tree.add("Shotcrete", "added shotcrete", {
         "Stage": "added stage", "Excavations": ", ".join(names),
         "Parts": "roof, walls, floor", "Thickness": 0.1, "Shear strength": 1e6})
-    return Variant(tree)
+    return Variant(tree, refusal="no free face of its excavations")
 
 
 def faces_at(scene, number):
@@ -111,9 +112,8 @@ def faces_at(scene, number):
     cells = grid.cells_in_ball(center, radius)
     # every second cell, so that the faces bound no block
     chosen = [c for c in cells if all(i % 2 == 0 for i in c)] or cells[:1]
-    if len(chosen) < number:
-        raise CannotExpress(f"the cells far away have room for {len(chosen)} "
-                            f"joints of {number}")
+    if len(chosen) < min(number, FEWEST_SMALL_JOINTS):
+        raise CannotExpress("too few whole cells are far away")
     return [grid.face(cell, scene.dim - 1, 0) for cell in chosen[:number]]
 
 
@@ -217,6 +217,9 @@ def material_far(changes):
     the rock there but for its name and these changes."""
     def relation(scene):
         center, radius = far_place(scene)
+        if scene.is_structured and not Grid(scene.tree).cells_in_ball(center,
+                                                                      radius):
+            raise CannotExpress("no whole cell is far away")
         tree = scene.tree.copy()
         own = tree.find(f"Materials/{material_at(tree, center)}")
         entries = dict(own.entries) if own is not None else {}
@@ -224,7 +227,7 @@ def material_far(changes):
             raise CannotExpress("the rock far away is not elastic")
         tree.add("Materials", "added material",
                  {**entries, **changes, "Region": ball(center, radius)})
-        return Variant(tree)
+        return Variant(tree, refusal="No cell lies in the region")
     return relation
 
 
@@ -235,24 +238,36 @@ def unused_set(scene):
     return Variant(tree)
 
 
-def table_of(scene, names):
-    """A table of joints through the origin, of a strength of their own."""
-    columns = ", ".join("xyz"[:scene.dim])
-    rows = [f"name, {columns}, dip, dip direction, friction angle"]
-    rows += [f"\"{name}\"{', 0' * scene.dim}, 45, 90, 1" for name in names]
-    return {"joints.csv": "\n".join(rows) + "\n"}
-
-
 def unused_table(scene):
     """A table of joints, where all joints are listed without it."""
     tree = scene.tree.copy()
     tree.set("Joints/File", "joints.csv")
     tree.set("Joints/Resolved", "true")
-    return Variant(tree, files=table_of(scene, ["unused joint"]))
+    rows = ["name,dip,dip direction,x,y" + ",z" * (scene.dim - 2),
+            "unused joint,45,90" + ",0" * scene.dim]
+    return Variant(tree, files={"joints.csv": "\n".join(rows) + "\n"})
+
+
+def place_columns(tree, name):
+    """The columns of a table that say where a joint is, with their values."""
+    joint = f"Joints/{name}/"
+    axes = "xyz"[:int(tree.get("Dimension"))]
+    if tree.get(joint + "Extent", "infinite") == "polygon":
+        corners = tree.get(joint + "Vertices")
+        return {"vertices": f'"{corners}"'}
+    columns = dict(zip(axes, tree.get(joint + "Point").split(",")))
+    normal = tree.get(joint + "Normal")
+    if normal:
+        columns.update(zip([f"normal {a}" for a in axes], normal.split(",")))
+    else:
+        columns.update({"dip": tree.get(joint + "Dip", "0"),
+                        "dip direction": tree.get(joint + "Dip direction", "90")})
+    return columns
 
 
 def overridden_table(scene):
-    """The joints are in a table whose rows their sections override."""
+    """The joints are in a table, with another strength, which their sections
+    override."""
     tree = scene.tree.copy()
     names = tree.names("Joints")
     if not names:
@@ -261,10 +276,21 @@ def overridden_table(scene):
             tree.get(f"Joints/{name}/Surface") for name in names):
         raise CannotExpress("its joints come from sets or surfaces, which would "
                             "be used again")
-    tree.set("Joints/Names", "")
-    tree.set("Joints/File", "joints.csv")
-    tree.set("Joints/Resolved", "false")
-    return Variant(tree, files=table_of(scene, names))
+    places = [place_columns(tree, name) for name in names]
+    if any(set(place) != set(places[0]) for place in places):
+        raise CannotExpress("its joints have no columns in common")
+    rows = ["name,friction angle," + ",".join(places[0])]
+    rows += [f'"{name}",1,' + ",".join(place[c] for c in places[0])
+             for name, place in zip(names, places)]
+    for name in names:
+        for entry in ("Point", "Normal", "Vertices", "Dip", "Dip direction"):
+            tree.remove(f"Joints/{name}/{entry}")
+        if tree.get(f"Joints/{name}/Extent") != "disc":
+            tree.remove(f"Joints/{name}/Radius")
+    for path, value in {"Names": "", "File": "joints.csv",
+                        "Resolved": "false"}.items():
+        tree.set(f"Joints/{path}", value)
+    return Variant(tree, files={"joints.csv": "\n".join(rows) + "\n"})
 
 
 IRRELEVANT = {

@@ -231,11 +231,14 @@ class Surroundings:
         return True
 
     def find_far(self):
-        """(point, radius) of the largest clear ball that random places have."""
+        """(point, radius) of the largest clear ball about random places, or
+        about centres of cells of a structured mesh."""
         rng = random.Random(1)
         best = ([], 0.)
+        grid = (Grid(self.tree) if self.tree.get("Mesh/Generator") == "structured"
+                else None)
         for _ in range(N_TRIED):
-            p = random_point(self.tree, rng)
+            p = grid.random_center(rng) if grid else random_point(self.tree, rng)
             if self.to_boundary(p) <= best[1]:
                 continue
             radius = self.clear_radius(p)
@@ -268,6 +271,12 @@ class Grid:
         for i, edge, places in zip(index, self.edges, self.places):
             p = [x + places[i] * e for x, e in zip(p, edge)]
         return p
+
+    def random_center(self, rng):
+        """The centre of a cell, at random."""
+        cell = [rng.randrange(n) for n in self.counts]
+        ends = [self.vertex(cell), self.vertex([i + 1 for i in cell])]
+        return [0.5 * (a + b) for a, b in zip(*ends)]
 
     def face(self, cell, axis, side):
         """Corners, in order, of a face of a cell: across edge number `axis`,

@@ -41,12 +41,16 @@ def number_of_chords(arc, cell):
     return 24 if cell == 0. else min(24, max(6, int(arc / (2. * cell))))
 
 
+def rise_of(tree, part):
+    """Rise of the arch of a rectangle (0), horseshoe or cavern."""
+    half = 0.5 * number(tree, part + "Width")
+    return {"rectangle": 0., "horseshoe": half}.get(
+        tree.get(part + "Shape"), number(tree, part + "Rise"))
+
+
 def crown_of(tree, part):
     """(radius, half angle) of the arch of a horseshoe or cavern; None: flat."""
-    half = 0.5 * number(tree, part + "Width")
-    shape = tree.get(part + "Shape")
-    rise = {"rectangle": 0., "horseshoe": half}.get(shape,
-                                                    number(tree, part + "Rise"))
+    half, rise = 0.5 * number(tree, part + "Width"), rise_of(tree, part)
     if rise == 0.:
         return None
     radius = 0.5 * (half * half / rise + rise)
@@ -84,7 +88,7 @@ def section_of(tree, name):
         return [(x - half, y), (x + half, y), (x + half, y + height),
                 (x - half, y + height)]
     radius, angle = crown
-    spring = height - radius * (1. - math.cos(angle))
+    spring = height - rise_of(tree, part)
     angles = [angle * (1. - 2. * i / chords) for i in range(1, chords)]
     arch = [(x + radius * math.sin(a),
              y + height - radius * (1. - math.cos(a))) for a in angles]
@@ -96,10 +100,13 @@ def section_of(tree, name):
 
 def cut_out(polygon, low, high):
     """The part of a convex polygon between two elevations."""
+    close = 1e-9 * math.dist(polygon[0], polygon[1])
     for level, sign in ((low, 1.), (high, -1.)):
+        def height(p, level=level, sign=sign):
+            return sign * (p[1] - level) if abs(p[1] - level) > close else 0.
         cut = []
         for a, b in zip(polygon, polygon[1:] + polygon[:1]):
-            ha, hb = sign * (a[1] - level), sign * (b[1] - level)
+            ha, hb = height(a), height(b)
             if ha >= 0.:
                 cut.append(a)
             if ha * hb < 0.:
