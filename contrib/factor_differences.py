@@ -248,18 +248,17 @@ def text_of_row(row):
 
 
 def is_unsafe(difference):
-    """Whether a factor of the variant is larger, or no factor is left."""
-    old, new = (first_number(text) for text in (difference.old, difference.new))
-    return new > old
+    """Whether the variant has a larger factor, or lacks a block or a factor."""
+    if difference.what in ("limit equilibrium", "strength reduction"):
+        return first_number(difference.new) > first_number(difference.old)
+    return difference.new == "none" and difference.what in (
+        "block", "limit_equilibrium", "safety_factor")
 
 
 def first_number(text):
-    """The number at which a text begins, or that its bracket begins with;
-    infinite for stable blocks and those that cannot move."""
-    found = re.match(r"[\d.e+-]+", text) or re.search(r"(?<=\[)[\d.e+-]+", text)
+    """The number at which a text begins, or its bracket does; infinite for
+    blocks that are stable or cannot move."""
     if text.startswith(("stable", "immovable")):
         return math.inf
-    try:
-        return float(found.group()) if found else 0.
-    except ValueError:
-        return 0.
+    found = re.search(r"(?:^|\[)([\d.]+(?:e[+-]?\d+)?)", text)
+    return float(found.group(1)) if found else 0.

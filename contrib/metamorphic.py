@@ -18,8 +18,9 @@ blocks, so that these differences are counted apart.
 Limit equilibrium must agree to 1e-6, or to 1e-3 for blocks that two different
 meshes bound, not planes. Of strength reduction brackets must overlap and
 outcomes be the same. One line is printed for each violation, for each relation
-that a scene cannot express, and for each run that fails. Exits with 1 if there
-is a violation, a failure or a timeout.
+that a scene cannot express, and for each run that fails. A violation is marked as
+unsafe if the variant has a larger factor, or lacks a block or a factor. Exits with
+1 if there is a violation, a failure or a timeout.
 """
 import concurrent.futures
 import json
@@ -32,7 +33,7 @@ import tempfile
 from collections import Counter
 
 import networks
-from factor_differences import Comparison
+from factor_differences import Comparison, is_unsafe
 from scene_additions import IRRELEVANT
 from scene_domain import CannotExpress
 from scene_order import ORDER
@@ -173,8 +174,10 @@ class Examination:
                                  self.scene.stages()).differences()
         is_apart = self.is_network and not variant.keeps_mesh
         kind = "other mesh" if is_apart else "violation"
-        return [("variant", "")] + [(kind, f"{label}: {difference.text()}")
-                                    for difference in differences]
+        lines = [f"{label}: {difference.text()}"
+                 + (" (unsafe)" if is_unsafe(difference) else "")
+                 for difference in differences]
+        return [("variant", "")] + [(kind, line) for line in lines]
 
     def examine_all(self, names):
         """Run all variants and report; relations that the scene cannot express

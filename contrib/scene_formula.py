@@ -84,7 +84,7 @@ class Formula:
         unknown = words - set(self.NAMES) - set("xyzt") - {"and", "or"}
         if unknown:
             raise ValueError(f"the formula has unknown words: {sorted(unknown)}")
-        self.code = compile(text, "<formula>", "eval")
+        self.code = compile(text.strip(), "<formula>", "eval")
 
     def at(self, point, time=0.):
         """The value at a point of two or three coordinates."""
