@@ -6,7 +6,7 @@ import random
 from scene_formula import Formula
 from scene_domain import CannotExpress
 from scene_places import Grid, Surroundings, difference, directions, norm
-from scene_relations import Variant
+from scene_relations import Variant, described
 from scene_tree import text_of_points
 
 BOLT = {"Area": 5e-4, "Yield force": 150e3, "Bond stiffness": 1e8,
@@ -150,7 +150,9 @@ def joints_far(number, strength):
             tree.add("Joints", f"added joint {i + 1}", {**entries, **strength})
         tree.set("Joints/Resolved", "true")
         return Variant(tree, keeps_mesh=scene.is_structured)
-    return relation
+    what = "A small joint" if number == 1 else f"{number} small joints"
+    return described(relation, what + " far away" + (
+        ", which weakens as it slips." if strength is WEAKENING else "."))
 
 
 def simplex(scene):
@@ -228,7 +230,8 @@ def material_far(changes):
         tree.add("Materials", "added material",
                  {**entries, **changes, "Region": ball(center, radius)})
         return Variant(tree, refusal="No cell lies in the region")
-    return relation
+    return described(relation, "Another material in a ball far away, like the "
+                     "rock there" + (" until it yields." if changes else "."))
 
 
 def unused_set(scene):

@@ -61,6 +61,12 @@ class Scene:
         return named or self.tree.names("Stages")
 
 
+def described(relation, text):
+    """The relation with a sentence that says what it changes."""
+    relation.__doc__ = text
+    return relation
+
+
 def sides_but_top(dim):
     """Boundaries that go on where the top is the surface of the ground."""
     return ", ".join(["left", "right"] + ["front", "back"] * (dim - 2) + ["bottom"])
@@ -128,7 +134,9 @@ def shifted(distance, height=0.):
         shift = ([distance, height] if scene.dim == 2 else
                  [distance, -0.5 * distance, height])
         return moved(scene, Move(identity, shift), True)
-    return relation
+    return described(relation, f"The scene is shifted by {height:g} m upwards."
+                     if height else
+                     f"The scene is shifted by {distance:g} m along the ground.")
 
 
 def check_scale(scene):
@@ -161,7 +169,8 @@ def lengths_times(ratio):
                           pressure=factor_of((-1, 1, -2)))
         return Variant(scale(scene.tree, scene.entries, factor_of), mapping,
                        keeps_mesh=scene.is_structured)
-    return relation
+    return described(relation, f"Lengths are multiplied by {ratio:g}; gravity and "
+                     "densities stay.")
 
 
 def stresses_times_10(scene):
@@ -172,8 +181,11 @@ def stresses_times_10(scene):
                    Mapping(force=10., pressure=10.))
 
 
-def cells_times(ratio):
-    """The relation that multiplies the sizes of cells."""
+ALL_SIZES = ("Size", "Size at excavation", "Size at joints", "Least size")
+
+
+def cells_times(ratio, sizes=ALL_SIZES):
+    """The relation that multiplies these sizes of cells."""
     def relation(scene):
         if scene.tree.get("Mesh/Generator") != "gmsh":
             raise CannotExpress("joints follow the cells of the mesh, whose "
@@ -181,18 +193,21 @@ def cells_times(ratio):
         if float(scene.tree.get("Mesh/Size", "0")) == 0.:
             raise CannotExpress("sizes of cells are left to the program")
         tree = scene.tree.copy()
-        for entry in ("Size", "Size at excavation", "Size at joints",
-                      "Least size"):
-            path = f"Mesh/{entry}"
-            tree.set(path, ratio * float(tree.get(path, "0")))
+        given = [f"Mesh/{entry}" for entry in sizes
+                 if float(tree.get(f"Mesh/{entry}", "0")) > 0.]
+        if not given:
+            raise CannotExpress("the scene gives no such size")
+        for path in given:
+            tree.set(path, ratio * float(tree.get(path)))
         return Variant(tree, keeps_mesh=False)
-    return relation
+    names = "All sizes" if sizes == ALL_SIZES else " and ".join(sizes)
+    return described(relation, f"{names} of cells are multiplied by {ratio:g}.")
 
 
 def cells_halved(scene):
     """A structured mesh with twice as many cells along each edge."""
     if not scene.is_structured:
-        raise CannotExpress("the mesh is not structured (cells-0.9 to 1.1)")
+        raise CannotExpress("the mesh is not structured")
     if any(g.strip() not in ("", "uniform")
            for g in scene.tree.get("Mesh/Gradings").split(",")):
         raise CannotExpress("halved cells of a graded mesh are no graded mesh")
@@ -206,7 +221,7 @@ def on_ranks(number):
     """The relation that runs a scene on some ranks."""
     def relation(scene):
         return Variant(scene.tree, ranks=number)
-    return relation
+    return described(relation, f"The scene runs on {number} ranks.")
 
 
 def time_step_safety(value):
@@ -217,7 +232,7 @@ def time_step_safety(value):
         tree = scene.tree.copy()
         tree.set("Time stepping/Safety", value)
         return Variant(tree)
-    return relation
+    return described(relation, f"Steps are {value:g} of the stable step.")
 
 
 PLACE = {"mirrored": mirrored, "turned": turned,
@@ -231,6 +246,9 @@ SCALE = {"lengths-0.001": lengths_times(1e-3), "lengths-0.1": lengths_times(0.1)
 OF_STEPS = ("safety-0.9", "safety-0.85")
 NUMERICS = {"cells-0.9": cells_times(0.9), "cells-0.96": cells_times(0.96),
             "cells-1.04": cells_times(1.04), "cells-1.1": cells_times(1.1),
+            "far-cells-0.96": cells_times(0.96, ("Size",)),
+            "near-cells-0.93": cells_times(0.93, ("Size at excavation",
+                                                  "Size at joints")),
             "cells-halved": cells_halved, "ranks-2": on_ranks(2),
             "ranks-4": on_ranks(4), "safety-0.9": time_step_safety(0.9),
             "safety-0.85": time_step_safety(0.85)}
