@@ -163,6 +163,9 @@ class Examination:
             variant = RELATIONS[name](self.scene)
         except CannotExpress as reason:
             return [("not expressible", str(reason))]
+        if self.scene.has_numbered_blocks and not variant.keeps_mesh:
+            return [("not expressible", "it names blocks by numbers, which another "
+                     "mesh may change")]
         for file, text in variant.files.items():
             (self.folder / file).write_text(text, "utf-8")
         scene = self.folder / f"{name}.prm"

@@ -54,6 +54,11 @@ class Scene:
         """Whether the mesh follows from Mesh/Cells."""
         return self.tree.get("Mesh/Generator") == "structured"
 
+    @property
+    def has_numbered_blocks(self):
+        """Whether the blocks with factors are given by their numbers."""
+        return self.tree.get("Safety factor/Blocks")[:1].isdigit()
+
     def stages(self):
         """Names of the stages at whose ends there are factors."""
         named = [name.strip() for name in
