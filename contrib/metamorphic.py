@@ -151,7 +151,8 @@ class Examination:
         self.scene = Scene(plain_tree(used), self.summary, options.entries)
 
     def has_factors(self):
-        """Whether the scene asks for factors by this method."""
+        """Whether the scene asks for factors by this method; in networks blocks
+        are compared anyway."""
         if self.method == "statics":
             return any("limit_equilibrium" in b for b in self.summary["blocks"])
         return any("safety_factor" in b for b in self.summary["blocks"])
@@ -176,8 +177,8 @@ class Examination:
             return [("variant", ""), ("timeout", f"{label}: more than "
                                       f"{self.options.timeout:g} s")]
         except RunFailed as failure:
-            if variant.refusal and variant.refusal in str(failure):
-                return [("not expressible", str(failure))]
+            if variant.refusal and variant.refusal[0] in str(failure):
+                return [("not expressible", variant.refusal[1])]
             return [("variant", ""), ("failure", f"{label}: fails, {failure}")]
         differences = Comparison(self.summary, found, variant,
                                  self.scene.stages()).differences()
@@ -279,7 +280,7 @@ def examine_scene(options, report, file, folder, is_network):
         except (RunFailed, SceneError) as failure:
             report.count("failure", f"{label}: fails, {failure}")
             continue
-        if one.has_factors():
+        if is_network or one.has_factors():
             one.examine_all(options.relations)
         else:
             report.count("not expressible", f"{label} cannot express any "

@@ -101,7 +101,9 @@ def shotcrete_later(scene):
     tree.add("Shotcrete", "added shotcrete", {
         "Stage": "added stage", "Excavations": ", ".join(names),
         "Parts": "roof, walls, floor", "Thickness": 0.1, "Shear strength": 1e6})
-    return Variant(tree, refusal="no free face of its excavations")
+    return Variant(tree, refusal=(
+        "no free face of its excavations", "its excavations have no free face in "
+        "rock that can be sprayed"))
 
 
 def faces_at(scene, number):
@@ -229,7 +231,8 @@ def material_far(changes):
             raise CannotExpress("the rock far away is not elastic")
         tree.add("Materials", "added material",
                  {**entries, **changes, "Region": ball(center, radius)})
-        return Variant(tree, refusal="No cell lies in the region")
+        return Variant(tree, refusal=(
+            "No cell lies in the region", "no cell is far away"))
     return described(relation, "Another material in a ball far away, like the "
                      "rock there" + (" until it yields." if changes else "."))
 

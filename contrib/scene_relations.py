@@ -36,8 +36,8 @@ class Variant(NamedTuple):
     new_blocks: tuple = ()
     files: dict = {}  # texts of files beside it, by their names
     # part of the message with which the program refuses it if the scene cannot
-    # express the relation
-    refusal: str = ""
+    # express the relation, and the reason to print
+    refusal: tuple = ()
 
 
 class Scene:
