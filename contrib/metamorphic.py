@@ -67,12 +67,8 @@ class TimedOut(Exception):
     """A run that took too long."""
 
 
-def run(options, scene, output, ranks, arguments):
-    """Run a scene; returns its summary."""
-    command = [options.keyblock, "--output", str(output), str(scene)] + arguments
-    if ranks > 1:
-        command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n",
-                   str(ranks)] + command
+def start(options, command, log):
+    """(exit code, standard error) of a command; what it prints goes to `log`."""
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           stdin=subprocess.DEVNULL, text=True,
                           start_new_session=True) as process:
@@ -82,10 +78,24 @@ def run(options, scene, output, ranks, arguments):
             os.killpg(process.pid, signal.SIGKILL)
             process.communicate()
             raise TimedOut() from late
-    (output.parent / f"{output.name}.log").write_text(said + errors, "utf-8")
-    if process.returncode != 0:
+    log.write_text(said + errors, "utf-8")
+    return process.returncode, errors
+
+
+def run(options, scene, output, ranks, arguments):
+    """Run a scene; returns its summary."""
+    command = [options.keyblock, "--output", str(output), str(scene)] + arguments
+    if ranks > 1:
+        command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n",
+                   str(ranks)] + command
+    log = output.parent / f"{output.name}.log"
+    code, errors = start(options, command, log)
+    if code != 0 and "MPI_INIT failed" in errors:
+        # Open MPI, where others start at the same time
+        code, errors = start(options, command, log)
+    if code != 0:
         lines = without_mpirun(errors).strip().splitlines() or ["no message"]
-        raise RunFailed(f"exit {process.returncode}: {lines[-1]}")
+        raise RunFailed(f"exit {code}: {lines[-1]}")
     return json.loads((output / "summary.json").read_text("utf-8"))
 
 
