@@ -110,6 +110,10 @@ class Comparison:
         is_exact = "exact_volume" in old and "exact_volume" in new
         return Pair(old, new, EXACT if is_same_mesh or is_exact else OF_MESH)
 
+    def changes_numbers(self):
+        """Whether a block has another number in the variant."""
+        return any(pair.old["id"] != pair.new["id"] for pair in self.pairs)
+
     def differences(self):
         """All differences, by block."""
         for block in self.lost:

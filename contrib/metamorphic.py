@@ -173,9 +173,6 @@ class Examination:
             variant = RELATIONS[name](self.scene)
         except CannotExpress as reason:
             return [("not expressible", str(reason))]
-        if self.scene.has_numbered_blocks and not variant.keeps_mesh:
-            return [("not expressible", "it names blocks by numbers, which another "
-                     "mesh may change")]
         for file, text in variant.files.items():
             (self.folder / file).write_text(text, "utf-8")
         scene = self.folder / f"{name}.prm"
@@ -189,8 +186,11 @@ class Examination:
             if variant.refusal and variant.refusal[0] in str(failure):
                 return [("not expressible", variant.refusal[1])]
             return [("variant", ""), ("failure", f"{label}: fails, {failure}")]
-        differences = Comparison(self.summary, found, variant,
-                                 self.scene.stages()).differences()
+        comparison = Comparison(self.summary, found, variant, self.scene.stages())
+        if self.scene.has_numbered_blocks and comparison.changes_numbers():
+            return [("not expressible", "it names blocks by numbers, which are "
+                     "others in the variant")]
+        differences = comparison.differences()
         is_apart = self.is_network and not variant.keeps_mesh
         kind = "other mesh" if is_apart else "violation"
         lines = [f"{label}: {difference.text()}"

@@ -278,6 +278,22 @@ class Grid:
         ends = [self.vertex(cell), self.vertex([i + 1 for i in cell])]
         return [0.5 * (a + b) for a, b in zip(*ends)]
 
+    def quarter_points(self):
+        """The centres of the 4 or 8 parts of each cell, cell by cell."""
+        steps = list(itertools.product((0.25, 0.75), repeat=len(self.counts)))
+        for cell in itertools.product(*(range(n) for n in self.counts)):
+            low = self.vertex(cell)
+            sides = [difference(self.vertex([i + (a == axis) for a, i in
+                                             enumerate(cell)]), low)
+                     for axis in range(len(cell))]
+            points = []
+            for step in steps:
+                p = low
+                for s, side in zip(step, sides):
+                    p = [x + s * d for x, d in zip(p, side)]
+                points.append(p)
+            yield points
+
     def face(self, cell, axis, side):
         """Corners, in order, of a face of a cell: across edge number `axis`,
         on its lower (0) or upper (1) side."""

@@ -6,7 +6,9 @@ CannotExpress with the reason if the scene cannot express it."""
 from typing import Callable, NamedTuple
 
 from scene_domain import CannotExpress, unit
+from scene_formula import Formula
 from scene_moves import Move, move_scene, turn_about
+from scene_places import Grid
 from scene_shapes import bolt_mover, chords_of, is_profile, move_excavations
 from scene_tree import numbers_of
 from scene_units import factor_of_lengths, factor_of_masses, scale
@@ -209,6 +211,23 @@ def cells_times(ratio, sizes=ALL_SIZES):
     return described(relation, f"{names} of cells are multiplied by {ratio:g}.")
 
 
+def check_steps(scene):
+    """Refuse formulas of excavations and materials whose outlines do not follow
+    the cells: smaller cells would follow them in other steps."""
+    grid = Grid(scene.tree)
+    paths = ([f"Excavations/{name}/Formula" for name in scene.tree.names("Excavations")]
+             + [f"Materials/{name}/Region" for name in scene.tree.names("Materials")])
+    for path in paths:
+        text = scene.tree.get(path)
+        if text in ("", "all") or text.startswith(("id ", "band ")):
+            continue
+        formula = Formula(text)
+        for points in grid.quarter_points():
+            if len({formula.at(p) > 0. for p in points}) > 1:
+                raise CannotExpress(f"smaller cells follow the outline of '{path}' "
+                                    "in other steps")
+
+
 def cells_halved(scene):
     """A structured mesh with twice as many cells along each edge."""
     if not scene.is_structured:
@@ -216,6 +235,7 @@ def cells_halved(scene):
     if any(g.strip() not in ("", "uniform")
            for g in scene.tree.get("Mesh/Gradings").split(",")):
         raise CannotExpress("halved cells of a graded mesh are no graded mesh")
+    check_steps(scene)
     tree = scene.tree.copy()
     cells = [2 * int(n) for n in tree.get("Mesh/Cells").split(",")]
     tree.set("Mesh/Cells", cells)
