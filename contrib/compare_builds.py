@@ -101,9 +101,7 @@ def test_scenes(build):
         if folder == "scenes" and "command" in test:
             # Python, compare.py, keyblock, scene, references, ranks, folder, ...
             command = test["command"]
-            # CMake splits lists at semicolons: @ stands for one
-            scenes[name.rpartition(".")[0]] = (
-                command[3], [text.replace("@", ";") for text in command[7:]])
+            scenes[name.rpartition(".")[0]] = (command[3], command[7:])
     return [(name, *rest) for name, rest in scenes.items()]
 
 

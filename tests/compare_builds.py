@@ -148,7 +148,7 @@ def check_tolerance(folder, scene):
 def check_tests(folder, scene):
     """Scenes, ranks and overrides are those of the tests that ctest lists."""
     command = ["python3", "compare.py", "keyblock", scene, "slide.ref", "1",
-               "folder", "--set=A=1@ 2"]
+               "folder", "--set=A=1; 2"]
     tests = {"tests": [{"name": "scenes/slide.1", "command": command},
                        {"name": "history", "command": ["python3", "history.py"]},
                        {"name": "scenes/slip.2", "command": command[:7]}]}

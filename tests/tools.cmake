@@ -58,3 +58,5 @@ keyblock_test(rooms/classes quick COMMAND ${contrib}/classes.py)
 keyblock_test(documents quick COMMAND documents.py ${CMAKE_SOURCE_DIR})
 keyblock_test(parameters_documented quick COMMAND sh -c
   "${keyblock} --print-parameters | diff - ${CMAKE_SOURCE_DIR}/doc/parameters.md")
+# what tells two builds apart
+keyblock_test(compare_builds quick COMMAND compare_builds.py ${out}/compare_builds)
