@@ -57,7 +57,7 @@ MASKS = [(re.compile(pattern, re.MULTILINE), replacement)
              (r"^        static solves before the first step: .*\n", ""),
              (rf"^(Output  .*\(){REAL} s\)$", r"\1TIME)"),
              (rf"^(Static  .* in ){REAL} s", r"\1TIME"),
-             (rf"^((?:Factor|        ).*trials?, ){REAL} s", r"\1TIME"),
+             (rf"^((?:Factor|Support|        ).*trials?, ){REAL} s", r"\1TIME"),
              (rf"^(Study   .*; ){REAL} s(?:, {REAL} a minute)?", r"\1TIME"),
              (rf"^(Estimate .*; ){REAL} ms (each here on \d+ ranks?: ).*",
               r"\1TIME \2TIME"),
