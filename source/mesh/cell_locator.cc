@@ -56,15 +56,19 @@ namespace Keyblock
       Point<dim> unit;
       for (unsigned int d = 0; d < dim; ++d)
         unit[d] = 0.5;
+      // relative to a corner: far from the origin, sums of coordinates would
+      // round by more than the method converges to
+      const Point<dim> &corner = mesh.vertices[mesh.cells[cell][0]];
       std::array<Tensor<1, dim>, Mesh<dim>::n_cell_vertices> slope;
       for (unsigned int iteration = 0; iteration < 100; ++iteration)
         {
           const Weights<dim> weight = shape_at<dim>(unit, slope);
-          Tensor<1, dim> miss       = point;
+          Tensor<1, dim> miss       = point - corner;
           dealii::Tensor<2, dim> jacobian;
           for (unsigned int v = 0; v < weight.size(); ++v)
             {
-              const Point<dim> &x = mesh.vertices[mesh.cells[cell][v]];
+              const Tensor<1, dim> x =
+                mesh.vertices[mesh.cells[cell][v]] - corner;
               miss -= weight[v] * x;
               jacobian += outer_product(x, slope[v]);
             }
