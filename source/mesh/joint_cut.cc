@@ -307,12 +307,11 @@ namespace Keyblock
              const double coarsening)
   {
     const JointSheets<dim> sheets = make_sheets(scene);
-    SnapDistance<dim> distance(snap);
-    CutMesh<dim> best = cut_with(mesh, scene, sheets, distance);
+    CutMesh<dim> best = cut_with(mesh, scene, sheets, SnapDistance<dim>(snap));
     if (best.changed.n > 0)
       {
-        distance.reduce(best.changed.vertices);
-        CutMesh<dim> nearer = cut_with(mesh, scene, sheets, distance);
+        CutMesh<dim> nearer = cut_with(
+          mesh, scene, sheets, SnapDistance<dim>(snap, best.changed.vertices));
         if (nearer.faults() < best.faults())
           best = std::move(nearer);
       }

@@ -21,10 +21,10 @@ namespace Keyblock
      * stays, or so large that moved faces change little. */
     constexpr double most_cells = 300.;
 
-    /** Qualities to which cells may go for it, and the least step with them,
-     * and how often each vertex is tried: its neighbours must make way. */
-    constexpr double qualities[]   = {0.12, 0.08, 0.05};
-    constexpr unsigned int n_tries = 3;
+    /** Quality to which cells may go for it, and the least step with them, and
+     * how often each vertex is tried: its neighbours must make way. */
+    constexpr double quality_of_block_faces = 0.12;
+    constexpr unsigned int n_tries          = 3;
 
 
 
@@ -187,14 +187,14 @@ namespace Keyblock
   straighten_pieces(SimplexMesh<dim> &mesh, const Scene<dim> &scene)
   {
     MeshImprovement<dim> improvement(mesh, 0.);
-    for (const double quality : qualities)
-      for (unsigned int i = 0; i < n_tries; ++i)
-        {
-          const PieceCheck<dim> changed(mesh, scene);
-          if (changed.n() == 0)
-            return {};
-          improvement.flatten(quality, changed.vertices_on_joints(mesh));
-        }
+    for (unsigned int i = 0; i < n_tries; ++i)
+      {
+        const PieceCheck<dim> changed(mesh, scene);
+        if (changed.n() == 0)
+          return {};
+        improvement.flatten(quality_of_block_faces,
+                            changed.vertices_on_joints(mesh));
+      }
     const PieceCheck<dim> left(mesh, scene);
     ChangedPieces<dim> result;
     result.n = left.n();

@@ -68,7 +68,7 @@ namespace Keyblock
     unsigned int n = 0;
 
     /** Their vertices on joints, with the target size there [m]. */
-    std::vector<std::pair<Point<dim>, double>> vertices;
+    typename SnapDistance<dim>::Places vertices;
   };
 
   /** Vertices on the joints of pieces that may fall out of an outline: all at

@@ -10,38 +10,28 @@
 namespace Keyblock
 {
   /** How near a vertex must be to be moved onto a joint, over the target size:
-   * a usual distance, and smaller ones around places where moved faces have
+   * a usual distance, and a quarter of it around places where moved faces have
    * changed a piece of rock. */
   template <int dim>
   class SnapDistance
   {
   public:
-    explicit SnapDistance(const double usual)
-      : usual(usual)
-    {}
+    /** The places, each with the radius around it [m]. */
+    using Places = std::vector<std::pair<dealii::Point<dim>, double>>;
 
-    /** Let it be a quarter of what it is at each of some @p places, within the
-     * radius [m] that stands with each. */
-    void
-    reduce(const std::vector<std::pair<dealii::Point<dim>, double>> &places)
-    {
-      std::vector<Ball> reduced;
-      reduced.reserve(places.size());
-      for (const auto &[center, radius] : places)
-        reduced.push_back({center, radius, 0.25 * at(center)});
-      balls.insert(balls.end(), reduced.begin(), reduced.end());
-    }
+    explicit SnapDistance(const double usual, const Places &places = {})
+      : usual(usual)
+      , places(places)
+    {}
 
     /** That at a place [-]. */
     double
     at(const dealii::Point<dim> &place) const
     {
-      double least = usual;
-      for (const Ball &ball : balls)
-        if (ball.value < least &&
-            place.distance_square(ball.center) < ball.radius * ball.radius)
-          least = ball.value;
-      return least;
+      for (const auto &[center, radius] : places)
+        if (place.distance_square(center) < radius * radius)
+          return 0.25 * usual;
+      return usual;
     }
 
     /** The largest of all [-]. */
@@ -52,14 +42,8 @@ namespace Keyblock
     }
 
   private:
-    struct Ball
-    {
-      dealii::Point<dim> center;
-      double radius, value;
-    };
-
     const double usual;
-    std::vector<Ball> balls;
+    const Places places;
   };
 } // namespace Keyblock
 
