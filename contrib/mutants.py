@@ -36,10 +36,9 @@ MUTANTS = {
     "masses_swapped": (
         "the lighter one of two nodes leads", "source/contact/pair_contact.cc",
         "(wp * v[pm + d] + wm * v[pp + d])", "(wm * v[pm + d] + wp * v[pp + d])"),
-    "area_of_one_side": (
-        "the master has the slave's weights", "source/contact/area_shares.cc",
-        "slave_face].block,\n                         overlap.master_weight",
-        "slave_face].block,\n                         overlap.slave_weight"),
+    "bearing_area": (
+        "surface contacts have half of their area", "source/contact/area_shares.cc",
+        "point.area += part.area *", "point.area += 0.5 * part.area *"),
     "pair_area": (
         "pairs of nodes have half of their area", "source/blocks/interface.cc",
         "pair.area += in_plane *", "pair.area += 0.5 * in_plane *"),

@@ -315,7 +315,6 @@ namespace Keyblock
     const unsigned int n_labels = label_cells(mesh, label);
     std::vector<Block<dim>> found(n_labels);
     std::vector<Tensor<1, dim>> moment(n_labels);
-    std::vector<std::pair<Point<dim>, Point<dim>>> extent(n_labels);
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
         if (label[c] == none)
@@ -327,15 +326,7 @@ namespace Keyblock
         block.mass += volume * material.density;
         block.is_rigid = block.is_rigid || material.is_rigid();
         block.volume += volume;
-        auto &box = extent[label[c]];
-        if (block.n_cells++ == 0)
-          box = {mesh.cell_center(c), mesh.cell_center(c)};
-        for (const unsigned int v : mesh.cells[c])
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              box.first[d]  = std::min(box.first[d], mesh.vertices[v][d]);
-              box.second[d] = std::max(box.second[d], mesh.vertices[v][d]);
-            }
+        ++block.n_cells;
         for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
           if (mesh.neighbor[c][f] == none && is_truncated(mesh, scene, c, f))
             block.is_infinite = true;
@@ -343,9 +334,16 @@ namespace Keyblock
     for (unsigned int b = 0; b < n_labels; ++b)
       {
         found[b].centroid    = Point<dim>(moment[b] / found[b].volume);
-        found[b].size        = extent[b].first.distance(extent[b].second);
         found[b].is_infinite = found[b].is_infinite || found[b].is_rigid;
       }
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      if (label[c] != none)
+        for (const unsigned int v : mesh.cells[c])
+          {
+            Block<dim> &block = found[label[c]];
+            block.size        = std::max(
+              block.size, 2. * block.centroid.distance(mesh.vertices[v]));
+          }
 
     Blocks<dim> result;
     std::set<std::vector<signed char>> codes;

@@ -51,8 +51,7 @@ namespace Keyblock
     /** Sign of the block's side of each joint it touches: -1, +1. */
     std::map<unsigned int, int> joint_side;
 
-    /** Diagonal of the box along the axes around its cells [m]: it depends on
-     * how the scene is turned. */
+    /** Diameter of the sphere around its centroid that holds its cells [m]. */
     double size = 0.;
 
     /** Least extent along the normals of its faces [m]; 0 if infinite. */
