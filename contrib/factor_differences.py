@@ -65,6 +65,7 @@ class Comparison:
         self.mapping = variant.mapping
         self.stages = stages
         self.dim = old["scene"]["dimension"]
+        self.is_cut = any(s.get("mesh", {}).get("way") == "cut" for s in (old, new))
         self.old, self.new = finite_blocks(old), finite_blocks(new)
         self.found = []
         self.pairs = self.make_pairs()
@@ -113,6 +114,14 @@ class Comparison:
     def changes_numbers(self):
         """Whether a block has another number in the variant."""
         return any(pair.old["id"] != pair.new["id"] for pair in self.pairs)
+
+    def has_cut_blocks(self):
+        """Whether two meshes that joints are cut into have different blocks."""
+        return self.is_cut and not self.variant.keeps_mesh and (
+            bool(self.lost)
+            or not all(self.is_expected(block) for block in self.added)
+            or any(not is_close(pair.old["volume"], self.volume(pair.new), OF_MESH)
+                   or has_other_sides(pair) for pair in self.pairs))
 
     def differences(self):
         """All differences, by block."""
@@ -177,7 +186,7 @@ class Comparison:
                         old["value"], new["value"], pair.tolerance)):
                 self.add(block, stage, "limit equilibrium", text_of_row(old),
                          text_of_row(new))
-            elif same_order(modes[0]) != same_order(modes[1]):
+            elif self.of_surfaces(modes[0]) != self.of_surfaces(modes[1]):
                 self.add(block, stage, "mode", *modes)
             self.compare_once_gone(pair, stage, old, new)
             self.compare_demand(block, stage, old.get("support_demand"),
@@ -188,6 +197,15 @@ class Comparison:
         motion, on, joints = mode.partition(" on ")
         return motion + on + "/".join(self.mapping.names.get(name, name)
                                       for name in joints.split("/"))
+
+    def of_surfaces(self, mode):
+        """A mode with the joints in alphabetical order, and the bent joints in
+        place of their facets: any may be named of those that hold alike."""
+        motion, on, joints = mode.partition(" on ")
+        tree = self.variant.tree
+        names = {tree and tree.get(f"Joints/{name}/Surface") or name
+                 for name in joints.split("/")}
+        return motion + on + "/".join(sorted(names))
 
     def compare_once_gone(self, pair, stage, old, new):
         """Factors once neighbours have gone."""
@@ -230,15 +248,16 @@ class Comparison:
                 self.add(pair.old["id"], stage, "strength reduction", *texts)
 
 
+def has_other_sides(pair):
+    """Whether joints let one of both move and not the other, or free one of
+    them only."""
+    return any(pair.old[entry] != pair.new[entry]
+               for entry in ("class", "removable"))
+
+
 def is_judged(block):
     """Whether a block has a factor."""
     return "limit_equilibrium" in block or "safety_factor" in block
-
-
-def same_order(mode):
-    """A mode with its joints in alphabetical order."""
-    motion, on, joints = mode.partition(" on ")
-    return motion + on + "/".join(sorted(joints.split("/")))
 
 
 def text_of_row(row):

@@ -12,11 +12,11 @@ single ones, which --list prints. --method statics: limit equilibrium alone, no 
 reduction: the scene as it is; both: one after the other. --timeout: longest
 time of a run [s]. --keep: the folder that scenes and results are kept in.
 --networks takes random networks of joints (contrib/networks.py) besides the
-scenes, with limit equilibrium; relations that change their mesh may change their
-blocks, so that these differences are counted apart.
+scenes, with limit equilibrium.
 
 Limit equilibrium must agree to 1e-6, or to 1e-3 for blocks that two different
-meshes bound, not planes. Of strength reduction brackets must overlap and
+meshes bound, not planes. Variants whose mesh is another one, and has other blocks
+since joints are cut into it, are counted apart, as are networks with another mesh. Of strength reduction brackets must overlap and
 outcomes be the same. One line is printed for each violation, for each relation
 that a scene cannot express, and for each run that fails. A violation is marked as
 unsafe if the variant has a larger factor, or lacks a block or a factor. Exits with
@@ -131,7 +131,7 @@ class Report:
         if c["failure"]:
             text += f", {c['failure']} failures"
         if c["other mesh"]:
-            text += (f"; besides, {c['other mesh']} differences in networks with "
+            text += (f"; besides, {c['other mesh']} variants with other blocks of "
                      "another mesh")
         return text
 
@@ -145,7 +145,7 @@ class Examination:
     """A scene, by one method, and its variants.
 
     `file`: the scene file; `folder`: where its variants and results go;
-    `is_network`: whether differences of another mesh are counted apart."""
+    `is_network`: whether variants with another mesh are counted apart."""
 
     def __init__(self, options, report, file, folder, method, is_network):
         self.options, self.report = options, report
@@ -191,12 +191,15 @@ class Examination:
             return [("not expressible", "it names blocks by numbers, which are "
                      "others in the variant")]
         differences = comparison.differences()
-        is_apart = self.is_network and not variant.keeps_mesh
-        kind = "other mesh" if is_apart else "violation"
+        if differences and (comparison.has_cut_blocks() or (
+                self.is_network and not variant.keeps_mesh)):
+            return [("variant", ""), ("other mesh", f"{label}: another mesh has "
+                                      f"other blocks, {len(differences)} "
+                                      "differences")]
         lines = [f"{label}: {difference.text()}"
                  + (" (unsafe)" if is_unsafe(difference) else "")
                  for difference in differences]
-        return [("variant", "")] + [(kind, line) for line in lines]
+        return [("variant", "")] + [("violation", line) for line in lines]
 
     def examine_all(self, names):
         """Run all variants and report; relations that the scene cannot express

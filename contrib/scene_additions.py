@@ -247,11 +247,11 @@ def unused_set(scene):
 def unused_table(scene):
     """A table of joints, where all joints are listed without it."""
     tree = scene.tree.copy()
-    tree.set("Joints/File", "joints.csv")
+    tree.set("Joints/File", "unused.csv")
     tree.set("Joints/Resolved", "true")
     rows = ["name,dip,dip direction,x,y" + ",z" * (scene.dim - 2),
             "unused joint,45,90" + ",0" * scene.dim]
-    return Variant(tree, files={"joints.csv": "\n".join(rows) + "\n"})
+    return Variant(tree, files={"unused.csv": "\n".join(rows) + "\n"})
 
 
 def place_columns(tree, name):
@@ -293,10 +293,10 @@ def overridden_table(scene):
             tree.remove(f"Joints/{name}/{entry}")
         if tree.get(f"Joints/{name}/Extent") != "disc":
             tree.remove(f"Joints/{name}/Radius")
-    for path, value in {"Names": "", "File": "joints.csv",
+    for path, value in {"Names": "", "File": "overridden.csv",
                         "Resolved": "false"}.items():
         tree.set(f"Joints/{path}", value)
-    return Variant(tree, files={"joints.csv": "\n".join(rows) + "\n"})
+    return Variant(tree, files={"overridden.csv": "\n".join(rows) + "\n"})
 
 
 IRRELEVANT = {

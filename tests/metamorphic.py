@@ -246,6 +246,27 @@ class Differences(unittest.TestCase):
         self.assertEqual(compare(old, new, names), [])
         self.assertEqual(len(compare(old, new)), 1)
 
+    def test_facets_of_a_bent_joint(self):
+        tree = read_scene(ROOT / "prm" / "verification" / "trough.prm")
+        for name in ("bend_1", "bend_2"):
+            tree.set(f"Joints/{name}/Surface", "bend")
+        old = summary(block(1, **statics(1., "sliding on bend_1")))
+        for mode, n_differences in (("sliding on bend_2", 0), ("sliding on bed", 1)):
+            new = summary(block(1, **statics(1., mode)))
+            self.assertEqual(len(compare(old, new, Variant(tree))), n_differences)
+
+    def test_blocks_of_cut_joints(self):
+        old, same = summary(block(1), block(2)), summary(block(1), block(2))
+        lost, shrunk = summary(block(1)), summary(block(1), block(2, volume=1.9))
+        locked = summary(block(1), block(2, removable=False))
+        for way, keeps_mesh in (("cut", False), ("cut", True), ("exact", False)):
+            variant = Variant(None, keeps_mesh=keeps_mesh)
+            for new in (same, lost, shrunk, locked):
+                new["mesh"] = {"way": way}
+                self.assertEqual(
+                    Comparison(old, new, variant, []).has_cut_blocks(),
+                    new is not same and way == "cut" and not keeps_mesh)
+
     def test_brackets(self):
         old = summary(block(1, **reduction(1., 1.01)))
         self.assertEqual(

@@ -71,22 +71,8 @@ namespace Keyblock
                : 0;
     }
 
-    /** Centres and vector areas, outwards, of list_supported_faces(). */
-    template <int dim>
-    std::vector<PointForce<dim>>
-    supported_faces(const Ground<dim> &ground,
-                    const FreeFaces<dim> &free,
-                    const unsigned int block,
-                    const double area_ratio,
-                    const Tensor<1, dim> &way)
-    {
-      const Mesh<dim> &mesh = ground.split.mesh;
-      std::vector<PointForce<dim>> faces;
-      for (const CellFace &f : list_supported_faces(ground, free, block, way))
-        faces.push_back({mesh.face_center(f.cell, f.face),
-                         area_ratio * mesh.face_area_vector(f.cell, f.face)});
-      return faces;
-    }
+    /** Sum of areas over their sizes that is none [-]. */
+    constexpr double no_area = 1e-6;
   } // namespace
 
 
@@ -112,6 +98,23 @@ namespace Keyblock
           faces.push_back(f);
       }
     return faces;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  sum_of_areas(const Mesh<dim> &mesh, const std::vector<CellFace> &faces)
+  {
+    Tensor<1, dim> sum;
+    double all = 0.;
+    for (const CellFace &f : faces)
+      {
+        const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
+        sum += area;
+        all += area.norm();
+      }
+    return sum.norm() > no_area * all ? sum : Tensor<1, dim>();
   }
 
 
@@ -266,9 +269,16 @@ namespace Keyblock
     };
     if (does(support, {}, 0.))
       return demand;
-    const std::vector<PointForce<dim>> free_faces = supported_faces(
-      ground, free, block, around.free_area_ratio, bare.direction);
-    const double area         = sum_of(free_faces).norm();
+    const Mesh<dim> &mesh = ground.split.mesh;
+    const std::vector<CellFace> supported =
+      list_supported_faces(ground, free, block, bare.direction);
+    std::vector<PointForce<dim>> free_faces;
+    for (const CellFace &f : supported)
+      free_faces.push_back(
+        {mesh.face_center(f.cell, f.face),
+         around.free_area_ratio * mesh.face_area_vector(f.cell, f.face)});
+    const double area =
+      around.free_area_ratio * sum_of_areas(mesh, supported).norm();
     const Tensor<1, dim> load = around.loads.without_water();
     Tensor<1, dim> resultant  = load;
     for (const BlockFace<dim> &face : around.faces)
@@ -318,6 +328,8 @@ namespace Keyblock
                                      const BlockSurroundings<dim> &,           \
                                      const BlockSupport<dim> &,                \
                                      const double);                            \
+  template Tensor<1, dim> sum_of_areas(const Mesh<dim> &,                      \
+                                       const std::vector<CellFace> &);         \
   template std::vector<CellFace> list_supported_faces(const Ground<dim> &,     \
                                                       const FreeFaces<dim> &,  \
                                                       const unsigned int,      \

@@ -25,9 +25,6 @@ namespace Keyblock
       return nearest == nullptr ? 0. : nearest->unbalanced;
     }
 
-    /** Sum of areas over their sizes that is none [-]. */
-    constexpr double no_area = 1e-6;
-
     /** Let the pressure of trials act on @p faces of blocks with a @p load [N];
      * those on both ends may cancel each other, which leaves no unit. */
     template <int dim>
@@ -39,15 +36,8 @@ namespace Keyblock
     {
       run.conditions.trial_pressure.press_on(faces);
       PressedBlock<dim> pressed;
-      double sum = 0.;
-      for (const CellFace &f : faces)
-        {
-          const Tensor<1, dim> area =
-            split.mesh.face_area_vector(f.cell, f.face);
-          pressed.area += area;
-          sum += area.norm();
-        }
-      if (pressed.area.norm() > no_area * sum)
+      pressed.area = sum_of_areas(split.mesh, faces);
+      if (pressed.area.norm() > 0.)
         pressed.unit = load / pressed.area.norm();
       return pressed;
     }

@@ -117,10 +117,9 @@ namespace Keyblock
       const Tensor<1, dim> way =
         solve_with_laws<dim>(around.faces, around.loads.without_water())
           .direction;
-      Tensor<1, dim> area;
-      for (const CellFace &f :
-           list_supported_faces(ground, free, member.block, way))
-        area += ground.split.mesh.face_area_vector(f.cell, f.face);
+      const Tensor<1, dim> area = sum_of_areas(
+        ground.split.mesh,
+        list_supported_faces(ground, free, member.block, way));
       return std::isfinite(demand.force) && area.norm() > 0.
                ? -demand.force / area.norm() * area
                : Tensor<1, dim>();

@@ -89,11 +89,12 @@ namespace Keyblock
     {
       std::vector<PointForce<dim>> thrusts;
       const Mesh<dim> &mesh = ground.split.mesh;
-      for (const CellFace &f : list_supported_faces(
-             ground, free, above.block, above.statics.limit.direction))
+      const std::vector<CellFace> faces = list_supported_faces(
+        ground, free, above.block, above.statics.limit.direction);
+      for (const CellFace &f : faces)
         thrusts.push_back({mesh.face_center(f.cell, f.face),
                            mesh.face_area_vector(f.cell, f.face)});
-      const double area = sum_of(thrusts).norm();
+      const double area = sum_of_areas(mesh, faces).norm();
       for (PointForce<dim> &one : thrusts)
         one.force *= area > 0. ? force / area : 0.;
       return thrusts;

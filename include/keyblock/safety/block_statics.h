@@ -40,6 +40,12 @@ namespace Keyblock
                                              const unsigned int block,
                                              const Tensor<1, dim> &way);
 
+  /** Sum of the vector areas of faces, outwards [m^(dim-1)]; 0 where they cancel
+   * each other, as those on both ends of a block do, but for round-off. */
+  template <int dim>
+  Tensor<1, dim> sum_of_areas(const Mesh<dim> &mesh,
+                              const std::vector<CellFace> &faces);
+
   /** Bolts of the scene's sets of which a block (by index) has none, that give
    * @p force [N] together, each its mean capacity. */
   template <int dim>
