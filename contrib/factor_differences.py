@@ -24,6 +24,8 @@ class Difference(NamedTuple):
     what: str
     old: str
     new: str
+    # a factor that depends on stresses, which depend on the mesh
+    is_of_stresses: bool = False
 
     def text(self):
         """The difference in one line."""
@@ -71,9 +73,10 @@ class Comparison:
         self.pairs = self.make_pairs()
         self.number = {pair.new["id"]: pair.old["id"] for pair in self.pairs}
 
-    def add(self, block, stage, what, old, new):
+    def add(self, block, stage, what, old, new, is_of_stresses=False):
         """Note a difference."""
-        self.found.append(Difference(block, stage, what, str(old), str(new)))
+        self.found.append(Difference(block, stage, what, str(old), str(new),
+                                     is_of_stresses))
 
     def place(self, block):
         """Where a block of the variant is in the scene [m]."""
@@ -237,7 +240,9 @@ class Comparison:
                          new[entry] / factor)
 
     def compare_reduction(self, pair):
-        """Brackets and outcomes of strength reduction."""
+        """Brackets and outcomes of strength reduction. A bracket that does not
+        hold the factor by limit equilibrium depends on stresses."""
+        limits = self.rows(pair.old, "limit_equilibrium")
         for stage, old, new in self.in_both(pair, "safety_factor"):
             brackets = [(row.get("lower", 0.), row.get("upper", math.inf))
                         for row in (old, new)]
@@ -245,7 +250,10 @@ class Comparison:
                      for row, (low, high) in zip((old, new), brackets)]
             overlap = (max(b[0] for b in brackets) <= min(b[1] for b in brackets))
             if old["outcome"] != new["outcome"] or not overlap:
-                self.add(pair.old["id"], stage, "strength reduction", *texts)
+                value = limits.get(stage, {}).get("value", math.nan)
+                is_closed_form = brackets[0][0] <= value <= brackets[0][1]
+                self.add(pair.old["id"], stage, "strength reduction", *texts,
+                         not self.variant.keeps_mesh and not is_closed_form)
 
 
 def has_other_sides(pair):
