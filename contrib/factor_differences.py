@@ -24,8 +24,8 @@ class Difference(NamedTuple):
     what: str
     old: str
     new: str
-    # a factor that depends on stresses, which depend on the mesh
-    is_of_stresses: bool = False
+    # a factor that limit equilibrium does not give, with another mesh
+    is_of_mesh: bool = False
 
     def text(self):
         """The difference in one line."""
@@ -73,10 +73,10 @@ class Comparison:
         self.pairs = self.make_pairs()
         self.number = {pair.new["id"]: pair.old["id"] for pair in self.pairs}
 
-    def add(self, block, stage, what, old, new, is_of_stresses=False):
+    def add(self, block, stage, what, old, new, is_of_mesh=False):
         """Note a difference."""
         self.found.append(Difference(block, stage, what, str(old), str(new),
-                                     is_of_stresses))
+                                     is_of_mesh))
 
     def place(self, block):
         """Where a block of the variant is in the scene [m]."""
@@ -240,8 +240,9 @@ class Comparison:
                          new[entry] / factor)
 
     def compare_reduction(self, pair):
-        """Brackets and outcomes of strength reduction. A bracket that does not
-        hold the factor by limit equilibrium depends on stresses."""
+        """Brackets and outcomes of strength reduction. A bracket without the
+        factor by limit equilibrium depends on stresses or on bent faces, and
+        so on the mesh."""
         limits = self.rows(pair.old, "limit_equilibrium")
         for stage, old, new in self.in_both(pair, "safety_factor"):
             brackets = [(row.get("lower", 0.), row.get("upper", math.inf))

@@ -17,7 +17,7 @@ scenes, with limit equilibrium.
 Limit equilibrium must agree to 1e-6, or to 1e-3 for blocks that two different
 meshes bound, not planes. Variants whose mesh is another one, and has other blocks
 since joints are cut into it, are counted apart, as are networks with another mesh,
-and factors of another mesh that stresses in the rock decide. Of strength reduction
+and factors of another mesh that limit equilibrium does not give. Of strength reduction
 brackets must overlap and outcomes be the same. One line is printed for each
 difference, for each relation that a scene cannot express, and for each run that
 fails. A difference is marked as unsafe if the variant has a larger factor, or lacks
@@ -132,9 +132,9 @@ class Report:
                 f"expressible, {c['timeout']} timeouts")
         if c["failure"]:
             text += f", {c['failure']} failures"
-        if c["other stresses"]:
-            text += (f"; besides, {c['other stresses']} factors by stresses of "
-                     "another mesh")
+        if c["other factor"]:
+            text += (f"; besides, {c['other factor']} other factors of another mesh, "
+                     "which limit equilibrium does not give")
         if c["other mesh"]:
             text += (f"; besides, {c['other mesh']} variants with other blocks of "
                      "another mesh")
@@ -204,7 +204,7 @@ class Examination:
         lines = [f"{label}: {difference.text()}"
                  + (" (unsafe)" if is_unsafe(difference) else "")
                  for difference in differences]
-        kinds = ["other stresses" if difference.is_of_stresses else "violation"
+        kinds = ["other factor" if difference.is_of_mesh else "violation"
                  for difference in differences]
         return [("variant", "")] + list(zip(kinds, lines))
 

@@ -276,16 +276,16 @@ class Differences(unittest.TestCase):
         self.assertEqual(len(compare(old, summary(
             block(1, **reduction(1., 1.01, "undecided"))))), 1)
 
-    def test_brackets_that_stresses_decide(self):
+    def test_brackets_without_limit_equilibrium(self):
         other_mesh = Variant(None, keeps_mesh=False)
-        for limit, is_of_stresses in ((0.4, True), (1.005, False)):
+        for limit, is_of_mesh in ((0.4, True), (1.005, False)):
             old = summary(block(1, **reduction(1., 1.01), **statics(limit)))
             new = summary(block(1, cells=5, **reduction(1.02, 1.03),
                                 **statics(limit)))
             for variant in (other_mesh, Variant(None)):
                 found = Comparison(old, new, variant, ["dig"]).differences()
-                self.assertEqual([d.is_of_stresses for d in found],
-                                 [is_of_stresses and variant is other_mesh])
+                self.assertEqual([d.is_of_mesh for d in found],
+                                 [is_of_mesh and variant is other_mesh])
 
     def test_blocks(self):
         old = summary(block(1, **statics(1.)), block(2))
