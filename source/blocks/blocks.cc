@@ -98,6 +98,32 @@ namespace Keyblock
 
 
 
+  template <int dim>
+  std::vector<unsigned int>
+  rank_blocks(const std::vector<Block<dim>> &blocks)
+  {
+    std::vector<unsigned int> order(blocks.size());
+    std::iota(order.begin(), order.end(), 0);
+    double largest = 0.;
+    for (const auto &block : blocks)
+      largest = std::max(largest, block.volume);
+    const auto key = [&](const Block<dim> &block) {
+      std::array<long long, dim + 2> result;
+      result[0]           = block.is_infinite;
+      result[1]           = -std::llround(1e8 * block.volume / largest);
+      const double length = std::pow(largest, 1. / dim);
+      for (unsigned int d = 0; d < dim; ++d)
+        result[2 + d] = std::llround(1e6 * block.centroid[d] / length);
+      return result;
+    };
+    std::sort(order.begin(), order.end(), [&](unsigned int a, unsigned int b) {
+      return key(blocks[a]) < key(blocks[b]);
+    });
+    return order;
+  }
+
+
+
   namespace
   {
     /** Label connected cells; returns the number of labels. */
@@ -191,35 +217,6 @@ namespace Keyblock
           volume += weight;
           moment += weight * x;
         }
-    }
-
-
-
-    /** Sort finite blocks first, larger before smaller, equal ones by place. */
-    template <int dim>
-    std::vector<unsigned int>
-    rank_blocks(const std::vector<Block<dim>> &blocks)
-    {
-      std::vector<unsigned int> order(blocks.size());
-      std::iota(order.begin(), order.end(), 0);
-      double largest = 0.;
-      for (const auto &block : blocks)
-        largest = std::max(largest, block.volume);
-      const auto key = [&](const Block<dim> &block) {
-        std::array<long long, dim + 2> result;
-        result[0]           = block.is_infinite;
-        result[1]           = -std::llround(1e8 * block.volume / largest);
-        const double length = std::pow(largest, 1. / dim);
-        for (unsigned int d = 0; d < dim; ++d)
-          result[2 + d] = std::llround(1e6 * block.centroid[d] / length);
-        return result;
-      };
-      std::sort(order.begin(),
-                order.end(),
-                [&](unsigned int a, unsigned int b) {
-                  return key(blocks[a]) < key(blocks[b]);
-                });
-      return order;
     }
 
 
@@ -380,6 +377,8 @@ namespace Keyblock
   template std::vector<std::vector<signed char>> sign_code(                    \
     const Mesh<dim> &, const Scene<dim> &);                                    \
   template Blocks<dim> find_blocks(const Mesh<dim> &, const Scene<dim> &);     \
+  template std::vector<unsigned int> rank_blocks(                              \
+    const std::vector<Block<dim>> &);                                          \
   template bool is_removable(const std::vector<Tensor<1, dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -146,6 +146,11 @@ namespace Keyblock
   template <int dim>
   bool is_removable(const std::vector<Tensor<1, dim>> &inward);
 
+  /** Order of blocks by which they are numbered: finite ones first, larger
+   * before smaller, equal ones by place. */
+  template <int dim>
+  std::vector<unsigned int> rank_blocks(const std::vector<Block<dim>> &blocks);
+
   /** The block table for people: exposed blocks first, and 40 at most. */
   template <int dim>
   void print_block_table(std::ostream &out,

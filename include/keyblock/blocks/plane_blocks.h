@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_blocks_plane_blocks_h
+#define keyblock_blocks_plane_blocks_h
+
+#include <keyblock/blocks/blocks.h>
+#include <keyblock/blocks/plane_extent.h>
+
+#include <vector>
+
+namespace Keyblock
+{
+  /** A convex part of an excavation. Parts may overlap each other and reach out
+   * of the domain; where they overlap the one of the earlier stage counts. */
+  template <int dim>
+  struct ExcavationPiece
+  {
+    unsigned int excavation = 0; ///< index; parts of one have the same
+    unsigned int stage      = 0; ///< that excavates it, from 1; 0: never rock
+    std::vector<HalfSpace<dim>> sides;
+  };
+
+  /** What bounds blocks: planes, in 2D lines. */
+  template <int dim>
+  struct PlaneScene
+  {
+    BoundingBox<dim> box; ///< of the domain [m]
+
+    /** Of a convex domain within the box; none: it is the box. */
+    std::vector<HalfSpace<dim>> sides;
+
+    /** Of each side of the domain: whether rock goes on behind it. Sides of a
+     * box have the numbers of faces of a cell of deal.II. */
+    std::vector<bool> is_truncated;
+
+    std::vector<ExcavationPiece<dim>> excavations;
+    std::vector<JointPiece<dim>> joints;
+  };
+
+  struct PlaneBlockOptions
+  {
+    /** How far joints reach beyond their rims [m]: they close against joints
+     * that they nearly meet. */
+    double bridging = 1e-6;
+
+    /** Width of openings that do not join two parts of rock [m]. */
+    double narrow = 1e-6;
+
+    /** Volume of blocks that go to one to which they are open by a narrow
+     * opening [m^dim]. */
+    double dust = 1e-9;
+
+    /** Leave out joints that cannot bound an exposed block. Infinite blocks may
+     * then be one, and hidden ones that no chain of joints connects with an
+     * excavation may be missing; exposed blocks are the same. */
+    bool leave_out = false;
+
+    /** Cut along large joints first, which makes fewer cells. */
+    bool largest_first = true;
+  };
+
+  /** The blocks of a PlaneScene. */
+  template <int dim>
+  struct PlaneBlocks
+  {
+    static constexpr unsigned int nothing = ConvexCells<dim>::nothing;
+
+    /** Where a block touches another one along a plane of a joint. */
+    struct Face
+    {
+      unsigned int joint;
+      int side;               ///< of the joint on which the block lies: -1, +1
+      unsigned int neighbour; ///< index into blocks
+      double area;            ///< [m^(dim-1)]
+      Tensor<1, dim> normal;  ///< of unit length, into the block
+      std::vector<std::vector<Point<dim>>> outlines; ///< convex; 2D: ends [m]
+    };
+
+    /** A part of a block's surface that is or becomes free. */
+    struct FreeFace
+    {
+      unsigned int stage;       ///< since when; 0: from the start
+      unsigned int excavation;  ///< index; or nothing
+      unsigned int domain_side; ///< number; or nothing
+      unsigned int joint;       ///< that parts it from what is excavated;
+                                ///< nothing: it is attached until then
+      double area;              ///< [m^(dim-1)]
+      Tensor<1, dim> normal;    ///< of unit length, into the block
+      std::vector<Point<dim>> outline; ///< convex; in 2D two ends [m]
+    };
+
+    explicit PlaneBlocks(const ConvexCells<dim> &domain)
+      : cells(domain)
+    {}
+
+    /** In the order of rank_blocks(). Not set, as they need materials or a
+     * mesh: mass, is_rigid, width, exact. */
+    std::vector<Block<dim>> blocks;
+    std::vector<std::vector<Face>> faces;          ///< of each block
+    std::vector<std::vector<FreeFace>> free_faces; ///< of each block
+    unsigned int n_stages      = 0;
+    unsigned int n_joints_used = 0; ///< pieces that were not left out
+
+    ConvexCells<dim> cells;
+    std::vector<unsigned int> block_of_cell;      ///< index; or nothing
+    std::vector<unsigned int> excavation_of_cell; ///< index; or nothing
+
+    /** Index of the block with a point [m]; nothing if it is excavated or not
+     * in the domain's box. */
+    unsigned int
+    block_at(const Point<dim> &point) const
+    {
+      return block_of_cell[cells.cell_at(point)];
+    }
+  };
+
+  /**
+   * Find the blocks of a scene without a mesh. Joints cut the cells that they
+   * overlap. Cells with a polygon between them that a joint does not wholly
+   * cover are one block. Throws InputError if the domain is not convex.
+   */
+  template <int dim>
+  PlaneBlocks<dim> find_plane_blocks(const PlaneScene<dim> &scene,
+                                     const PlaneBlockOptions &options);
+
+  /** Indices of extents that may bound an exposed block, ascending. A face of a
+   * block ends at as many other surfaces as space has dimensions, and its
+   * joints are connected with an excavation.
+   * @param touches_excavation of each extent, where any number of surfaces may
+   * end it */
+  template <int dim>
+  std::vector<unsigned int>
+  find_relevant_extents(const std::vector<PlaneExtent<dim>> &extents,
+                        const std::vector<bool> &touches_excavation,
+                        const ConvexCells<dim> &cells);
+} // namespace Keyblock
+
+#endif
