@@ -562,8 +562,10 @@ namespace Keyblock
           }
       }
     const double volume = sum / (dim == 2 ? 2 : 6);
-    const Point<dim> centroid =
-      sum > 0. ? o + moment / sum : Point<dim>(c.low + 0.5 * (c.high - c.low));
+    // (of a cell as thin as rounding it is somewhere in the box around it)
+    Point<dim> centroid = sum != 0. ? o + moment / sum : o;
+    for (unsigned int d = 0; d < dim; ++d)
+      centroid[d] = std::clamp(centroid[d], c.low[d], c.high[d]);
     return {std::pow(unit_length, dim) * volume, to_metres(centroid)};
   }
 

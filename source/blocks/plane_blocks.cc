@@ -342,28 +342,47 @@ namespace Keyblock
 
 
 
-    /** Blocks that are nothing but rounding go to one beside them. */
+    /** Blocks that are nothing but rounding go to one beside them: to one that
+     * they are open to, or else to that of the largest common polygon. */
     template <int dim>
     void
     PlaneBlockFinder<dim>::join_dust()
     {
       const unsigned int n = result.cells.n_cells();
-      for (unsigned int c = 0; c < n; ++c)
-        measures.push_back(result.cells.measures(c));
-      if (narrow_links.empty())
-        return;
       std::vector<double> volume(n, 0.);
       for (unsigned int c = 0; c < n; ++c)
-        volume[sets.root(c)] += measures[c].volume;
-      for (const auto &[a, b] : narrow_links)
         {
-          const unsigned int p = sets.root(a), q = sets.root(b);
-          if (p != q && std::min(volume[p], volume[q]) < options.dust)
-            {
-              sets.join(p, q);
-              volume[sets.root(p)] = volume[p] + volume[q];
-            }
+          measures.push_back(result.cells.measures(c));
+          volume[sets.root(c)] += measures[c].volume;
         }
+      const auto is_dust = [&](const unsigned int a, const unsigned int b) {
+        return std::min(volume[sets.root(a)], volume[sets.root(b)]) <
+               options.dust;
+      };
+      const auto join_if_dust = [&](const unsigned int a,
+                                    const unsigned int b) {
+        const unsigned int p = sets.root(a), q = sets.root(b);
+        if (p == q || !is_dust(p, q))
+          return;
+        const double sum = volume[p] + volume[q];
+        sets.join(p, q);
+        volume[sets.root(p)] = sum;
+      };
+      for (const auto &[a, b] : narrow_links)
+        join_if_dust(a, b);
+      std::vector<std::pair<double, const Link *>> closed; // by area
+      for (const Link &link : links)
+        if (result.excavation_of_cell[link.minus] == nothing &&
+            result.excavation_of_cell[link.plus] == nothing &&
+            is_dust(link.minus, link.plus))
+          closed.emplace_back(-area_of_outline(link.outline), &link);
+      std::stable_sort(closed.begin(),
+                       closed.end(),
+                       [](const auto &a, const auto &b) {
+                         return a.first < b.first;
+                       });
+      for (const auto &[area, link] : closed)
+        join_if_dust(link->minus, link->plus);
     }
 
 
@@ -399,7 +418,8 @@ namespace Keyblock
                                       scene.is_truncated[facet.domain_side]);
           }
       for (unsigned int b = 0; b < found.size(); ++b)
-        found[b].centroid = scene.box.center() + moments[b] / found[b].volume;
+        if (found[b].volume > 0.)
+          found[b].centroid = scene.box.center() + moments[b] / found[b].volume;
       const std::vector<unsigned int> order = rank_blocks(found);
       std::vector<unsigned int> rank(found.size());
       for (unsigned int b = 0; b < order.size(); ++b)

@@ -45,8 +45,8 @@ namespace Keyblock
     /** Width of openings that do not join two parts of rock [m]. */
     double narrow = 1e-6;
 
-    /** Volume of blocks that go to one to which they are open by a narrow
-     * opening [m^dim]. */
+    /** Volume below which a block is rounding and goes to one beside it: to one
+     * behind a narrow opening, or else behind the largest face [m^dim]. */
     double dust = 1e-9;
 
     /** Leave out joints that cannot bound an exposed block. Infinite blocks may
