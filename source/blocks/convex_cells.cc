@@ -2,6 +2,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <keyblock/base/errors.h>
+#include <keyblock/blocks/cell_cut.h>
 #include <keyblock/blocks/convex_cells.h>
 
 #include <algorithm>
@@ -14,256 +15,6 @@ namespace Keyblock
     /** More than the error of a vertex and of its distance from a plane. */
     constexpr double rounding_of_cells = 1e-12;
 
-    /** Number of edges of a facet: its corners are a loop, in 2D two ends. */
-    template <int dim>
-    unsigned int
-    n_edges(const unsigned int n_corners)
-    {
-      return dim == 2 ? 1 : n_corners;
-    }
-
-    template <int dim>
-    void
-    fit_box(typename ConvexCells<dim>::Cell &cell)
-    {
-      cell.low = cell.high = cell.vertices[0].x;
-      for (const auto &vertex : cell.vertices)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            cell.low[d]  = std::min(cell.low[d], vertex.x[d]);
-            cell.high[d] = std::max(cell.high[d], vertex.x[d]);
-          }
-    }
-
-    /** Keep the vertices that a cell's loops name, and number them anew. */
-    template <int dim>
-    void
-    take_vertices(typename ConvexCells<dim>::Cell &cell,
-                  const std::vector<ExactVertex<dim>> &points)
-    {
-      constexpr unsigned int nothing = ConvexCells<dim>::nothing;
-      std::vector<unsigned int> number(points.size(), nothing);
-      cell.vertices.reserve(points.size());
-      for (auto &corner : cell.loops)
-        {
-          unsigned int &n = number[corner.vertex];
-          if (n == nothing)
-            {
-              n = cell.vertices.size();
-              cell.vertices.push_back(points[corner.vertex]);
-            }
-          corner.vertex = n;
-        }
-      fit_box<dim>(cell);
-    }
-
-    /** Planes that meet where a plane cuts an edge of a facet; in 2D a facet is
-     * an edge. */
-    template <int dim>
-    std::array<unsigned int, dim>
-    meeting_planes(const unsigned int facet,
-                   const unsigned int edge,
-                   const unsigned int plane)
-    {
-      if constexpr (dim == 2)
-        return {{(void(edge), facet), plane}};
-      else
-        return {{facet, edge, plane}};
-    }
-
-    /** A cell that is being cut into two. */
-    template <int dim>
-    class CellCut
-    {
-    public:
-      using Cells  = ConvexCells<dim>;
-      using Corner = typename Cells::Cell::LoopCorner;
-
-      /** @param signs of the cell's vertices: sides of the plane */
-      CellCut(const typename Cells::Cell &cell,
-              const std::vector<ExactPlane<dim>> &planes,
-              const std::vector<int> &signs,
-              const unsigned int plane)
-        : cell(cell)
-        , planes(planes)
-        , signs(signs)
-        , plane(plane)
-        , points(cell.vertices)
-      {
-        for (const auto &facet : cell.facets)
-          divide(facet);
-      }
-
-      /** Add the section to both parts as a facet that a node has made. */
-      void close(const unsigned int node);
-
-      std::array<typename Cells::Cell, 2> parts; // minus, plus
-
-    private:
-      bool
-      lies_on_plane(const unsigned int point) const
-      {
-        return point >= signs.size() || signs[point] == 0;
-      }
-
-      void divide(const typename Cells::Facet &facet);
-      void add_facet(const unsigned int part,
-                     const typename Cells::Facet &facet,
-                     const std::vector<Corner> &loop);
-      unsigned int crossing(const unsigned int v,
-                            const unsigned int w,
-                            const unsigned int facet_plane,
-                            const unsigned int edge);
-
-      const typename Cells::Cell &cell;
-      const std::vector<ExactPlane<dim>> &planes;
-      const std::vector<int> &signs;
-      const unsigned int plane;
-      std::vector<ExactVertex<dim>> points; // vertices, then crossings
-
-      struct Crossing
-      {
-        unsigned int v, w, point;
-      };
-      std::vector<Crossing> crossings;
-
-      /** Edges of the section of the plus part. In 2D the section is one. */
-      struct SectionEdge
-      {
-        unsigned int from, to, plane;
-      };
-      std::vector<SectionEdge> section;
-    };
-
-
-
-    /** Where an edge of a facet crosses the plane; the facets on both sides of
-     * the edge get the same point. */
-    template <int dim>
-    unsigned int
-    CellCut<dim>::crossing(const unsigned int v,
-                           const unsigned int w,
-                           const unsigned int facet_plane,
-                           const unsigned int edge)
-    {
-      for (const Crossing &c : crossings)
-        if (c.v == w && c.w == v)
-          return c.point;
-      crossings.push_back({v, w, (unsigned int)(points.size())});
-      points.push_back(
-        intersect<dim>(planes, meeting_planes<dim>(facet_plane, edge, plane)));
-      return crossings.back().point;
-    }
-
-
-
-    template <int dim>
-    void
-    CellCut<dim>::divide(const typename Cells::Facet &facet)
-    {
-      std::array<std::vector<Corner>, 2> loop;
-      std::array<bool, 2> is_there{{false, false}};
-      for (unsigned int i = 0; i < facet.size; ++i)
-        {
-          const Corner &corner = cell.loops[facet.begin + i];
-          const unsigned int v = corner.vertex,
-                             w = cell.loops[facet.begin + (i + 1) % facet.size]
-                                   .vertex;
-          if (signs[v] <= 0)
-            loop[0].push_back(corner);
-          if (signs[v] >= 0)
-            loop[1].push_back(corner);
-          is_there[0] = is_there[0] || signs[v] < 0;
-          is_there[1] = is_there[1] || signs[v] > 0;
-          if (i < n_edges<dim>(facet.size) && signs[v] * signs[w] < 0)
-            {
-              const unsigned int u = crossing(v, w, facet.plane, corner.edge);
-              loop[0].push_back({u, corner.edge});
-              loop[1].push_back({u, corner.edge});
-            }
-        }
-      for (unsigned int part = 0; part < 2; ++part)
-        if (is_there[part])
-          add_facet(part, facet, loop[part]);
-    }
-
-
-
-    template <int dim>
-    void
-    CellCut<dim>::add_facet(const unsigned int part,
-                            const typename Cells::Facet &facet,
-                            const std::vector<Corner> &loop)
-    {
-      auto &to             = parts[part];
-      const unsigned int n = loop.size();
-      to.facets.push_back(facet);
-      to.facets.back().begin = to.loops.size();
-      to.facets.back().size  = n;
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          Corner corner           = loop[i];
-          const unsigned int next = loop[(i + 1) % n].vertex;
-          if (dim == 3 && lies_on_plane(corner.vertex) && lies_on_plane(next))
-            {
-              corner.edge = plane;
-              if (part == 1)
-                section.push_back({next, corner.vertex, facet.plane});
-            }
-          to.loops.push_back(corner);
-        }
-      if (dim == 2 && part == 1)
-        {
-          // the section leads from the end of one edge to the begin of another
-          if (section.empty())
-            section.push_back({Cells::nothing, Cells::nothing, Cells::nothing});
-          if (lies_on_plane(loop[1].vertex))
-            section[0].from = loop[1].vertex;
-          if (lies_on_plane(loop[0].vertex))
-            section[0].to = loop[0].vertex;
-        }
-    }
-
-
-
-    template <int dim>
-    void
-    CellCut<dim>::close(const unsigned int node)
-    {
-      std::vector<Corner> loop;
-      if (dim == 2)
-        loop = {{section[0].from, Cells::nothing},
-                {section[0].to, Cells::nothing}};
-      else
-        for (auto edge = section.begin(); loop.size() < section.size();)
-          {
-            loop.push_back({edge->from, edge->plane});
-            const unsigned int to = edge->to;
-            edge                  = std::find_if(section.begin(),
-                                section.end(),
-                                [to](const auto &e) { return e.from == to; });
-            Assert(edge != section.end(),
-                   dealii::ExcMessage("section not closed"));
-          }
-      const unsigned int n = loop.size();
-      for (unsigned int part = 0; part < 2; ++part)
-        {
-          auto &to = parts[part];
-          to.facets.push_back({plane,
-                               part == 1 ? 1 : -1,
-                               node,
-                               Cells::nothing,
-                               (unsigned int)(to.loops.size()),
-                               n});
-          for (unsigned int i = 0; i < n; ++i)
-            // the other way round an edge begins where it ended
-            to.loops.push_back(part == 1
-                                 ? loop[i]
-                                 : Corner{loop[n - 1 - i].vertex,
-                                          loop[(2 * n - 2 - i) % n].edge});
-          take_vertices<dim>(to, points);
-        }
-    }
   } // namespace
 
 
@@ -572,66 +323,15 @@ namespace Keyblock
 
 
   template <int dim>
-  typename ConvexCells<dim>::Polygon
-  ConvexCells<dim>::polygon_of(const Cell &cell, const Facet &facet) const
+  void
+  ConvexCells<dim>::get_polygon(const Cell &cell,
+                                const Facet &facet,
+                                Polygon &polygon) const
   {
-    Polygon polygon;
-    polygon.reserve(facet.size + 4);
+    polygon.clear();
     for (unsigned int i = facet.begin; i < facet.begin + facet.size; ++i)
       polygon.push_back(
         {cell.vertices[cell.loops[i].vertex], cell.loops[i].edge});
-    return polygon;
-  }
-
-
-
-  /** Part a polygon, which lies on @p own_plane: its part on the plus side
-   * stays. Returns whether it has parts on both sides; if not, @p side is that
-   * on which it lies. */
-  template <int dim>
-  bool
-  ConvexCells<dim>::clip(Polygon &polygon,
-                         const unsigned int own_plane,
-                         const unsigned int plane,
-                         Polygon &minus,
-                         int &side) const
-  {
-    const unsigned int n = polygon.size();
-    std::vector<int> sign(n);
-    bool is_plus = false, is_minus = false;
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        sign[i]  = side_of(planes, polygon[i].vertex, plane);
-        is_plus  = is_plus || sign[i] > 0;
-        is_minus = is_minus || sign[i] < 0;
-      }
-    side = is_plus ? 1 : -1;
-    if (!is_plus || !is_minus)
-      return false;
-    Polygon plus;
-    plus.reserve(n + 2);
-    minus.clear();
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const Corner &corner = polygon[i];
-        const int a = sign[i], b = sign[(i + 1) % n];
-        // the edge from here on is the cut, where the part leaves the polygon
-        if (a >= 0)
-          plus.push_back(
-            {corner.vertex, a == 0 && b < 0 ? plane : corner.edge});
-        if (a <= 0)
-          minus.push_back(
-            {corner.vertex, a == 0 && b > 0 ? plane : corner.edge});
-        if (i < n_edges<dim>(n) && a * b < 0)
-          {
-            const auto vertex = intersect<dim>(
-              planes, meeting_planes<dim>(own_plane, corner.edge, plane));
-            plus.push_back({vertex, a > 0 ? plane : corner.edge});
-            minus.push_back({vertex, a < 0 ? plane : corner.edge});
-          }
-      }
-    polygon.swap(plus);
-    return true;
   }
 
 
@@ -648,8 +348,17 @@ namespace Keyblock
       for (unsigned int f = 0; f < cells[c].facets.size(); ++f)
         if (const Facet &facet = cells[c].facets[f]; facet.node != nothing)
           facets[facet.node][facet.side > 0].emplace_back(c, f);
+    // (polygons on the stack keep their memory)
     std::vector<std::pair<int, Polygon>> stack;
-    Polygon minus;
+    unsigned int depth = 0;
+    const auto push    = [&](const int branch) -> Polygon    &{
+      if (depth == stack.size())
+        stack.emplace_back();
+      stack[depth].first = branch;
+      return stack[depth++].second;
+    };
+    Polygon polygon;
+    PolygonCut<dim> cut;
     for (unsigned int n = 0; n < nodes.size(); ++n)
       {
         // the fewer facets go down the tree on the other side
@@ -657,19 +366,20 @@ namespace Keyblock
         const unsigned int plane = nodes[n].plane;
         for (const auto &[own, f] : facets[n][is_plus])
           {
-            stack.emplace_back(is_plus ? nodes[n].minus : nodes[n].plus,
-                               polygon_of(cells[own], cells[own].facets[f]));
-            while (!stack.empty())
+            get_polygon(cells[own],
+                        cells[own].facets[f],
+                        push(is_plus ? nodes[n].minus : nodes[n].plus));
+            while (depth > 0)
               {
-                auto [branch, polygon] = std::move(stack.back());
-                stack.pop_back();
+                --depth;
+                int branch = stack[depth].first;
+                polygon.swap(stack[depth].second);
                 while (branch >= 0)
                   {
                     const Node &node = nodes[branch];
-                    int side         = 0;
-                    if (clip(polygon, plane, node.plane, minus, side))
-                      stack.emplace_back(node.minus, minus);
-                    branch = side > 0 ? node.plus : node.minus;
+                    if (cut.cut(planes, plane, node.plane, polygon))
+                      push(node.minus).swap(cut.minus);
+                    branch = cut.side > 0 ? node.plus : node.minus;
                   }
                 const unsigned int other = ~branch;
                 visit({plane,

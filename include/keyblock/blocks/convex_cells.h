@@ -186,7 +186,13 @@ namespace Keyblock
     Measures measures(const unsigned int cell) const;
 
     /** Corners of a facet. */
-    Polygon polygon_of(const Cell &cell, const Facet &facet) const;
+    Polygon
+    polygon_of(const Cell &cell, const Facet &facet) const
+    {
+      Polygon polygon;
+      get_polygon(cell, facet, polygon);
+      return polygon;
+    }
 
   private:
     /** Branches are nodes, or ~cell. */
@@ -202,13 +208,9 @@ namespace Keyblock
     void fit_domain(const std::vector<HalfSpace<dim>> &sides);
     std::vector<Point<dim>> section(const Cell &cell,
                                     const unsigned int plane) const;
+    void
+    get_polygon(const Cell &cell, const Facet &facet, Polygon &polygon) const;
     void split(const unsigned int index, const unsigned int plane);
-    bool clip(Polygon &polygon,
-              const unsigned int own_plane,
-              const unsigned int plane,
-              Polygon &minus,
-              int &side) const;
-
     Point<dim> center;       ///< of the box [m]
     double unit_length = 1.; ///< [m]
     std::vector<ExactPlane<dim>> planes;
