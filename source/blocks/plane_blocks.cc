@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/disjoint_sets.h>
 #include <keyblock/blocks/plane_blocks.h>
+#include <keyblock/blocks/rock_cut.h>
 
 #include <algorithm>
 #include <map>
@@ -28,48 +29,26 @@ namespace Keyblock
         }
     }
 
-    /** A joint that cuts rock. */
-    template <int dim>
-    struct CutThroughRock
-    {
-      const PlaneExtent<dim> &extent;
-      const std::vector<unsigned int> &excavation_of_cell;
-
-      bool
-      reaches(const ExactPlane<dim> &plane, const int side) const
-      {
-        return extent.reaches(plane, side);
-      }
-      bool
-      enters(const unsigned int cell) const
-      {
-        return cell >= excavation_of_cell.size() ||
-               excavation_of_cell[cell] == ConvexCells<dim>::nothing;
-      }
-      bool
-      overlaps(const std::vector<Point<dim>> &section) const
-      {
-        return extent.overlaps(section);
-      }
-    };
-
     template <int dim>
     class PlaneBlockFinder
     {
     public:
-      PlaneBlockFinder(const PlaneScene<dim> &scene,
-                       const PlaneBlockOptions &options)
+      explicit PlaneBlockFinder(const PlaneScene<dim> &scene,
+                                const PlaneBlockOptions &options)
         : scene(scene)
         , options(options)
-        , result(scene.sides.empty() ? ConvexCells<dim>(scene.box)
-                                     : ConvexCells<dim>(scene.box, scene.sides))
-      {}
+        , rock(cut(scene, options))
+        , extents(rock.extents)
+        , result(std::move(rock.cells))
+      {
+        result.excavation_of_cell = rock.excavation_of_cell;
+        result.n_stages           = rock.n_stages;
+        result.n_joints_used      = rock.extents.size();
+      }
 
       PlaneBlocks<dim>
       run()
       {
-        excavate();
-        cut_joints();
         find_contacts();
         join_dust();
         measure_blocks();
@@ -79,6 +58,15 @@ namespace Keyblock
       }
 
     private:
+      static RockCut<dim>
+      cut(const PlaneScene<dim> &scene, const PlaneBlockOptions &options)
+      {
+        RockCut<dim> rock(scene, options);
+        rock.excavate();
+        rock.cut_joints();
+        return rock;
+      }
+
       static constexpr unsigned int nothing = ConvexCells<dim>::nothing;
       using Face                            = typename PlaneBlocks<dim>::Face;
       using FreeFace = typename PlaneBlocks<dim>::FreeFace;
@@ -91,10 +79,6 @@ namespace Keyblock
         std::vector<Point<dim>> outline;
       };
 
-      void excavate();
-      void excavate(const unsigned int piece);
-      bool touches_excavation(const PlaneExtent<dim> &extent);
-      void cut_joints();
       void find_contacts();
       unsigned int closing_extent(const unsigned int plane,
                                   const std::vector<Point<dim>> &units) const;
@@ -107,173 +91,14 @@ namespace Keyblock
 
       const PlaneScene<dim> &scene;
       const PlaneBlockOptions &options;
+      RockCut<dim> rock;
+      const std::vector<PlaneExtent<dim>> &extents;
       PlaneBlocks<dim> result;
-      std::vector<unsigned int> stages; ///< of excavations
-      std::vector<PlaneExtent<dim>> extents;
-      std::vector<std::vector<unsigned int>> extents_of_plane;
       DisjointSets sets{0}; ///< of cells
       std::vector<Link> links;
       std::vector<std::pair<unsigned int, unsigned int>> narrow_links;
       std::vector<typename ConvexCells<dim>::Measures> measures; ///< of cells
     };
-
-
-
-    template <int dim>
-    void
-    PlaneBlockFinder<dim>::excavate()
-    {
-      // the earliest stage counts where parts overlap
-      std::vector<unsigned int> order(scene.excavations.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::stable_sort(order.begin(),
-                       order.end(),
-                       [&](const unsigned int a, const unsigned int b) {
-                         return scene.excavations[a].stage <
-                                scene.excavations[b].stage;
-                       });
-      result.excavation_of_cell.assign(1, nothing);
-      for (const unsigned int piece : order)
-        {
-          result.n_stages =
-            std::max(result.n_stages, scene.excavations[piece].stage);
-          excavate(piece);
-        }
-    }
-
-
-
-    /** Cut a part of an excavation out of the rock that is left. */
-    template <int dim>
-    void
-    PlaneBlockFinder<dim>::excavate(const unsigned int piece)
-    {
-      auto &cells = result.cells;
-      std::vector<unsigned int> inside;
-      for (unsigned int c = 0; c < cells.n_cells(); ++c)
-        if (result.excavation_of_cell[c] == nothing)
-          inside.push_back(c);
-      for (const auto &side : scene.excavations[piece].sides)
-        {
-          const auto outward = cells.add_plane(side.point, side.outward);
-          if (outward.plane == nothing)
-            {
-              if (outward.side > 0)
-                return;
-              continue;
-            }
-          std::vector<unsigned int> rest;
-          for (const unsigned int c : inside)
-            {
-              const unsigned int minus = cells.cut_cell(c, outward.plane);
-              if (minus == nothing)
-                {
-                  if (cells.side_of_cell(c, outward.plane) != outward.side)
-                    rest.push_back(c);
-                }
-              else
-                rest.push_back(outward.side > 0 ? minus : c);
-            }
-          inside = rest;
-          result.excavation_of_cell.resize(cells.n_cells(), nothing);
-        }
-      const unsigned int index = scene.excavations[piece].excavation;
-      stages.resize(std::max<std::size_t>(stages.size(), index + 1), 0);
-      stages[index] = scene.excavations[piece].stage;
-      for (const unsigned int c : inside)
-        result.excavation_of_cell[c] = index;
-    }
-
-
-
-    /** Whether a joint may touch an excavation or a free side of the domain. */
-    template <int dim>
-    bool
-    PlaneBlockFinder<dim>::touches_excavation(const PlaneExtent<dim> &extent)
-    {
-      for (unsigned int c = 0; c < result.cells.n_cells(); ++c)
-        {
-          const auto &cell = result.cells.cell(c);
-          if (result.excavation_of_cell[c] != nothing)
-            {
-              const auto &plane     = result.cells.plane(extent.plane.plane);
-              const auto has_vertex = [&](const int side) {
-                return std::any_of(cell.vertices.begin(),
-                                   cell.vertices.end(),
-                                   [&](const auto &vertex) {
-                                     return side * plane.distance(vertex.x) >=
-                                            -extent.tolerance;
-                                   });
-              };
-              const auto reaches = [&](const auto &facet) {
-                return extent.reaches(result.cells.plane(facet.plane),
-                                      facet.side);
-              };
-              if (has_vertex(-1) && has_vertex(+1) &&
-                  std::all_of(cell.facets.begin(), cell.facets.end(), reaches))
-                return true;
-            }
-          else
-            for (const auto &facet : cell.facets)
-              if (facet.domain_side != nothing &&
-                  !scene.is_truncated[facet.domain_side] &&
-                  extent.reaches(result.cells.plane(facet.plane), -facet.side))
-                return true;
-        }
-      return false;
-    }
-
-
-
-    template <int dim>
-    void
-    PlaneBlockFinder<dim>::cut_joints()
-    {
-      for (const JointPiece<dim> &piece : scene.joints)
-        {
-          PlaneExtent<dim> extent(piece, result.cells, options.bridging);
-          if (!extent.meets_box())
-            continue;
-          extent.plane = result.cells.add_plane(piece.point, piece.normal);
-          if (extent.plane.plane != nothing)
-            extents.push_back(extent);
-        }
-      if (options.leave_out)
-        {
-          std::vector<bool> touches;
-          for (const auto &extent : extents)
-            touches.push_back(touches_excavation(extent));
-          std::vector<PlaneExtent<dim>> rest;
-          for (const unsigned int i :
-               find_relevant_extents(extents, touches, result.cells))
-            rest.push_back(extents[i]);
-          extents.swap(rest);
-        }
-      result.n_joints_used = extents.size();
-      if (options.largest_first)
-        std::stable_sort(extents.begin(),
-                         extents.end(),
-                         [](const auto &a, const auto &b) {
-                           return a.size() > b.size();
-                         });
-      extents_of_plane.resize(result.cells.n_planes());
-      for (unsigned int e = 0; e < extents.size(); ++e)
-        {
-          const unsigned int plane = extents[e].plane.plane;
-          extents_of_plane[plane].push_back(e);
-          result.cells.cut(plane,
-                           CutThroughRock<dim>{extents[e],
-                                               result.excavation_of_cell});
-        }
-      result.excavation_of_cell.resize(result.cells.n_cells(), nothing);
-      // names of faces do not depend on the order of the cuts
-      for (auto &list : extents_of_plane)
-        std::stable_sort(list.begin(),
-                         list.end(),
-                         [&](const unsigned int a, const unsigned int b) {
-                           return extents[a].joint < extents[b].joint;
-                         });
-    }
 
 
 
@@ -285,7 +110,7 @@ namespace Keyblock
       const unsigned int plane,
       const std::vector<Point<dim>> &units) const
     {
-      const auto &list = extents_of_plane[plane];
+      const auto &list = rock.extents_of_plane[plane];
       for (const unsigned int e : list)
         if (extents[e].covers(units))
           return e;
@@ -317,7 +142,7 @@ namespace Keyblock
         if (excavation[contact.minus] != nothing &&
             excavation[contact.plus] != nothing)
           return;
-        if (are_rock && extents_of_plane[contact.plane].empty() &&
+        if (are_rock && rock.extents_of_plane[contact.plane].empty() &&
             sets.root(contact.minus) == sets.root(contact.plus))
           return;
         units.clear();
@@ -481,7 +306,7 @@ namespace Keyblock
       if (link.extent != nothing)
         joint = extents[link.extent].joint;
       result.free_faces[result.block_of_cell[own]].push_back(
-        {stages[excavation],
+        {rock.stage_of_excavation[excavation],
          excavation,
          nothing,
          joint,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/blocks/plane_blocks.h>
+#include <keyblock/blocks/rock_cut.h>
 
 #include <algorithm>
 #include <numeric>

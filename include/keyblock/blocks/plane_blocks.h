@@ -5,6 +5,7 @@
 #include <keyblock/blocks/blocks.h>
 #include <keyblock/blocks/plane_extent.h>
 
+#include <utility>
 #include <vector>
 
 namespace Keyblock
@@ -88,8 +89,8 @@ namespace Keyblock
       std::vector<Point<dim>> outline; ///< convex; in 2D two ends [m]
     };
 
-    explicit PlaneBlocks(const ConvexCells<dim> &domain)
-      : cells(domain)
+    explicit PlaneBlocks(ConvexCells<dim> cells)
+      : cells(std::move(cells))
     {}
 
     /** In the order of rank_blocks(). Not set, as they need materials or a
@@ -121,17 +122,6 @@ namespace Keyblock
   template <int dim>
   PlaneBlocks<dim> find_plane_blocks(const PlaneScene<dim> &scene,
                                      const PlaneBlockOptions &options);
-
-  /** Indices of extents that may bound an exposed block, ascending. A face of a
-   * block ends at as many other surfaces as space has dimensions, and its
-   * joints are connected with an excavation.
-   * @param touches_excavation of each extent, where any number of surfaces may
-   * end it */
-  template <int dim>
-  std::vector<unsigned int>
-  find_relevant_extents(const std::vector<PlaneExtent<dim>> &extents,
-                        const std::vector<bool> &touches_excavation,
-                        const ConvexCells<dim> &cells);
 } // namespace Keyblock
 
 #endif

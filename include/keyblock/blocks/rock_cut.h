@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef keyblock_blocks_rock_cut_h
+#define keyblock_blocks_rock_cut_h
+
+#include <keyblock/blocks/plane_blocks.h>
+
+#include <vector>
+
+namespace Keyblock
+{
+  /** The cells into which excavations and joints cut a domain. */
+  template <int dim>
+  class RockCut
+  {
+  public:
+    /** Both arguments are used by excavate() and cut_joints(), too. Throws
+     * InputError as ConvexCells. */
+    RockCut(const PlaneScene<dim> &scene, const PlaneBlockOptions &options);
+
+    /** Cut excavations out of the domain; before joints, once. */
+    void excavate();
+
+    /** Cut the rock that is left along joints, once. */
+    void cut_joints();
+
+    ConvexCells<dim> cells;
+    std::vector<unsigned int> excavation_of_cell;  ///< index; or nothing
+    std::vector<unsigned int> stage_of_excavation; ///< by index
+    std::vector<PlaneExtent<dim>> extents;         ///< of joints that cut
+    std::vector<std::vector<unsigned int>> extents_of_plane; ///< by joint
+    unsigned int n_stages = 0;
+
+  private:
+    static constexpr unsigned int nothing = ConvexCells<dim>::nothing;
+
+    void excavate(const unsigned int piece);
+    bool touches_excavation(const PlaneExtent<dim> &extent) const;
+
+    const PlaneScene<dim> &scene;
+    const PlaneBlockOptions &options;
+  };
+
+  /** Indices of extents that may bound an exposed block, ascending. A face of a
+   * block ends at as many other surfaces as space has dimensions, and its
+   * joints are connected with an excavation.
+   * @param touches_excavation of each extent: an excavation counts as many
+   * surfaces */
+  template <int dim>
+  std::vector<unsigned int>
+  find_relevant_extents(const std::vector<PlaneExtent<dim>> &extents,
+                        const std::vector<bool> &touches_excavation,
+                        const ConvexCells<dim> &cells);
+} // namespace Keyblock
+
+#endif
