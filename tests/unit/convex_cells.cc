@@ -290,11 +290,47 @@ BOOST_AUTO_TEST_CASE(as_many_as_planes_lines_and_points)
 BOOST_AUTO_TEST_CASE(spoilt_networks)
 {
   std::mt19937 random(5);
-  for (unsigned int i = 0; i < 60; ++i)
+  for (unsigned int i = 0; i < 40; ++i)
     {
       cut_spoilt_network<2>(random);
       cut_spoilt_network<3>(random);
     }
+}
+
+// Planes that meet in one point and in common lines without error, and others
+// parallel to the sides: cuts go through vertices of polygons.
+BOOST_AUTO_TEST_CASE(planes_through_one_point)
+{
+  std::mt19937 random(3);
+  const auto step = [&](const int most) {
+    return double(int(random() % (2 * most + 1)) - most);
+  };
+  unsigned int n_touched = 0;
+  for (unsigned int i = 0; i < 25; ++i)
+    {
+      ConvexCells<3> cells(unit_box<3>());
+      for (unsigned int j = 0; j < 16; ++j)
+        {
+          Point<3> normal(step(1), step(1), step(1)), point;
+          if (normal.norm() == 0.)
+            continue;
+          if (std::abs(normal[0]) + std::abs(normal[1]) + std::abs(normal[2]) ==
+              1.)
+            point = 0.25 * step(2) * normal;
+          const auto plane = cells.add_plane(point, normal).plane;
+          const Point<3> at(0.25 * Point<3>(step(4), step(4), step(4)));
+          cells.cut(plane, Disc<3>{at, 0.5});
+        }
+      check(cells, 8.);
+      std::vector<ExactPlane<3>> planes;
+      for (unsigned int p = 0; p < cells.n_planes(); ++p)
+        planes.push_back(cells.plane(p));
+      for (unsigned int c = 0; c < cells.n_cells(); ++c)
+        for (const auto &vertex : cells.cell(c).vertices)
+          for (unsigned int p = 0; p < planes.size(); ++p)
+            n_touched += side_by_integers(planes, vertex, p) == 0;
+    }
+  BOOST_TEST(n_touched > 1000u);
 }
 
 BOOST_AUTO_TEST_CASE(one_plane_twice)
