@@ -37,7 +37,7 @@ namespace Keyblock
                                 const PlaneBlockOptions &options)
         : scene(scene)
         , options(options)
-        , rock(cut(scene, options))
+        , rock(scene, options)
         , extents(rock.extents)
         , result(std::move(rock.cells))
       {
@@ -58,15 +58,6 @@ namespace Keyblock
       }
 
     private:
-      static RockCut<dim>
-      cut(const PlaneScene<dim> &scene, const PlaneBlockOptions &options)
-      {
-        RockCut<dim> rock(scene, options);
-        rock.excavate();
-        rock.cut_joints();
-        return rock;
-      }
-
       static constexpr unsigned int nothing = ConvexCells<dim>::nothing;
       using Face                            = typename PlaneBlocks<dim>::Face;
       using FreeFace = typename PlaneBlocks<dim>::FreeFace;
@@ -80,8 +71,6 @@ namespace Keyblock
       };
 
       void find_contacts();
-      unsigned int closing_extent(const unsigned int plane,
-                                  const std::vector<Point<dim>> &units) const;
       void join_dust();
       void measure_blocks();
       void list_faces();
@@ -99,32 +88,6 @@ namespace Keyblock
       std::vector<std::pair<unsigned int, unsigned int>> narrow_links;
       std::vector<typename ConvexCells<dim>::Measures> measures; ///< of cells
     };
-
-
-
-    /** The extent that covers a polygon on a plane, the first of those that do
-     * so together, or nothing. */
-    template <int dim>
-    unsigned int
-    PlaneBlockFinder<dim>::closing_extent(
-      const unsigned int plane,
-      const std::vector<Point<dim>> &units) const
-    {
-      const auto &list = rock.extents_of_plane[plane];
-      for (const unsigned int e : list)
-        if (extents[e].covers(units))
-          return e;
-      if (list.size() < 2)
-        return nothing;
-      std::vector<const PlaneExtent<dim> *> together;
-      for (const unsigned int e : list)
-        together.push_back(&extents[e]);
-      return cover_together(together,
-                            units,
-                            options.narrow / result.cells.length())
-               ? list[0]
-               : nothing;
-    }
 
 
 
@@ -148,7 +111,7 @@ namespace Keyblock
         units.clear();
         for (const auto &corner : contact.polygon)
           units.push_back(corner.vertex.x);
-        const unsigned int extent = closing_extent(contact.plane, units);
+        const unsigned int extent = rock.closing_extent(contact.plane, units);
         const bool is_open        = extent == nothing;
         if (are_rock && is_open)
           {

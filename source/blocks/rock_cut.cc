@@ -43,7 +43,10 @@ namespace Keyblock
                                 : ConvexCells<dim>(scene.box, scene.sides))
     , scene(scene)
     , options(options)
-  {}
+  {
+    excavate();
+    cut_joints();
+  }
 
 
 
@@ -197,6 +200,27 @@ namespace Keyblock
                        [&](const unsigned int a, const unsigned int b) {
                          return extents[a].joint < extents[b].joint;
                        });
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  RockCut<dim>::closing_extent(const unsigned int plane,
+                               const std::vector<Point<dim>> &polygon) const
+  {
+    const auto &list = extents_of_plane[plane];
+    for (const unsigned int e : list)
+      if (extents[e].covers(polygon))
+        return e;
+    if (list.size() < 2)
+      return nothing;
+    std::vector<const PlaneExtent<dim> *> together;
+    for (const unsigned int e : list)
+      together.push_back(&extents[e]);
+    return cover_together(together, polygon, options.narrow / cells.length())
+             ? list[0]
+             : nothing;
   }
 
 

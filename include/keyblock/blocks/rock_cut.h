@@ -13,15 +13,14 @@ namespace Keyblock
   class RockCut
   {
   public:
-    /** Both arguments are used by excavate() and cut_joints(), too. Throws
-     * InputError as ConvexCells. */
+    /** Cut excavations out of the domain, and the rest along joints. Keeps
+     * references to both arguments. Throws InputError as ConvexCells. */
     RockCut(const PlaneScene<dim> &scene, const PlaneBlockOptions &options);
 
-    /** Cut excavations out of the domain; before joints, once. */
-    void excavate();
-
-    /** Cut the rock that is left along joints, once. */
-    void cut_joints();
+    /** The extent that covers a polygon (in units) on a plane: the first of
+     * those that do so together; or nothing. */
+    unsigned int closing_extent(const unsigned int plane,
+                                const std::vector<Point<dim>> &polygon) const;
 
     ConvexCells<dim> cells;
     std::vector<unsigned int> excavation_of_cell;  ///< index; or nothing
@@ -33,7 +32,9 @@ namespace Keyblock
   private:
     static constexpr unsigned int nothing = ConvexCells<dim>::nothing;
 
+    void excavate();
     void excavate(const unsigned int piece);
+    void cut_joints();
     bool touches_excavation(const PlaneExtent<dim> &extent) const;
 
     const PlaneScene<dim> &scene;
