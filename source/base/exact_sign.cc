@@ -13,7 +13,7 @@ namespace Keyblock
     __extension__ using Integer = __int128;
     __extension__ using Natural = unsigned __int128;
 
-    constexpr double unit = 0x1p-52; ///< of coefficients
+    constexpr double coefficient_unit = 0x1p-52; ///< of coefficients
 
     /** Determinant of normals above which doubles give the place of a vertex:
      * its error is then below this one over the determinant. */
@@ -88,10 +88,10 @@ namespace Keyblock
     /** Determinant of two columns of two planes. */
     template <int dim>
     Integer
-    minor(const ExactPlane<dim> &p,
-          const ExactPlane<dim> &q,
-          const unsigned int i,
-          const unsigned int j)
+    minor_of(const ExactPlane<dim> &p,
+             const ExactPlane<dim> &q,
+             const unsigned int i,
+             const unsigned int j)
     {
       return Integer(p.multiples[i]) * q.multiples[j] -
              Integer(p.multiples[j]) * q.multiples[i];
@@ -107,9 +107,9 @@ namespace Keyblock
     {
       const auto [i, j, k] = columns;
       WideSum sum;
-      sum.add(minor(p, q, j, k), r.multiples[i]);
-      sum.add(minor(p, q, k, i), r.multiples[j]);
-      sum.add(minor(p, q, i, j), r.multiples[k]);
+      sum.add(minor_of(p, q, j, k), r.multiples[i]);
+      sum.add(minor_of(p, q, k, i), r.multiples[j]);
+      sum.add(minor_of(p, q, i, j), r.multiples[k]);
       return sum;
     }
 
@@ -121,12 +121,12 @@ namespace Keyblock
                         const ExactPlane<3> &s)
     {
       WideSum sum;
-      sum.add(minor(p, q, 0, 1), minor(r, s, 2, 3));
-      sum.add(minor(p, q, 2, 0), minor(r, s, 1, 3));
-      sum.add(minor(p, q, 0, 3), minor(r, s, 1, 2));
-      sum.add(minor(p, q, 1, 2), minor(r, s, 0, 3));
-      sum.add(minor(p, q, 3, 1), minor(r, s, 0, 2));
-      sum.add(minor(p, q, 2, 3), minor(r, s, 0, 1));
+      sum.add(minor_of(p, q, 0, 1), minor_of(r, s, 2, 3));
+      sum.add(minor_of(p, q, 2, 0), minor_of(r, s, 1, 3));
+      sum.add(minor_of(p, q, 0, 3), minor_of(r, s, 1, 2));
+      sum.add(minor_of(p, q, 1, 2), minor_of(r, s, 0, 3));
+      sum.add(minor_of(p, q, 3, 1), minor_of(r, s, 0, 2));
+      sum.add(minor_of(p, q, 2, 3), minor_of(r, s, 0, 1));
       return sum;
     }
 
@@ -145,7 +145,7 @@ namespace Keyblock
       if constexpr (dim == 2)
         {
           WideSum sum;
-          sum.add(minor(p, q, column(0), column(1)), 1);
+          sum.add(minor_of(p, q, column(0), column(1)), 1);
           return sum;
         }
       else
@@ -200,10 +200,11 @@ namespace Keyblock
     Assert(std::abs(d) < 2., dealii::ExcMessage("plane far from the box"));
     ExactPlane<dim> plane;
     for (unsigned int i = 0; i <= dim; ++i)
-      plane.multiples[i] = std::llround((i < dim ? n[i] : d) / unit);
+      plane.multiples[i] =
+        std::llround((i < dim ? n[i] : d) / coefficient_unit);
     for (unsigned int i = 0; i < dim; ++i)
-      plane.normal[i] = unit * double(plane.multiples[i]);
-    plane.offset = unit * double(plane.multiples[dim]);
+      plane.normal[i] = coefficient_unit * double(plane.multiples[i]);
+    plane.offset = coefficient_unit * double(plane.multiples[dim]);
     return plane;
   }
 
