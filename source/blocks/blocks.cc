@@ -338,8 +338,9 @@ namespace Keyblock
         for (const unsigned int v : mesh.cells[c])
           {
             Block<dim> &block = found[label[c]];
-            block.size        = std::max(
-              block.size, 2. * block.centroid.distance(mesh.vertices[v]));
+            block.size =
+              std::max(block.size,
+                       2. * block.centroid.distance(mesh.vertices[v]));
           }
 
     Blocks<dim> result;

@@ -117,9 +117,9 @@ namespace Keyblock
       const Tensor<1, dim> way =
         solve_with_laws<dim>(around.faces, around.loads.without_water())
           .direction;
-      const Tensor<1, dim> area = sum_of_areas(
-        ground.split.mesh,
-        list_supported_faces(ground, free, member.block, way));
+      const Tensor<1, dim> area =
+        sum_of_areas(ground.split.mesh,
+                     list_supported_faces(ground, free, member.block, way));
       return std::isfinite(demand.force) && area.norm() > 0.
                ? -demand.force / area.norm() * area
                : Tensor<1, dim>();

@@ -88,7 +88,7 @@ namespace Keyblock
                const LeaningBlock<dim> &above)
     {
       std::vector<PointForce<dim>> thrusts;
-      const Mesh<dim> &mesh = ground.split.mesh;
+      const Mesh<dim> &mesh             = ground.split.mesh;
       const std::vector<CellFace> faces = list_supported_faces(
         ground, free, above.block, above.statics.limit.direction);
       for (const CellFace &f : faces)

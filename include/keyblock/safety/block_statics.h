@@ -40,8 +40,9 @@ namespace Keyblock
                                              const unsigned int block,
                                              const Tensor<1, dim> &way);
 
-  /** Sum of the vector areas of faces, outwards [m^(dim-1)]; 0 where they cancel
-   * each other, as those on both ends of a block do, but for round-off. */
+  /** Sum of the vector areas of faces, outwards [m^(dim-1)]; 0 where they
+   * cancel each other, as those on both ends of a block do, but for round-off.
+   */
   template <int dim>
   Tensor<1, dim> sum_of_areas(const Mesh<dim> &mesh,
                               const std::vector<CellFace> &faces);
