@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Convex cells between planes: as many as planes, lines and points inside make,
 // and sound where planes coincide, nearly coincide or meet in one point.
+#include "random_tensor.h"
+
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/base/errors.h>
@@ -41,17 +43,6 @@ namespace
       return true;
     }
   };
-
-  template <int dim>
-  Tensor<1, dim>
-  random_tensor(std::mt19937 &random)
-  {
-    std::uniform_real_distribution<> coordinate(-1., 1.);
-    Tensor<1, dim> t;
-    for (unsigned int d = 0; d < dim; ++d)
-      t[d] = coordinate(random);
-    return t;
-  }
 
   /** Length of a segment or area of a polygon, in units. */
   template <int dim>

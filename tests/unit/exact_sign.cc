@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Sides of planes on which vertices lie: by doubles as by integers, and by
 // integers as by numbers of any length.
+#include "random_tensor.h"
+
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <boost/test/unit_test.hpp>
@@ -53,17 +55,6 @@ namespace
           rows.back().push_back(plane.multiples[i]);
       }
     return determinant_of(rows);
-  }
-
-  template <int dim>
-  Tensor<1, dim>
-  random_tensor(std::mt19937 &random)
-  {
-    std::uniform_real_distribution<> coordinate(-1., 1.);
-    Tensor<1, dim> t;
-    for (unsigned int d = 0; d < dim; ++d)
-      t[d] = coordinate(random);
-    return t;
   }
 
   struct Counts

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Blocks between planes without a mesh: known volumes, random networks, and
 // walks that know nothing of cells.
+#include "random_tensor.h"
+
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/blocks/plane_blocks.h>
@@ -21,17 +23,6 @@ namespace
 
   template <int dim>
   using Piece = JointPiece<dim>;
-
-  template <int dim>
-  Tensor<1, dim>
-  random_tensor(std::mt19937 &random)
-  {
-    std::uniform_real_distribution<> coordinate(-1., 1.);
-    Tensor<1, dim> t;
-    for (unsigned int d = 0; d < dim; ++d)
-      t[d] = coordinate(random);
-    return t;
-  }
 
   /** The domain is a box with rock behind all sides. */
   template <int dim>
