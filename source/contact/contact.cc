@@ -151,8 +151,8 @@ namespace Keyblock
   Contact<dim>::begin_stage(const unsigned int number)
   {
     nodes.measure();
-    multi_pairs.set_up();
     loans.unweld(number);
+    multi_pairs.set_up();
   }
 
 

@@ -46,21 +46,31 @@ namespace Keyblock
 
 
 
+    /** How much stiffer rock that joins two sides is than their joint: what it
+     * carries goes through its weld, and not around it through other pairs [-].
+     */
+    constexpr double weld_stiffness = 1e3;
+
+
+
     /** Area by which @p pair takes its share of the forces in its group; a tie
      * has as much as the largest of the others [m^(dim-1)]. */
     template <int dim>
     double
-    share_of(const PairTopology<dim> &topology, const unsigned int pair)
+    share_of(const PairTopology<dim> &topology,
+             const std::vector<PairState<dim>> &state,
+             const unsigned int pair)
     {
       const std::vector<Pair<dim>> &pairs = topology.interface.pairs;
+      const double factor = state[pair].is_welded ? weld_stiffness : 1.;
       if (!pairs[pair].is_tie())
-        return pairs[pair].area;
+        return factor * pairs[pair].area;
       const auto [begin, end] =
         topology.pairs_of_group(topology.group_of_pair[pair]);
       double largest = 0.;
       for (unsigned int p = begin; p < end; ++p)
         largest = std::max(largest, pairs[p].area);
-      return largest;
+      return factor * largest;
     }
   } // namespace
 
@@ -131,7 +141,7 @@ namespace Keyblock
           {
             if (state[p].is_removed)
               continue;
-            const double area = share_of(topology, p);
+            const double area = share_of(topology, state, p);
             const int plus =
               free_index[d][index_of(topology.interface.pairs[p].plus)];
             const int minus =
@@ -236,7 +246,7 @@ namespace Keyblock
             const int minus =
               free_index[d][index(topology.interface.pairs[p].minus)];
             state[p].impulse[d] +=
-              share_of(topology, p) * ((plus >= 0 ? lambda[plus] : 0.) -
+              share_of(topology, state, p) * ((plus >= 0 ? lambda[plus] : 0.) -
                                        (minus >= 0 ? lambda[minus] : 0.));
           }
       }
