@@ -245,9 +245,9 @@ namespace Keyblock
               free_index[d][index(topology.interface.pairs[p].plus)];
             const int minus =
               free_index[d][index(topology.interface.pairs[p].minus)];
-            state[p].impulse[d] +=
-              share_of(topology, state, p) * ((plus >= 0 ? lambda[plus] : 0.) -
-                                       (minus >= 0 ? lambda[minus] : 0.));
+            state[p].impulse[d] += share_of(topology, state, p) *
+                                   ((plus >= 0 ? lambda[plus] : 0.) -
+                                    (minus >= 0 ? lambda[minus] : 0.));
           }
       }
   }
