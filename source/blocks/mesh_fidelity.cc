@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace Keyblock
 {
@@ -23,10 +24,6 @@ namespace Keyblock
     /** Difference of a block's volume from the exact one that is not warned
      * of [-]. */
     constexpr double largest_difference = 0.05;
-
-    /** Difference of volumes from which on their first order says no number
-     * [-]. */
-    constexpr double far_off = 0.5;
 
     /** Distance of a cell from the curved face of a solid over the length of
      * its chord that is not warned of: that of 16 chords in a circle [-]. */
@@ -43,6 +40,16 @@ namespace Keyblock
       unsigned int joint = none;
       Point<dim> place;
     };
+
+    template <int dim>
+    std::string
+    text_of_place(const Point<dim> &place, const int digits)
+    {
+      std::string text = "(";
+      for (unsigned int d = 0; d < dim; ++d)
+        text += (d ? ", " : "") + text_of(place[d], digits);
+      return text + ")";
+    }
 
     /** Names, of which only the first few are listed. */
     std::string
@@ -109,14 +116,12 @@ namespace Keyblock
           }
       if (names.empty())
         return "";
-      std::string place;
-      for (unsigned int d = 0; d < dim; ++d)
-        place += (d ? ", " : "") + text_of(most.place[d], digits);
       return "The mesh has moved faces of blocks off the planes of their "
              "joints (" +
              list_some(names) + "), the most on " +
              scene.joints[most.joint]->name + ", by " +
-             text_of(most.distance, 3) + " m at (" + place + "), " +
+             text_of(most.distance, 3) + " m at " +
+             text_of_place(most.place, digits) + ", " +
              text_of(most.in_cells, 2) + " of the size of the cell there; " +
              remedy_of_coarse_cells(scene.meshing) + ".";
     }
@@ -175,77 +180,50 @@ namespace Keyblock
              "); limit equilibrium takes the blocks without them.";
     }
 
-    /** What blocks have too much, as far as the mesh has their faces off their
-     * joints, to first order: the integral of the distance [m^dim]. */
-    template <int dim>
-    std::vector<double>
-    volumes_of_shifts(const SplitMesh<dim> &split,
-                      const Scene<dim> &scene,
-                      const Blocks<dim> &blocks)
-    {
-      const Mesh<dim> &mesh = split.mesh;
-      std::vector<double> volumes(blocks.blocks.size(), 0.);
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        if (const unsigned int b = split.block_of_cell[c]; b != none)
-          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-            if (const unsigned int j = mesh.joint[c][f]; j != none)
-              {
-                const double area =
-                  scene.joints[j]->normal() * mesh.face_area_vector(c, f);
-                for (const unsigned int v : mesh.face_vertices(c, f))
-                  volumes[b] += area / Mesh<dim>::n_face_vertices *
-                                scene.joints[j]->distance(mesh.vertices[v]);
-              }
-      return volumes;
-    }
-
-    /** Blocks whose exact volume is not known, and of which the mesh makes more
-     * or less than their joints do. */
+    /** Exposed blocks that only the mesh or only the planes have. */
     template <int dim>
     std::string
-    warning_of_shifted_volumes(const SplitMesh<dim> &split,
-                               const Scene<dim> &scene,
-                               const Blocks<dim> &blocks)
+    warning_of_other_blocks(const Scene<dim> &scene,
+                            const Blocks<dim> &blocks,
+                            const int digits)
     {
-      const std::vector<double> surplus =
-        volumes_of_shifts(split, scene, blocks);
-      const auto difference = [&](const unsigned int b) {
-        const Block<dim> &block = blocks.blocks[b];
-        const double volume     = block.volume - surplus[b];
-        return std::abs(surplus[b]) / std::max(volume, 1e-3 * block.volume);
-      };
-      unsigned int most = none;
-      std::vector<std::string> ids;
-      for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
-        if (!blocks.blocks[b].is_infinite && !blocks.blocks[b].exact.is_known &&
-            difference(b) > largest_difference)
-          {
-            ids.push_back(std::to_string(blocks.blocks[b].id));
-            if (most == none || difference(b) > difference(most))
-              most = b;
-          }
-      if (most == none)
+      constexpr unsigned int most_places     = 3;
+      const BlockComparison<dim> &comparison = blocks.comparison;
+      if (comparison.lost.empty() && comparison.unlike.empty())
         return "";
-      const Block<dim> &block = blocks.blocks[most];
-      const std::string unit  = dim == 2 ? " m2" : " m3";
-      // to first order only
-      const bool is_far_off = difference(most) > far_off;
-      return "The mesh has moved faces off their joints and gives block " +
-             std::to_string(block.id) + " " + text_of(block.volume, 4) + unit +
-             (is_far_off
-                ? std::string(surplus[most] > 0. ? ", far more"
-                                                 : ", far less") +
-                    " than there is between them, so that its volume and "
-                    "factors mean nothing"
-                : " instead of about " +
-                    text_of(block.volume - surplus[most], 2) + unit) +
-             (ids.size() > 1
-                ? " (more than 5 % off are blocks " + list_some(ids) + ")"
-                : "") +
-             ", and its factors are found with that, by limit equilibrium, too "
-             "(a block that is not convex, or that joints bound which end "
-             "there, or that the mesh has split); " +
-             remedy_of_coarse_cells(scene.meshing) + ".";
+      unsigned int n_finite = 0, n_exposed = 0;
+      for (const Block<dim> &block : blocks.blocks)
+        if (!block.is_infinite)
+          {
+            ++n_finite;
+            n_exposed += block.exposed_stage != none;
+          }
+      std::ostringstream text;
+      text << "Between the planes of the joints there are "
+           << comparison.n_finite << " finite blocks, " << comparison.n_exposed
+           << " of them exposed; the mesh has " << n_finite << " and "
+           << n_exposed << ".";
+      const auto &lost = comparison.lost;
+      for (unsigned int i = 0; i < lost.size() && i < most_places; ++i)
+        text << (i == 0 ? " It lacks exposed ones, which are not judged: "
+                        : "; ")
+             << text_of(lost[i].volume, 4) << (dim == 2 ? " m2" : " m3")
+             << " at " << text_of_place(lost[i].centroid, digits);
+      if (lost.size() > most_places)
+        text << "; and " << lost.size() - most_places << " smaller";
+      text << (lost.empty() ? "" : ".");
+      std::vector<std::string> ids;
+      for (const unsigned int b : comparison.unlike)
+        ids.push_back(std::to_string(blocks.blocks[b].id));
+      if (ids.size() == 1)
+        text << " Its block " << ids[0]
+             << " is none of those, so that its factors mean nothing.";
+      else if (!ids.empty())
+        text << " Its blocks " << list_some(ids)
+             << " are none of those, so that their factors mean nothing.";
+      std::string remedy = remedy_of_coarse_cells(scene.meshing);
+      remedy[0]          = std::toupper(remedy[0]);
+      return text.str() + " " + remedy + ".";
     }
 
     /** Where a face of a cell lies off the surface of the solids of an
@@ -341,12 +319,10 @@ namespace Keyblock
           }
       if (names.empty())
         return "";
-      std::string place;
-      for (unsigned int d = 0; d < dim; ++d)
-        place += (d ? ", " : "") + text_of(most.place[d], 3);
       return "Cells leave the surface of " + list_some(names) + " by up to " +
-             text_of(most.distance, 2) + " m, at (" + place +
-             "), as they follow curved faces by chords, so that blocks there "
+             text_of(most.distance, 2) + " m, at " +
+             text_of_place(most.place, 3) +
+             ", as they follow curved faces by chords, so that blocks there "
              "are too large or too small; lower 'Mesh/Size at excavation'" +
              (scene.meshing.size_at_excavation > 0.
                 ? " (now " + text_of(scene.meshing.size_at_excavation) + " m)."
@@ -367,10 +343,12 @@ namespace Keyblock
          {warning_of_shifts(scene,
                             measure_shifts(scene, split, blocks),
                             digits_of_place(split.mesh, 3)),
+          warning_of_other_blocks(scene,
+                                  blocks,
+                                  digits_of_place(split.mesh, 3)),
           warning_of_volumes(scene, blocks),
           warning_of_lost_corners(scene, blocks),
           warning_of_chords(scene, split.mesh),
-          warning_of_shifted_volumes(split, scene, blocks),
           warning_of_material_shares(scene, split, blocks)})
       if (!warning.empty())
         warnings.push_back(warning);

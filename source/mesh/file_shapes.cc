@@ -5,6 +5,7 @@
 #include <keyblock/mesh/file_shapes.h>
 #include <keyblock/mesh/size.h>
 #include <keyblock/scene/domain_outline.h>
+#include <keyblock/scene/solid.h>
 
 #include <cmath>
 #include <filesystem>

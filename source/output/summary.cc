@@ -6,6 +6,7 @@
 #include <keyblock/blocks/block_measures.h>
 #include <keyblock/output/bolt_output.h>
 #include <keyblock/output/factor_json.h>
+#include <keyblock/output/mesh_json.h>
 #include <keyblock/output/output.h>
 #include <keyblock/safety/block_theory.h>
 
@@ -46,16 +47,6 @@ namespace Keyblock
           take_out_not_finite(*entry, name, found);
           ++entry;
         }
-    }
-
-    template <int dim>
-    Json
-    list_of(const Point<dim> &point)
-    {
-      Json list = Json::array();
-      for (unsigned int d = 0; d < dim; ++d)
-        list.push_back(point[d]);
-      return list;
     }
 
     Json
@@ -99,45 +90,6 @@ namespace Keyblock
       if (!block.exact.joint_area.empty())
         json["exact_joint_areas"] =
           areas_as_json(block.exact.joint_area, scene);
-    }
-
-    template <int dim>
-    Json
-    mesh_report_as_json(const MeshReport<dim> &report, const Scene<dim> &scene)
-    {
-      Json json = {{"way", report.way},
-                   {"reason", report.reason},
-                   {"largest_shift", report.largest_shift},
-                   {"largest_shift_in_cells", report.largest_shift_in_cells},
-                   {"percentile_99", report.percentile_99},
-                   {"percentile_99_in_cells", report.percentile_99_in_cells},
-                   {"area_ratio_of_finite_joints", report.area_ratio},
-                   {"area_ratio_of_large_joints", report.area_ratio_of_large},
-                   {"passes", report.n_passes},
-                   {"lost_blocks", report.n_lost_blocks},
-                   {"largest_lost_volume", report.largest_lost_volume}};
-      if (report.n_lost_blocks > 0)
-        json["largest_lost_place"] = list_of<dim>(report.largest_lost_place);
-      const auto names = [&scene](const std::vector<unsigned int> &joints) {
-        std::string text;
-        for (const unsigned int j : joints)
-          text += (text.empty() ? "" : ", ") + scene.joints[j]->name;
-        return text;
-      };
-      json["joints_lost"]    = names(report.lost);
-      json["joints_outside"] = names(report.outside);
-      for (const auto &lost : report.lost_parts)
-        json["plane_parts_lost"][scene.joints[lost.joint]->surface] =
-          lost.n_lost;
-      for (const auto &pair : report.merged)
-        json["merged_areas"][scene.joints[pair.joint]->name + " " +
-                             scene.joints[pair.other]->name] = pair.area;
-      for (const auto &rock : report.thin_rock)
-        json["thin_rock"][scene.joints[rock.joint]->name] = rock.thickness;
-      for (const auto &gap : report.gaps)
-        json["open_ends"].push_back(scene.joints[gap.joint]->name + " before " +
-                                    scene.joints[gap.other]->name);
-      return json;
     }
 
     template <int dim>
@@ -338,6 +290,8 @@ namespace Keyblock
                       quality.minimum_scaled_jacobian}};
     if (!mesh_report.way.empty())
       root["mesh"] = mesh_report_as_json(mesh_report, scene);
+    if (blocks.comparison.is_known)
+      root["between_planes"] = comparison_as_json(blocks);
     root["run"]                      = run_as_json(run);
     root["run"]["peak_memory_bytes"] = memory;
     root["warnings"]                 = run.warnings;

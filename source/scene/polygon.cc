@@ -9,9 +9,40 @@
 #include <boost/geometry/geometries/ring.hpp>
 
 #include <algorithm>
+#include <numeric>
 
 namespace Keyblock
 {
+  namespace
+  {
+    /** Twice the area of a triangle, positive if it is counterclockwise [m2].
+     */
+    double
+    twice_area(const dealii::Point<2> &a,
+               const dealii::Point<2> &b,
+               const dealii::Point<2> &c)
+    {
+      return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    }
+
+    /** The side of the line from @p a to @p b on which @p c lies: 1 left, -1
+     * right, 0 on the line up to rounding. */
+    int
+    side_of(const dealii::Point<2> &a,
+            const dealii::Point<2> &b,
+            const dealii::Point<2> &c)
+    {
+      constexpr double rounding = 1e-12;
+      const double area         = twice_area(a, b, c);
+      if (std::abs(area) <=
+          rounding * a.distance(b) * std::max(a.distance(c), b.distance(c)))
+        return 0;
+      return area > 0. ? 1 : -1;
+    }
+  } // namespace
+
+
+
   std::string
   fault_of_polygon(const std::vector<dealii::Point<2>> &corners)
   {
@@ -36,6 +67,126 @@ namespace Keyblock
           return "has corners that are no finite numbers";
         default:
           return "crosses or touches itself";
+      }
+  }
+
+
+
+  std::vector<std::vector<unsigned int>>
+  convex_parts(const std::vector<dealii::Point<2>> &corners)
+  {
+    std::vector<unsigned int> rest(corners.size());
+    std::iota(rest.begin(), rest.end(), 0);
+    double area = 0.;
+    for (unsigned int i = 2; i < corners.size(); ++i)
+      area += twice_area(corners[0], corners[i - 1], corners[i]);
+    if (area < 0.)
+      std::reverse(rest.begin(), rest.end());
+    const auto at = [&](const unsigned int i) -> const dealii::Point<2> & {
+      return corners[rest[i % rest.size()]];
+    };
+    const auto turn_at = [&](const unsigned int i) {
+      return side_of(at(i + rest.size() - 1), at(i), at(i + 1));
+    };
+    const auto is_ear = [&](const unsigned int i) {
+      const auto &a = at(i + rest.size() - 1), &b = at(i), &c = at(i + 1);
+      for (unsigned int k = i + 2; k < i + rest.size() - 1; ++k)
+        if (side_of(a, b, at(k)) >= 0 && side_of(b, c, at(k)) >= 0 &&
+            side_of(c, a, at(k)) >= 0)
+          return false;
+      return true;
+    };
+    std::vector<std::vector<unsigned int>> parts;
+    while (rest.size() >= 3)
+      {
+        std::vector<int> turns;
+        for (unsigned int i = 0; i < rest.size(); ++i)
+          turns.push_back(turn_at(i));
+        if (*std::min_element(turns.begin(), turns.end()) >= 0)
+          {
+            parts.push_back(rest);
+            break;
+          }
+        // corners in straight lines first: they are no ears
+        unsigned int next =
+          std::find(turns.begin(), turns.end(), 0) - turns.begin();
+        for (unsigned int i = 0; next == rest.size() && i < rest.size(); ++i)
+          if (turns[i] > 0 && is_ear(i))
+            next = i;
+        Assert(next < rest.size(),
+               dealii::ExcMessage("A polygon that is not simple."));
+        if (next == rest.size())
+          break;
+        const unsigned int n = rest.size();
+        if (turns[next] > 0)
+          parts.push_back(
+            {rest[(next + n - 1) % n], rest[next], rest[(next + 1) % n]});
+        rest.erase(rest.begin() + next);
+      }
+    return parts;
+  }
+
+
+
+  HullOfPolygon::HullOfPolygon(const std::vector<dealii::Point<2>> &corners)
+  {
+    const unsigned int n = corners.size();
+    double area          = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      area += twice_area(corners[0], corners[i], corners[(i + 1) % n]);
+    // number i counterclockwise, and the edge from there to the next one
+    const auto corner = [&](const unsigned int i) {
+      return area > 0. ? i % n : n - 1 - i % n;
+    };
+    const auto edge = [&](const unsigned int i) {
+      return area > 0. ? i % n : (2 * n - 2 - i % n) % n;
+    };
+    const unsigned int first =
+      std::min_element(corners.begin(),
+                       corners.end(),
+                       [](const auto &a, const auto &b) {
+                         return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
+                       }) -
+      corners.begin();
+    unsigned int i = 0;
+    while (corner(i) != first)
+      ++i;
+    for (const unsigned int last = i + n; i < last;)
+      {
+        // the corner that has all others to the left, the farthest of these
+        unsigned int j = i + 1;
+        for (unsigned int k = i + 2; k <= last && k < i + n; ++k)
+          {
+            const double turn = twice_area(corners[corner(i)],
+                                           corners[corner(j)],
+                                           corners[corner(k)]);
+            if (turn <= 0.)
+              j = k;
+          }
+        sides.push_back({corner(i), corner(j), {}});
+        const auto is_on = [&](const unsigned int k) {
+          return side_of(corners[corner(i)],
+                         corners[corner(j)],
+                         corners[corner(k)]) == 0;
+        };
+        for (unsigned int k = i; k < j;)
+          {
+            unsigned int next = k + 1;
+            while (!is_on(next))
+              ++next;
+            if (next == k + 1)
+              sides.back().edges.push_back(edge(k));
+            else
+              {
+                pockets.emplace_back();
+                for (unsigned int m = k; m <= next; ++m)
+                  pockets.back().corners.push_back(corners[corner(m)]);
+                for (unsigned int m = k; m < next; ++m)
+                  pockets.back().edges.push_back(edge(m));
+              }
+            k = next;
+          }
+        i = j;
       }
   }
 

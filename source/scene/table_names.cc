@@ -6,6 +6,7 @@
 #include <keyblock/base/text_parts.h>
 #include <keyblock/scene/joint_columns.h>
 #include <keyblock/scene/joint_table.h>
+#include <keyblock/scene/joints.h>
 #include <keyblock/scene/text.h>
 
 #include <boost/algorithm/string/predicate.hpp>

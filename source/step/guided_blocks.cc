@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <keyblock/mesh/mesh.h>
 #include <keyblock/step/guided_blocks.h>
 
 namespace Keyblock

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Closed forms of plane waves that meet an interface.
 #include <keyblock/law/joint_law.h>
+#include <keyblock/verification/polar_state.h>
 #include <keyblock/verification/tools.h>
 
 namespace Keyblock

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Integrals over faces: of what varies linearly, and of what has a kink.
-#include <keyblock/blocks/convex_body.h>
 #include <keyblock/blocks/face_quadrature.h>
 
 #include <boost/test/unit_test.hpp>
@@ -72,24 +71,6 @@ BOOST_AUTO_TEST_CASE(water_table_within_a_face)
   BOOST_TEST(adapted_points<3>(rectangle, [](const Point<3> &p) {
                return p[0] * p[1];
              }).size() == 4u);
-}
-
-BOOST_AUTO_TEST_CASE(centroid_of_a_convex_body)
-{
-  const std::array<Point<3>, 4> corners = {{Point<3>(1., 0., 0.),
-                                            Point<3>(4., 1., 0.),
-                                            Point<3>(0., 2., 1.),
-                                            Point<3>(2., 1., 5.)}};
-  Point<3> mean;
-  for (const Point<3> &p : corners)
-    mean += p / 4.;
-  BOOST_TEST(ConvexBody<3>(corners, 1e-12).centroid().distance(mean) < 1e-12);
-  // a square less the triangle of half of it
-  ConvexBody<2> body(Point<2>(0., 0.), Point<2>(3., 3.), 1e-12);
-  Tensor<1, 2> outward;
-  outward[0] = outward[1] = std::sqrt(0.5);
-  body.cut(Point<2>(3., 0.), outward, 0);
-  BOOST_TEST(body.centroid().distance(Point<2>(1., 1.)) < 1e-12);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -7,19 +7,11 @@
 namespace Keyblock
 {
   /**
-   * Measure the blocks as their planes bound them, whatever the cut of joints
-   * into the mesh bent: fills Block::exact.
-   *
-   * Between infinite joints and plane outlines a block is the convex body that
-   * the planes leave around its centroid (PlaneArrangement), whatever corners
-   * the mesh has lost: of a joint that cuts one off, and has no face of the
-   * block in the mesh, Measures::joint_area has the area and
-   * Measures::bent_area zero. Of other blocks the mesh says which planes meet
-   * in which vertices of their surface; moved to where these planes intersect,
-   * the faces become plane and the volume follows from the divergence theorem.
-   * A block whose surface is not made of planes alone, with a vertex at which
-   * more planes meet in the mesh than in space, or that a joint goes through,
-   * gets none. On meshes that are exact all of this is what the mesh has.
+   * Measure the blocks as the planes of the scene bound them, whatever the cut
+   * of joints into the mesh bent: fills Block::exact where a block of the mesh
+   * and one between the planes have more than half of each other. A joint on
+   * which only one of the two has a face has an area of zero for the other. On
+   * meshes that are exact all of this is what the mesh has.
    */
   template <int dim>
   void measure_exactly(Blocks<dim> &blocks,

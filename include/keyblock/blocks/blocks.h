@@ -99,6 +99,31 @@ namespace Keyblock
     }
   };
 
+  /** How the blocks of a mesh differ from those that the planes of its scene
+   * bound. A block is the same in both if each has more than half of the other.
+   */
+  template <int dim>
+  struct BlockComparison
+  {
+    /** The scene has planes, and a mesh that may leave them. */
+    bool is_known = false;
+
+    unsigned int n_finite  = 0; ///< between the planes
+    unsigned int n_exposed = 0; ///< of these, after the last stage
+
+    struct LostBlock
+    {
+      double volume; ///< [m^dim]
+      Point<dim> centroid;
+    };
+    std::vector<LostBlock>
+      lost; ///< exposed, and not in the mesh; largest first
+
+    /** Exposed blocks of the mesh (index) that are none between the planes:
+     * several in one, a part of one, or open to the rock. */
+    std::vector<unsigned int> unlike;
+  };
+
   /** The blocks of a mesh: rock that joints, excavations and the domain's
    * boundary bound. */
   template <int dim>
@@ -115,6 +140,8 @@ namespace Keyblock
     /** Sign codes (Chen, Xiao and Chen 2020, equation 4) among the rock that is
      * left: what the sign test alone would take for blocks. */
     unsigned int n_sign_codes = 0;
+
+    BlockComparison<dim> comparison;
 
     /** Whether the nodes on a face are to be duplicated. */
     bool is_split(const Mesh<dim> &mesh,
