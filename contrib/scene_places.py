@@ -184,6 +184,12 @@ def directions(dim):
             yield [s / norm(steps) for s in steps]
 
 
+def extent_of(block, dim):
+    """About how long a finite block is that may be flat [m]."""
+    volume = block["volume"]
+    return max(volume**(1. / dim), (volume / block["width"])**(1. / (dim - 1)))
+
+
 class Surroundings:
     """What is where in a scene: distances from joints, excavations, finite
     blocks and the boundary.
@@ -196,7 +202,8 @@ class Surroundings:
         self.joints = [JointPlace(tree, name) for name in tree.names("Joints")]
         self.is_dug = excavation_tests(tree)
         self.to_boundary = boundary_distance(tree)
-        self.blocks = [(block["centroid"], block["volume"]**(1. / self.dim))
+        # (4/3: from the centroid of a triangle to its farthest corner)
+        self.blocks = [(block["centroid"], 4. / 3. * extent_of(block, self.dim))
                        for block in blocks if "width" in block]
 
     def is_rock(self, p):
