@@ -115,11 +115,23 @@ namespace Keyblock
             std::abs(block.exact.volume - block.volume) > 1e-9 * block.volume)
           out << " (by its planes " << std::setprecision(6)
               << block.exact.volume << (dim == 2 ? " m2)" : " m3)");
+        if (blocks.is_unlike(block.id - 1))
+          out << " (none of those between the planes)";
         if (block.exposed_stage != none && is_too_coarse(block, scene))
           out << " (only " << std::setprecision(2) << block.cells_across()
               << " cells across)";
         out << '\n';
       }
+    const unsigned int n_finite =
+      std::count_if(blocks.blocks.begin(),
+                    blocks.blocks.end(),
+                    [](const auto &block) { return !block.is_infinite; });
+    const auto &planes = blocks.comparison;
+    // (a warning tells more where exposed blocks differ)
+    if (planes.is_known && planes.n_finite != n_finite && planes.lost.empty() &&
+        planes.unlike.empty())
+      out << "      The planes of the joints bound " << planes.n_finite
+          << " finite blocks, the mesh has " << n_finite << ".\n";
   }
 
   template void

@@ -99,6 +99,17 @@ namespace Keyblock
 
 
   template <int dim>
+  bool
+  Blocks<dim>::is_unlike(const unsigned int block) const
+  {
+    return std::find(comparison.unlike.begin(),
+                     comparison.unlike.end(),
+                     block) != comparison.unlike.end();
+  }
+
+
+
+  template <int dim>
   std::vector<unsigned int>
   rank_blocks(const std::vector<Block<dim>> &blocks)
   {

@@ -180,6 +180,14 @@ namespace Keyblock
              "); limit equilibrium takes the blocks without them.";
     }
 
+    std::string
+    count_blocks(const unsigned int n_finite, const unsigned int n_exposed)
+    {
+      return std::to_string(n_finite) + " finite block" +
+             (n_finite == 1 ? "" : "s") + ", " + std::to_string(n_exposed) +
+             " of them exposed";
+    }
+
     /** Exposed blocks that only the mesh or only the planes have. */
     template <int dim>
     std::string
@@ -199,10 +207,9 @@ namespace Keyblock
             n_exposed += block.exposed_stage != none;
           }
       std::ostringstream text;
-      text << "Between the planes of the joints there are "
-           << comparison.n_finite << " finite blocks, " << comparison.n_exposed
-           << " of them exposed; the mesh has " << n_finite << " and "
-           << n_exposed << ".";
+      text << "The planes of the joints bound "
+           << count_blocks(comparison.n_finite, comparison.n_exposed)
+           << "; the mesh has " << n_finite << " and " << n_exposed << ".";
       const auto &lost = comparison.lost;
       for (unsigned int i = 0; i < lost.size() && i < most_places; ++i)
         text << (i == 0 ? " It lacks exposed ones, which are not judged: "
@@ -217,10 +224,10 @@ namespace Keyblock
         ids.push_back(std::to_string(blocks.blocks[b].id));
       if (ids.size() == 1)
         text << " Its block " << ids[0]
-             << " is none of those, so that its factors mean nothing.";
+             << " is none of those, and has no factor.";
       else if (!ids.empty())
         text << " Its blocks " << list_some(ids)
-             << " are none of those, so that their factors mean nothing.";
+             << " are none of those, and have no factor.";
       std::string remedy = remedy_of_coarse_cells(scene.meshing);
       remedy[0]          = std::toupper(remedy[0]);
       return text.str() + " " + remedy + ".";

@@ -205,6 +205,12 @@ namespace Keyblock
                 block.is_infinite || (facet.domain_side != nothing &&
                                       scene.is_truncated[facet.domain_side]);
           }
+      for (const Link &link : links)
+        for (const auto &[own, other] :
+             {std::pair(link.plus, link.minus), {link.minus, link.plus}})
+          if (number[other] == nothing &&
+              result.excavation_of_cell[other] == scene.beyond)
+            found[number[own]].is_infinite = true;
       for (unsigned int b = 0; b < found.size(); ++b)
         if (found[b].volume > 0.)
           found[b].centroid = scene.box.center() + moments[b] / found[b].volume;
@@ -265,9 +271,10 @@ namespace Keyblock
       const unsigned int own        = is_plus ? link.plus : link.minus,
                          other      = is_plus ? link.minus : link.plus,
                          excavation = result.excavation_of_cell[other];
-      unsigned int joint            = nothing;
-      if (link.extent != nothing)
-        joint = extents[link.extent].joint;
+      if (excavation == scene.beyond)
+        return;
+      const unsigned int joint =
+        link.extent != nothing ? extents[link.extent].joint : nothing;
       result.free_faces[result.block_of_cell[own]].push_back(
         {rock.stage_of_excavation[excavation],
          excavation,

@@ -3,9 +3,9 @@
 
 #include <keyblock/base/box.h>
 #include <keyblock/blocks/plane_scene.h>
+#include <keyblock/blocks/solid_parts.h>
 #include <keyblock/scene/boundary_names.h>
 #include <keyblock/scene/joint_extent.h>
-#include <keyblock/scene/plane_faces.h>
 #include <keyblock/scene/polygon.h>
 #include <keyblock/scene/section_axis.h>
 
@@ -94,34 +94,6 @@ namespace Keyblock
          direction(0., 1., 0.)});
       return sides;
     }
-
-    /** The half spaces of a convex body. */
-    std::vector<HalfSpace<3>>
-    half_spaces_of(const Solid &solid, const std::string &name)
-    {
-      constexpr double rounding      = 1e-9;
-      const TriangleSurface &surface = solid.surface;
-      const double size              = solid.low.distance(solid.high);
-      std::vector<HalfSpace<3>> sides;
-      for (const PlaneFace &face : list_faces(surface))
-        {
-          Tensor<1, 3> outward;
-          for (const auto &t : face.triangles)
-            outward +=
-              cross_product_3d(surface.vertices[t[1]] - surface.vertices[t[0]],
-                               surface.vertices[t[2]] - surface.vertices[t[0]]);
-          outward /= outward.norm();
-          const Point<3> &on = surface.vertices[face.triangles.front()[0]];
-          for (const Point<3> &p : surface.vertices)
-            if (outward * (p - on) > rounding * size)
-              throw NoPlanes{"the excavation '" + name +
-                             "' is a body that is not convex"};
-          sides.push_back({on, outward});
-        }
-      return sides;
-    }
-
-
 
     /** Makes a PlaneScene; throws NoPlanes. */
     template <int dim>
@@ -260,15 +232,17 @@ namespace Keyblock
           result.is_truncated.push_back(!side.edges.empty() &&
                                         is_edge_truncated(side.edges.front()));
         }
+      const unsigned int n = scene.excavations.size();
       for (const auto &pocket : hull.pockets)
         {
-          if (std::any_of(pocket.edges.begin(),
-                          pocket.edges.end(),
-                          is_edge_truncated))
-            throw NoPlanes{"the domain is not convex at sides that are "
-                           "truncated"};
+          if (!all_alike(pocket.edges))
+            throw NoPlanes{"edges of the domain where it is not convex are "
+                           "truncated and free"};
+          const bool goes_on = is_edge_truncated(pocket.edges.front());
           for (const auto &part : half_planes_of(pocket.corners))
-            add_piece(scene.excavations.size(), part);
+            add_piece(goes_on ? n + 1 : n, part);
+          if (goes_on)
+            result.beyond = n + 1;
         }
     }
 
@@ -307,7 +281,14 @@ namespace Keyblock
         }
       else if (excavation.shape == ExcavationShape::file)
         for (const auto &solid : excavation.solids)
-          add_piece(e, half_spaces_of(*solid, excavation.name));
+          {
+            const auto parts = convex_parts(*solid);
+            if (parts.empty())
+              throw NoPlanes{"the excavation '" + excavation.name +
+                             "' is not bounded by planes"};
+            for (const auto &part : parts)
+              add_piece(e, part);
+          }
       else
         for (const auto &section : half_planes_of(excavation.vertices))
           add_piece(e, extrude(excavation, section));

@@ -132,7 +132,7 @@ namespace Keyblock
     std::vector<JudgedBlock<dim>> judged;
     std::vector<bool> is_gone = removed_from(ground, blocks.blocks.size());
     for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
-      if (!is_gone[b] &&
+      if (!is_gone[b] && !blocks.is_unlike(b) &&
           class_now(ground, blocks.blocks[b]) == BlockClass::exposed)
         {
           judged.push_back(

@@ -6,7 +6,9 @@
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/blocks/plane_scene.h>
+#include <keyblock/blocks/solid_parts.h>
 #include <keyblock/scene/polygon.h>
+#include <keyblock/scene/solid.h>
 
 #include <cmath>
 #include <fstream>
@@ -162,11 +164,64 @@ BOOST_AUTO_TEST_CASE(wedge_in_a_slope)
   BOOST_TEST(found.blocks[0].exposed_stage == 0u);
   BOOST_TEST(std::abs(volume_of_rock(found) -
                       (60. * 20. + 10. * (40. - crest) + 5. * crest)) < 1e-9);
-  // the pocket over the toe bounds nothing if rock goes on there
+  // where rock goes on beyond the pocket over the toe, the wedge is infinite
   std::string truncated = text.str();
   truncated.replace(truncated.find("id 1, id 2, left"), 16, "all");
+  BOOST_TEST(finite_volumes(blocks_of<2>(truncated)).empty());
+  // not so the edge from the crest alone
+  truncated.replace(truncated.find("= all"), 5, "= id 4");
   BOOST_TEST(reason_of<2>(truncated) ==
-             "the domain is not convex at sides that are truncated");
+             "edges of the domain where it is not convex are truncated and "
+             "free");
+}
+
+BOOST_AUTO_TEST_CASE(bodies_that_are_not_convex)
+{
+  // a box of 4 by 3 by 2 m less one of 2 by 1 by 2 at a corner, and turned
+  for (const double turn : {0., 0.3, 1.1})
+    {
+      const std::vector<Point<2>> outline = {Point<2>(0., 0.),
+                                             Point<2>(4., 0.),
+                                             Point<2>(4., 2.),
+                                             Point<2>(2., 2.),
+                                             Point<2>(2., 3.),
+                                             Point<2>(0., 3.)};
+      const unsigned int n                = outline.size();
+      TriangleSurface surface;
+      for (const double z : {0., 2.})
+        for (const Point<2> &p : outline)
+          surface.vertices.emplace_back(std::cos(turn) * p[0] -
+                                          std::sin(turn) * p[1],
+                                        std::sin(turn) * p[0] +
+                                          std::cos(turn) * p[1],
+                                        z + 0.1 * p[0]);
+      for (const auto &t : std::vector<std::array<unsigned int, 3>>{
+             {{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 5}}, {{3, 4, 5}}})
+        {
+          surface.triangles.push_back({{t[0], t[2], t[1]}});
+          surface.triangles.push_back({{n + t[0], n + t[1], n + t[2]}});
+        }
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const unsigned int j = (i + 1) % n;
+          surface.triangles.push_back({{i, j, n + j}});
+          surface.triangles.push_back({{i, n + j, n + i}});
+        }
+      BOOST_TEST_REQUIRE(surface.orient() == "");
+      const Solid solid(surface);
+      const auto parts = convex_parts(solid);
+      BOOST_TEST(parts.size() > 1u);
+      PlaneScene<3> scene;
+      scene.box =
+        BoundingBox<3>({Point<3>(-9., -9., -9.), Point<3>(9., 9., 9.)});
+      scene.is_truncated.assign(6, true);
+      for (const auto &part : parts)
+        scene.excavations.push_back({0, 1, part});
+      const auto found = find_plane_blocks(scene, plane_block_options(scene));
+      BOOST_TEST(found.blocks.size() == 1u);
+      BOOST_TEST(std::abs(volume_of_rock(found) - (18. * 18. * 18. - 20.)) <
+                 1e-9);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(excavations_that_are_not_convex)

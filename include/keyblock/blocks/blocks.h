@@ -143,6 +143,10 @@ namespace Keyblock
 
     BlockComparison<dim> comparison;
 
+    /** Whether a block (index) is none of those between the planes, so that it
+     * gets no factor. */
+    bool is_unlike(const unsigned int block) const;
+
     /** Whether the nodes on a face are to be duplicated. */
     bool is_split(const Mesh<dim> &mesh,
                   const unsigned int cell,

@@ -35,6 +35,10 @@ namespace Keyblock
 
     std::vector<ExcavationPiece<dim>> excavations;
     std::vector<JointPiece<dim>> joints;
+
+    /** Index of an excavation that stands for rock beyond the domain, which
+     * goes on there; or nothing. */
+    unsigned int beyond = ConvexCells<dim>::nothing;
   };
 
   struct PlaneBlockOptions
