@@ -69,7 +69,8 @@ namespace Keyblock
             ++result.n_exposed;
             const auto same = std::find(match.begin(), match.end(), p);
             if (same == match.end() ||
-                blocks.blocks[same - match.begin()].is_infinite)
+                (blocks.blocks[same - match.begin()].is_infinite &&
+                 !blocks.blocks[same - match.begin()].is_rigid))
               result.lost.push_back({block.volume, block.centroid});
           }
       for (unsigned int b = 0; b < match.size(); ++b)

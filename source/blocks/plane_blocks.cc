@@ -11,23 +11,6 @@ namespace Keyblock
 {
   namespace
   {
-    /** Length of a segment, or area vector of a polygon over its normal. */
-    template <int dim>
-    double
-    area_of_outline(const std::vector<Point<dim>> &corners)
-    {
-      if constexpr (dim == 2)
-        return corners[0].distance(corners[1]);
-      else
-        {
-          Tensor<1, dim> sum;
-          for (unsigned int i = 2; i < corners.size(); ++i)
-            sum += cross_product_3d(corners[i - 1] - corners[0],
-                                    corners[i] - corners[0]);
-          return 0.5 * sum.norm();
-        }
-    }
-
     template <int dim>
     class PlaneBlockFinder
     {
@@ -69,7 +52,14 @@ namespace Keyblock
         std::vector<Point<dim>> outline;
       };
 
+      bool
+      is_rock(const unsigned int cell) const
+      {
+        return result.excavation_of_cell[cell] == nothing;
+      }
+
       void find_contacts();
+      void give_dust_to_excavations(const std::vector<double> &volume);
       void join_dust();
       void measure_blocks();
       void list_faces();
@@ -94,15 +84,12 @@ namespace Keyblock
     void
     PlaneBlockFinder<dim>::find_contacts()
     {
-      const auto &cells      = result.cells;
-      const auto &excavation = result.excavation_of_cell;
-      sets                   = DisjointSets(cells.n_cells());
+      const auto &cells = result.cells;
+      sets              = DisjointSets(cells.n_cells());
       std::vector<Point<dim>> units;
       cells.for_each_contact([&](const auto &contact) {
-        const bool are_rock = excavation[contact.minus] == nothing &&
-                              excavation[contact.plus] == nothing;
-        if (excavation[contact.minus] != nothing &&
-            excavation[contact.plus] != nothing)
+        const bool are_rock = is_rock(contact.minus) && is_rock(contact.plus);
+        if (!is_rock(contact.minus) && !is_rock(contact.plus))
           return;
         if (are_rock && rock.extents_of_plane[contact.plane].empty() &&
             sets.root(contact.minus) == sets.root(contact.plus))
@@ -129,8 +116,39 @@ namespace Keyblock
 
 
 
-    /** Blocks that are nothing but rounding go to one beside them: to one that
-     * they are open to, or else to that of the largest common polygon. */
+    /** Blocks that are nothing but rounding, and open to an excavation, as
+     * between a joint and an outline on it, are excavated with it.
+     * @param volume of each set, by its root [m^dim] */
+    template <int dim>
+    void
+    PlaneBlockFinder<dim>::give_dust_to_excavations(
+      const std::vector<double> &volume)
+    {
+      std::map<unsigned int, std::pair<double, unsigned int>>
+        largest; // opening
+      for (const Link &link : links)
+        if (link.extent == nothing)
+          {
+            const auto [own, other] = is_rock(link.minus)
+                                        ? std::pair(link.minus, link.plus)
+                                        : std::pair(link.plus, link.minus);
+            if (const unsigned int root = sets.root(own);
+                volume[root] < options.dust)
+              largest[root] = std::max(largest[root],
+                                       {area_of_outline(link.outline),
+                                        result.excavation_of_cell[other]});
+          }
+      for (unsigned int c = 0; c < result.cells.n_cells(); ++c)
+        if (is_rock(c))
+          if (const auto found = largest.find(sets.root(c));
+              found != largest.end())
+            result.excavation_of_cell[c] = found->second.second;
+    }
+
+
+
+    /** Other blocks that are nothing but rounding go to one beside them: to one
+     * that they are open to, or else to that of the largest common polygon. */
     template <int dim>
     void
     PlaneBlockFinder<dim>::join_dust()
@@ -142,6 +160,7 @@ namespace Keyblock
           measures.push_back(result.cells.measures(c));
           volume[sets.root(c)] += measures[c].volume;
         }
+      give_dust_to_excavations(volume);
       const auto is_dust = [&](const unsigned int a, const unsigned int b) {
         return std::min(volume[sets.root(a)], volume[sets.root(b)]) <
                options.dust;
@@ -149,7 +168,7 @@ namespace Keyblock
       const auto join_if_dust = [&](const unsigned int a,
                                     const unsigned int b) {
         const unsigned int p = sets.root(a), q = sets.root(b);
-        if (p == q || !is_dust(p, q))
+        if (p == q || !is_dust(p, q) || !is_rock(a) || !is_rock(b))
           return;
         const double sum = volume[p] + volume[q];
         sets.join(p, q);
@@ -159,8 +178,7 @@ namespace Keyblock
         join_if_dust(a, b);
       std::vector<std::pair<double, const Link *>> closed; // by area
       for (const Link &link : links)
-        if (result.excavation_of_cell[link.minus] == nothing &&
-            result.excavation_of_cell[link.plus] == nothing &&
+        if (is_rock(link.minus) && is_rock(link.plus) &&
             is_dust(link.minus, link.plus))
           closed.emplace_back(-area_of_outline(link.outline), &link);
       std::stable_sort(closed.begin(),
@@ -185,7 +203,7 @@ namespace Keyblock
       std::vector<unsigned int> number(n, nothing);
       // (the root of a set is its first cell)
       for (unsigned int c = 0; c < n; ++c)
-        if (result.excavation_of_cell[c] == nothing)
+        if (is_rock(c))
           {
             if (sets.root(c) == c)
               {

@@ -243,6 +243,27 @@ BOOST_AUTO_TEST_CASE(excavations_that_are_not_convex)
   BOOST_TEST(std::abs(volume_of_rock(found) - (400. - 48.)) < 1e-9);
 }
 
+BOOST_AUTO_TEST_CASE(joints_along_outlines)
+{
+  // a wedge on a plane of 60 degrees against a wall; the side of the notch at
+  // its toe lies on the plane but for rounding
+  const auto found = blocks_of<2>(
+    "subsection Domain\n set Corner = -8, -2\n set Size = 22, 12\n set "
+    "Truncated boundaries = left, right, bottom\nend\n" +
+    excavation("  set Vertices = 0, 0; 0, 1; -0.57735026919, 1\n") +
+    "subsection Joints\n set Names = plane, wall\n subsection plane\n  set "
+    "Vertices = -5.7735026919, 10; 0, 0\n end\n subsection wall\n  set "
+    "Vertices = 0, 0; 0, 10\n end\nend\n");
+  const auto areas = finite_volumes(found);
+  BOOST_TEST_REQUIRE(areas.size() == 1u);
+  const double tangent = std::tan(60. * radian);
+  BOOST_TEST(std::abs(areas[0] - 99. / 2. / tangent) < 1e-8);
+  const auto &block = found.blocks[0];
+  BOOST_TEST(std::abs(block.joint_area.at(0) - 9. / std::sin(60. * radian)) <
+             1e-8);
+  BOOST_TEST(std::abs(block.joint_area.at(1) - 9.) < 1e-8);
+}
+
 BOOST_AUTO_TEST_CASE(circles_have_their_area)
 {
   const auto found = blocks_of<2>(

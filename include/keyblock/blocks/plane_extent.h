@@ -32,6 +32,23 @@ namespace Keyblock
   template <int dim>
   bool is_narrow(const std::vector<Point<dim>> &polygon, const double width);
 
+  /** Area of a plane polygon, in 2D the length of a segment. */
+  template <int dim>
+  double
+  area_of_outline(const std::vector<Point<dim>> &corners)
+  {
+    if constexpr (dim == 2)
+      return corners[0].distance(corners[1]);
+    else
+      {
+        Tensor<1, dim> sum;
+        for (unsigned int i = 2; i < corners.size(); ++i)
+          sum += cross_product_3d(corners[i - 1] - corners[0],
+                                  corners[i] - corners[0]);
+        return 0.5 * sum.norm();
+      }
+  }
+
   /**
    * How far a piece of a joint reaches in its plane, in the units of
    * ConvexCells. It reaches beyond its rim by @p bridging. Answers are those of
