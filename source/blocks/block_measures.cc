@@ -29,8 +29,8 @@ namespace Keyblock
       return areas;
     }
 
-    /** For each block of the mesh that of the planes which has more than half
-     * of it, and of which it has more than half; else `none`. */
+    /** For each block of the mesh the finite one between the planes which has
+     * more than half of it, and of which it has more than half; else `none`. */
     template <int dim>
     std::vector<unsigned int>
     match_blocks(const Blocks<dim> &blocks,
@@ -45,7 +45,8 @@ namespace Keyblock
             common[{b, p}] += mesh.cell_volume(c);
       std::vector<unsigned int> match(blocks.blocks.size(), none);
       for (const auto &[pair, volume] : common)
-        if (2. * volume > blocks.blocks[pair.first].volume &&
+        if (!planes.blocks[pair.second].is_infinite &&
+            2. * volume > blocks.blocks[pair.first].volume &&
             2. * volume > planes.blocks[pair.second].volume)
           match[pair.first] = pair.second;
       return match;
@@ -75,8 +76,7 @@ namespace Keyblock
           }
       for (unsigned int b = 0; b < match.size(); ++b)
         if (!blocks.blocks[b].is_infinite &&
-            blocks.blocks[b].exposed_stage != none &&
-            (match[b] == none || planes.blocks[match[b]].is_infinite))
+            blocks.blocks[b].exposed_stage != none && match[b] == none)
           result.unlike.push_back(b);
       return result;
     }
@@ -140,8 +140,7 @@ namespace Keyblock
     const auto areas                = areas_in_mesh(blocks, mesh);
     for (unsigned int b = 0; b < match.size(); ++b)
       if (Block<dim> &block = blocks.blocks[b];
-          !block.is_infinite && match[b] != none &&
-          !planes.blocks[match[b]].is_infinite)
+          !block.is_infinite && match[b] != none)
         {
           block.exact = measures_of(planes, match[b], options.bridging);
           block.exact.bent_area = areas[b];

@@ -127,7 +127,7 @@ namespace Keyblock
                     blocks.blocks.end(),
                     [](const auto &block) { return !block.is_infinite; });
     const auto &planes = blocks.comparison;
-    // (a warning tells more where exposed blocks differ)
+    // (where exposed blocks differ, a warning has the numbers)
     if (planes.is_known && planes.n_finite != n_finite && planes.lost.empty() &&
         planes.unlike.empty())
       out << "      The planes of the joints bound " << planes.n_finite

@@ -212,7 +212,7 @@ namespace Keyblock
            << "; the mesh has " << n_finite << " and " << n_exposed << ".";
       const auto &lost = comparison.lost;
       for (unsigned int i = 0; i < lost.size() && i < most_places; ++i)
-        text << (i == 0 ? " It lacks exposed ones, which are not judged: "
+        text << (i == 0 ? " It lacks exposed ones, which get no factor: "
                         : "; ")
              << text_of(lost[i].volume, 4) << (dim == 2 ? " m2" : " m3")
              << " at " << text_of_place(lost[i].centroid, digits);
