@@ -40,7 +40,7 @@ LENGTHS = {
     "Domain/Size", "Mesh/Size", "Mesh/Size at excavation", "Mesh/Size at joints",
     "Mesh/Grading distance", "Mesh/Least size", "Mesh/Refine at excavations",
     "Mesh/Refine at joints", "Block theory/Roof span", "Check/Length",
-    "Joints/NAME/Scale", "Joints/NAME/Radius", "Joints/NAME/Dilation slip",
+    "Joints/Bridging", "Joints/NAME/Scale", "Joints/NAME/Radius", "Joints/NAME/Dilation slip",
     "Joints/NAME/Slip distance", "Joints/NAME/Joint length",
     "Joint sets/NAME/Dilation slip", "Joint sets/NAME/Slip distance",
     "Joint sets/NAME/Joint length", "Bolts/NAME/Length", "Bolts/NAME/Spacing",

@@ -78,7 +78,7 @@ with tempfile.TemporaryDirectory() as folder:
     run = subprocess.run([program, str(scene), "--validate"], cwd=folder,
                          capture_output=True, text=True, check=True)
 exposed = [float(area) for area in re.findall(
-    r"^ +[0-9]+  exposed +yes +([0-9.]+)", run.stdout, re.M)]
+    r"^ +[0-9]+  exposed +yes +([0-9.e+-]+)", run.stdout, re.M)]
 print(run.stdout)
 assert abs(sum(exposed) - 3) < 0.3, exposed
 assert "left out: " not in run.stdout

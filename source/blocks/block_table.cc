@@ -111,8 +111,11 @@ namespace Keyblock
             out << scene.joints[joint]->name << ' ';
         if (n_named > most_joints_of_infinite)
           out << "and " << n_named - most_joints_of_infinite << " more ";
-        if (block.exact.is_known &&
-            std::abs(block.exact.volume - block.volume) > 1e-9 * block.volume)
+        if (block.n_cells == 0 && !block.is_infinite)
+          out << " (not in the mesh)";
+        else if (block.exact.is_known &&
+                 std::abs(block.exact.volume - block.volume) >
+                   1e-9 * block.volume)
           out << " (by its planes " << std::setprecision(6)
               << block.exact.volume << (dim == 2 ? " m2)" : " m3)");
         if (blocks.is_unlike(block.id - 1))
@@ -125,7 +128,9 @@ namespace Keyblock
     const unsigned int n_finite =
       std::count_if(blocks.blocks.begin(),
                     blocks.blocks.end(),
-                    [](const auto &block) { return !block.is_infinite; });
+                    [](const auto &block) {
+                      return !block.is_infinite && block.n_cells > 0;
+                    });
     const auto &planes = blocks.comparison;
     // (where exposed blocks differ, a warning has the numbers)
     if (planes.is_known && planes.n_finite != n_finite && planes.lost.empty() &&

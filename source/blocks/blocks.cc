@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/blocks/block_measures.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/blocks.h>
 
@@ -94,17 +93,6 @@ namespace Keyblock
       return false;
     return !(weld_infinite_blocks && blocks[a].is_infinite &&
              blocks[b].is_infinite);
-  }
-
-
-
-  template <int dim>
-  bool
-  Blocks<dim>::is_unlike(const unsigned int block) const
-  {
-    return std::find(comparison.unlike.begin(),
-                     comparison.unlike.end(),
-                     block) != comparison.unlike.end();
   }
 
 
@@ -377,7 +365,6 @@ namespace Keyblock
         result.n_stages = std::max(result.n_stages, mesh.excavation_stage[c]);
       }
     classify(result, mesh, scene);
-    measure_exactly(result, mesh, scene);
     measure_widths(result, mesh, scene);
     return result;
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 namespace Keyblock
@@ -52,6 +53,8 @@ namespace Keyblock
         return;
       bolt      = as_given;
       bolt.head = as_given.at(piece.begin);
+      for (double &place : bolt.places)
+        place = std::max(0., place - piece.begin);
       trace_bolt(rock, split, set, bolt);
     }
 
@@ -209,6 +212,37 @@ namespace Keyblock
 
 
   template <int dim>
+  std::vector<Bolt<dim>>
+  lay_out_bolts_like(const std::vector<Bolt<dim>> &bolts,
+                     const Scene<dim> &scene,
+                     const SplitMesh<dim> &split)
+  {
+    std::vector<Bolt<dim>> laid;
+    std::unique_ptr<CellLocator<dim>> rock;
+    unsigned int set = none;
+    for (const Bolt<dim> &bolt : bolts)
+      {
+        const BoltSet<dim> &of_set = *scene.bolts[bolt.set];
+        if (set != bolt.set)
+          {
+            const Ground<dim> ground = {scene,
+                                        split,
+                                        scene.stage_number(of_set.stage)};
+            rock                     = std::make_unique<CellLocator<dim>>(
+              split.mesh,
+              [&](const unsigned int c) { return !ground.is_excavated(c); });
+            set = bolt.set;
+          }
+        laid.emplace_back(bolt.set, bolt.head, bolt.end);
+        laid.back().places = bolt.places;
+        trace_from_face(*rock, split, of_set, laid.back());
+      }
+    return laid;
+  }
+
+
+
+  template <int dim>
   BoltRemains
   find_remains(const Bolt<dim> &bolt, const Ground<dim> &ground)
   {
@@ -254,7 +288,11 @@ namespace Keyblock
 #define INSTANTIATE(dim)                                                       \
   template std::vector<Bolt<dim>> lay_out_bolts(const Scene<dim> &,            \
                                                 const SplitMesh<dim> &);       \
-  template BoltRemains find_remains(const Bolt<dim> &, const Ground<dim> &);
+  template BoltRemains find_remains(const Bolt<dim> &, const Ground<dim> &);   \
+  template std::vector<Bolt<dim>> lay_out_bolts_like(                          \
+    const std::vector<Bolt<dim>> &,                                            \
+    const Scene<dim> &,                                                        \
+    const SplitMesh<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

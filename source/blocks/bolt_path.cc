@@ -206,7 +206,8 @@ namespace Keyblock
           stretches[k - 1].block != none && stretches[k].block != none)
         bolt.crossings.push_back(
           cross(bolt, stretches[k - 1], stretches[k], rock, split.mesh));
-    bolt.places = set_out_nodes(bolt, stretches, set);
+    if (bolt.places.empty())
+      bolt.places = set_out_nodes(bolt, stretches, set);
     for (const double place : bolt.places)
       bolt.rock.push_back(
         rock.find_in(bolt.pieces[bolt.piece_at(place)].cell, bolt.at(place)));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/numerics/rtree.h>
+
 #include <keyblock/blocks/excavation_parts.h>
 #include <keyblock/blocks/lined_faces.h>
 #include <keyblock/blocks/liner_layout.h>
@@ -13,6 +15,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 
 namespace Keyblock
 {
@@ -199,6 +202,140 @@ namespace Keyblock
       find_joints(split.interface.pairs, traces);
       return traces;
     }
+    /** An edge of a lined face, in 2D an end of one. */
+    template <int dim>
+    struct Edge
+    {
+      Point<dim> begin, end;
+      unsigned int cell;
+      Tensor<1, dim> outward; ///< unit normal of the face
+
+      /** Length of what it has in common with another one, and its middle; in
+       * 2D 1 for the same point. */
+      std::pair<double, Point<dim>>
+      overlap(const Edge &other) const
+      {
+        constexpr double near = 1e-6; // over the length of the edge
+        if constexpr (dim == 2)
+          return {begin.distance(other.begin) <=
+                    near * (other.end - other.begin).norm(),
+                  begin};
+        else
+          {
+            const double length      = begin.distance(end);
+            const Tensor<1, 3> along = (end - begin) / length;
+            double low = length, high = 0.;
+            for (const Point<3> &p : {other.begin, other.end})
+              {
+                const double place = (p - begin) * along;
+                if ((p - begin - place * along).norm() > near * length)
+                  return {0., begin};
+                low  = std::min(low, place);
+                high = std::max(high, place);
+              }
+            low  = std::max(low, 0.);
+            high = std::min(high, length);
+            return {high - low > near * length ? high - low : 0.,
+                    begin + 0.5 * (low + high) * along};
+          }
+      }
+    };
+
+    template <int dim>
+    std::vector<Edge<dim>>
+    list_edges(const Mesh<dim> &mesh, const std::vector<CellFace> &faces)
+    {
+      std::vector<Edge<dim>> edges;
+      for (const CellFace &f : faces)
+        {
+          const Tensor<1, dim> area = mesh.face_area_vector(f.cell, f.face);
+          const auto v              = mesh.face_vertices(f.cell, f.face);
+          const std::vector<unsigned int> around =
+            dim == 2 ? std::vector<unsigned int>{v[0], v[1]}
+                     : std::vector<unsigned int>{v[0], v[1], v.back(), v[2]};
+          for (unsigned int i = 0; i < around.size(); ++i)
+            if (const unsigned int next = around[(i + 1) % around.size()];
+                mesh.vertices[around[i]].distance(mesh.vertices[next]) > 0.)
+              edges.push_back({mesh.vertices[around[i]],
+                               mesh.vertices[next],
+                               f.cell,
+                               area / area.norm()});
+        }
+      return edges;
+    }
+
+    /** The traces of joints on a mesh between planes, whose faces have edges
+     * that are parts of others. */
+    template <int dim>
+    std::vector<LinerTrace<dim>>
+    find_traces_between_planes(const Scene<dim> &scene,
+                               const SplitMesh<dim> &split,
+                               const std::vector<CellFace> &faces)
+    {
+      std::map<std::pair<unsigned int, unsigned int>, std::set<unsigned int>>
+        joints; // between two blocks
+      for (const JointFace &face : split.interface.joint_faces)
+        joints[std::minmax(split.block_of_cell[face.minus_cell],
+                           split.block_of_cell[face.plus_cell])]
+          .insert(face.joint);
+      const std::vector<Edge<dim>> edges = list_edges(split.mesh, faces);
+      std::vector<LinerTrace<dim>> traces;
+      const auto add_trace = [&](const Edge<dim> &a, const Edge<dim> &b) {
+        const unsigned int own   = split.block_of_cell[a.cell],
+                           other = split.block_of_cell[b.cell];
+        const auto between       = joints.find(std::minmax(own, other));
+        if (own == other || between == joints.end())
+          return;
+        const auto [length, middle] = a.overlap(b);
+        if (length == 0.)
+          return;
+        unsigned int joint = none;
+        for (const unsigned int j : between->second)
+          if (joint == none ||
+              std::abs(scene.joints[j]->distance(middle)) <
+                std::abs(scene.joints[joint]->distance(middle)))
+            joint = j;
+        const Tensor<1, dim> out = a.outward + b.outward;
+        Tensor<1, dim> across;
+        if constexpr (dim == 2)
+          across = cross_product_2d(out);
+        else
+          across = cross_product_3d(out, a.end - a.begin);
+        if (across.norm() > 0.)
+          across /= across.norm();
+        traces.push_back({{{none, none}},
+                          {{own, other}},
+                          {{a.cell, b.cell}},
+                          joint,
+                          length,
+                          across});
+      };
+      using Entry = std::pair<dealii::BoundingBox<dim>, unsigned int>;
+      std::vector<Entry> boxes;
+      for (unsigned int e = 0; e < edges.size(); ++e)
+        boxes.emplace_back(dealii::BoundingBox<dim>(std::vector<Point<dim>>{
+                             edges[e].begin,
+                             dim == 2 ? edges[e].begin : edges[e].end}),
+                           e);
+      const auto tree = dealii::pack_rtree(boxes);
+      for (unsigned int e = 0; e < edges.size(); ++e)
+        {
+          dealii::BoundingBox<dim> box = boxes[e].first;
+          box.extend(1e-6 * edges[e].begin.distance(edges[e].end));
+          std::vector<Entry> near;
+          tree.query(boost::geometry::index::intersects(box),
+                     std::back_inserter(near));
+          std::sort(near.begin(),
+                    near.end(),
+                    [](const Entry &a, const Entry &b) {
+                      return a.second < b.second;
+                    });
+          for (const Entry &entry : near)
+            if (entry.second < e)
+              add_trace(edges[entry.second], edges[e]);
+        }
+      return traces;
+    }
   } // namespace
 
 
@@ -213,8 +350,12 @@ namespace Keyblock
         const Liner &liner = *scene.liners[i];
         const Ground<dim> ground{scene, split, scene.stage_number(liner.stage)};
         const std::vector<CellFace> faces = list_lined_faces(liner, ground);
-        liners.push_back({find_traces(split, faces), {}, {}});
-        if (liner.is_structural())
+        liners.push_back({split.is_between_planes
+                            ? find_traces_between_planes(scene, split, faces)
+                            : find_traces(split, faces),
+                          {},
+                          {}});
+        if (liner.is_structural() && !split.is_between_planes)
           liners.back().faces = lay_out_faces(scene, split, i, faces);
         for (const CellFace &f : faces)
           {

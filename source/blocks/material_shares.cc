@@ -4,11 +4,9 @@
 #include <deal.II/base/geometry_info.h>
 
 #include <keyblock/base/number_text.h>
-#include <keyblock/mesh/material_region.h>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <set>
 
 namespace Keyblock
@@ -18,82 +16,150 @@ namespace Keyblock
     /** Difference of masses that is not warned of [-]. */
     constexpr double unwarned_difference = 0.005;
 
-    /** Parts of a cell that a boundary crosses, in each direction. */
-    template <int dim>
-    constexpr unsigned int n_parts = dim == 2 ? 12 : 6;
+    /** Parts of a cell in each direction, and how often those are halved where
+     * the density changes. */
+    constexpr unsigned int n_parts = 4, n_halvings = 4;
 
-    /** The densities of materials that are there from the start, by place. */
+    /** Mass of a part of a cell, and its volume. */
     template <int dim>
-    class DensityOfPlaces
+    class PartMass
     {
     public:
-      DensityOfPlaces(const Scene<dim> &scene)
+      PartMass(const Mesh<dim> &mesh,
+               const unsigned int cell,
+               const DensityOfPlaces<dim> &density,
+               const double of_cell)
+        : mesh(mesh)
+        , cell(cell)
+        , density(density)
+        , of_cell(of_cell)
+      {}
+
+      /** Add a part of the unit cell: a cube with sides of @p size from its
+       * corner @p low. */
+      void
+      add(const Point<dim> &low,
+          const double size,
+          const unsigned int n_halvings)
       {
-        for (const auto &material : scene.materials)
-          if (material->stage.empty())
+        const auto corner = [&](const unsigned int v, const double share) {
+          Point<dim> unit = low;
+          for (unsigned int d = 0; d < dim; ++d)
+            unit[d] += ((v >> d) & 1 ? 1. : share) * size;
+          return unit;
+        };
+        Point<dim> middle = low;
+        for (unsigned int d = 0; d < dim; ++d)
+          middle[d] += 0.5 * size;
+        const double here = density_at(middle);
+        bool is_one       = true;
+        for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices && is_one; ++v)
+          is_one = density_at(corner(v, 0.)) == here;
+        if (is_one || n_halvings == 0)
+          {
+            const double part = std::pow(size, dim) * jacobian(middle);
+            volume += part;
+            mass += part * here;
+          }
+        else
+          for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
             {
-              regions.emplace_back(scene, *material);
-              densities.push_back(material->density);
-              has_groups = has_groups || regions.back().is_group();
+              Point<dim> child = low;
+              for (unsigned int d = 0; d < dim; ++d)
+                child[d] += (v >> d) & 1 ? 0.5 * size : 0.;
+              add(child, 0.5 * size, n_halvings - 1);
             }
       }
 
-      /** Whether it varies, and with places alone. */
-      bool
-      varies() const
-      {
-        return !has_groups &&
-               std::set<double>(densities.begin(), densities.end()).size() > 1;
-      }
-
-      /** [kg/m3]; of places without material @p otherwise. */
-      double
-      at(const Point<dim> &point, const double otherwise) const
-      {
-        for (unsigned int m = regions.size(); m-- > 0;)
-          if (regions[m].contains(point))
-            return densities[m];
-        return otherwise;
-      }
+      double mass = 0., volume = 0.;
 
     private:
-      std::deque<MaterialRegion<dim>> regions;
-      std::vector<double> densities;
-      bool has_groups = false;
-    };
+      double
+      density_at(const Point<dim> &unit) const
+      {
+        Point<dim> place;
+        for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
+          place += GeometryInfo<dim>::d_linear_shape_function(unit, v) *
+                   mesh.vertices[mesh.cells[cell][v]];
+        return density.at(place, of_cell);
+      }
 
-    /** Mean density of a cell over its parts [kg/m3]. */
-    template <int dim>
-    double
-    mean_density(const Mesh<dim> &mesh,
-                 const unsigned int cell,
-                 const DensityOfPlaces<dim> &density,
-                 const double of_cell)
-    {
-      const auto &vertices = mesh.cells[cell];
-      if (std::all_of(vertices.begin(),
-                      vertices.end(),
-                      [&](const unsigned int v) {
-                        return density.at(mesh.vertices[v], of_cell) == of_cell;
-                      }))
-        return of_cell;
-      double sum           = 0.;
-      const unsigned int n = std::pow(n_parts<dim>, dim);
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          Point<dim> unit;
-          for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n_parts<dim>)
-            unit[d] = (rest % n_parts<dim> + 0.5) / n_parts<dim>;
-          Point<dim> place;
-          for (unsigned int v = 0; v < vertices.size(); ++v)
-            place +=
-              dealii::GeometryInfo<dim>::d_linear_shape_function(unit, v) *
-              mesh.vertices[vertices[v]];
-          sum += density.at(place, of_cell);
-        }
-      return sum / n;
-    }
+      double
+      jacobian(const Point<dim> &unit) const
+      {
+        Tensor<2, dim> slopes;
+        for (unsigned int v = 0; v < Mesh<dim>::n_cell_vertices; ++v)
+          slopes += outer_product(
+            GeometryInfo<dim>::d_linear_shape_function_gradient(unit, v),
+            Tensor<1, dim>(mesh.vertices[mesh.cells[cell][v]]));
+        return determinant(slopes);
+      }
+
+      const Mesh<dim> &mesh;
+      const unsigned int cell;
+      const DensityOfPlaces<dim> &density;
+      const double of_cell;
+    };
   } // namespace
+
+
+
+  template <int dim>
+  DensityOfPlaces<dim>::DensityOfPlaces(const Scene<dim> &scene)
+  {
+    for (const auto &material : scene.materials)
+      if (material->stage.empty())
+        {
+          regions.emplace_back(scene, *material);
+          densities.push_back(material->density);
+          has_groups = has_groups || regions.back().is_group();
+        }
+  }
+
+
+
+  template <int dim>
+  bool
+  DensityOfPlaces<dim>::varies() const
+  {
+    return !has_groups &&
+           std::set<double>(densities.begin(), densities.end()).size() > 1;
+  }
+
+
+
+  template <int dim>
+  double
+  DensityOfPlaces<dim>::at(const Point<dim> &point,
+                           const double otherwise) const
+  {
+    for (unsigned int m = regions.size(); m-- > 0;)
+      if (regions[m].contains(point))
+        return densities[m];
+    return otherwise;
+  }
+
+
+
+  template <int dim>
+  double
+  DensityOfPlaces<dim>::mean(const Mesh<dim> &mesh,
+                             const unsigned int cell,
+                             const double of_cell) const
+  {
+    if (!varies())
+      return of_cell;
+    PartMass<dim> sum(mesh, cell, *this, of_cell);
+    const unsigned int n = std::pow(n_parts, dim);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        Point<dim> low;
+        for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n_parts)
+          low[d] = double(rest % n_parts) / n_parts;
+        sum.add(low, 1. / n_parts, n_halvings);
+      }
+    return sum.mass / sum.volume;
+  }
 
 
 
@@ -114,8 +180,13 @@ namespace Keyblock
         {
           const double of_cell = scene.materials[mesh.material[c]]->density;
           of_cells[b] += of_cell * mesh.cell_volume(c);
-          masses[b] +=
-            mean_density(mesh, c, density, of_cell) * mesh.cell_volume(c);
+          const auto &vertices  = mesh.cells[c];
+          const bool is_crossed = std::any_of(
+            vertices.begin(), vertices.end(), [&](const unsigned int v) {
+              return density.at(mesh.vertices[v], of_cell) != of_cell;
+            });
+          masses[b] += (is_crossed ? density.mean(mesh, c, of_cell) : of_cell) *
+                       mesh.cell_volume(c);
         }
     const auto difference = [&](const unsigned int b) {
       return masses[b] > 0. ? std::abs(of_cells[b] / masses[b] - 1.) : 0.;
@@ -143,6 +214,8 @@ namespace Keyblock
            "'Mesh/Size' there.";
   }
 
+  template class DensityOfPlaces<2>;
+  template class DensityOfPlaces<3>;
   template std::string warning_of_material_shares(const Scene<2> &,
                                                   const SplitMesh<2> &,
                                                   const Blocks<2> &);

@@ -135,7 +135,7 @@ namespace Keyblock
       std::vector<std::string> ids;
       for (const Block<dim> &block : blocks.blocks)
         {
-          if (block.is_infinite || !block.exact.is_known)
+          if (block.is_infinite || !block.exact.is_known || block.n_cells == 0)
             continue;
           const double difference =
             std::abs(block.volume / block.exact.volume - 1.);
@@ -162,24 +162,6 @@ namespace Keyblock
              remedy_of_coarse_cells(scene.meshing) + ".";
     }
 
-    /** Blocks of which a joint cuts a corner off that the mesh has lost. */
-    template <int dim>
-    std::string
-    warning_of_lost_corners(const Scene<dim> &scene, const Blocks<dim> &blocks)
-    {
-      std::vector<std::string> cuts;
-      for (const Block<dim> &block : blocks.blocks)
-        for (const auto &[joint, area] : block.exact.joint_area)
-          if (area > 0. && block.exact.bent_area.at(joint) == 0.)
-            cuts.push_back(scene.joints[joint]->name + " off block " +
-                           std::to_string(block.id));
-      if (cuts.empty())
-        return "";
-      return "Joints cut off corners that the mesh has left on (" +
-             list_some(cuts) +
-             "); limit equilibrium takes the blocks without them.";
-    }
-
     std::string
     count_blocks(const unsigned int n_finite, const unsigned int n_exposed)
     {
@@ -201,7 +183,7 @@ namespace Keyblock
         return "";
       unsigned int n_finite = 0, n_exposed = 0;
       for (const Block<dim> &block : blocks.blocks)
-        if (!block.is_infinite)
+        if (!block.is_infinite && block.n_cells > 0)
           {
             ++n_finite;
             n_exposed += block.exposed_stage != none;
@@ -212,10 +194,15 @@ namespace Keyblock
            << "; the mesh has " << n_finite << " and " << n_exposed << ".";
       const auto &lost = comparison.lost;
       for (unsigned int i = 0; i < lost.size() && i < most_places; ++i)
-        text << (i == 0 ? " It lacks exposed ones, which get no factor: "
-                        : "; ")
-             << text_of(lost[i].volume, 4) << (dim == 2 ? " m2" : " m3")
-             << " at " << text_of_place(lost[i].centroid, digits);
+        {
+          const Block<dim> &block = blocks.blocks[lost[i]];
+          text << (i == 0 ? " It lacks exposed ones, of which only limit "
+                            "equilibrium says something: "
+                          : "; ")
+               << "block " << block.id << ", " << text_of(block.exact.volume, 4)
+               << (dim == 2 ? " m2" : " m3") << " at "
+               << text_of_place(block.exact.centroid, digits);
+        }
       if (lost.size() > most_places)
         text << "; and " << lost.size() - most_places << " smaller";
       text << (lost.empty() ? "" : ".");
@@ -354,7 +341,6 @@ namespace Keyblock
                                   blocks,
                                   digits_of_place(split.mesh, 3)),
           warning_of_volumes(scene, blocks),
-          warning_of_lost_corners(scene, blocks),
           warning_of_chords(scene, split.mesh),
           warning_of_material_shares(scene, split, blocks)})
       if (!warning.empty())

@@ -30,6 +30,28 @@ namespace Keyblock
 
 
   template <int dim>
+  Point<dim>
+  area_center(const Mesh<dim> &mesh,
+              const unsigned int cell,
+              const unsigned int face)
+  {
+    const auto areas    = nodal_areas(mesh, cell, face);
+    const auto vertices = mesh.face_vertices(cell, face);
+    // from a corner on: far from the origin, sums would round
+    const Point<dim> &corner = mesh.vertices[vertices[0]];
+    Tensor<1, dim> moment;
+    double sum = 0.;
+    for (unsigned int v = 0; v < vertices.size(); ++v)
+      {
+        moment += areas[v] * (mesh.vertices[vertices[v]] - corner);
+        sum += areas[v];
+      }
+    return corner + moment / sum;
+  }
+
+
+
+  template <int dim>
   std::array<Tensor<1, dim>, Mesh<dim>::n_face_vertices>
   nodal_area_vectors(const Mesh<dim> &mesh,
                      const unsigned int cell,
@@ -53,6 +75,9 @@ namespace Keyblock
 #define INSTANTIATE(dim)                                                       \
   template std::array<double, Mesh<dim>::n_face_vertices> nodal_areas(         \
     const Mesh<dim> &, const unsigned int, const unsigned int);                \
+  template Point<dim> area_center(const Mesh<dim> &,                           \
+                                  const unsigned int,                          \
+                                  const unsigned int);                         \
   template std::array<Tensor<1, dim>, Mesh<dim>::n_face_vertices>              \
   nodal_area_vectors(const Mesh<dim> &,                                        \
                      const unsigned int,                                       \

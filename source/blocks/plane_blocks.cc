@@ -24,6 +24,8 @@ namespace Keyblock
         , result(std::move(rock.cells))
       {
         result.excavation_of_cell = rock.excavation_of_cell;
+        result.bridging           = options.bridging;
+        result.narrow             = options.narrow;
         result.n_stages           = rock.n_stages;
         result.n_joints_used      = rock.extents.size();
       }
@@ -58,6 +60,17 @@ namespace Keyblock
         return result.excavation_of_cell[cell] == nothing;
       }
 
+      std::vector<Point<dim>>
+      outline_of(const unsigned int cell,
+                 const typename ConvexCells<dim>::Facet &facet) const
+      {
+        std::vector<Point<dim>> outline;
+        for (const auto &corner :
+             result.cells.polygon_of(result.cells.cell(cell), facet))
+          outline.push_back(result.cells.to_metres(corner.vertex.x));
+        return outline;
+      }
+
       void find_contacts();
       void give_dust_to_excavations(const std::vector<double> &volume);
       void join_dust();
@@ -88,6 +101,7 @@ namespace Keyblock
       sets              = DisjointSets(cells.n_cells());
       std::vector<Point<dim>> units;
       cells.for_each_contact([&](const auto &contact) {
+        result.joint_of_contact.push_back(nothing);
         const bool are_rock = is_rock(contact.minus) && is_rock(contact.plus);
         if (!is_rock(contact.minus) && !is_rock(contact.plus))
           return;
@@ -99,6 +113,12 @@ namespace Keyblock
           units.push_back(corner.vertex.x);
         const unsigned int extent = rock.closing_extent(contact.plane, units);
         const bool is_open        = extent == nothing;
+        if (!is_open)
+          {
+            result.joint_of_contact.back() = extents[extent].joint;
+            result.has_shared_places =
+              result.has_shared_places || rock.has_choice(contact.plane, units);
+          }
         if (are_rock && is_open)
           {
             if (is_narrow(units, options.narrow / cells.length()))
@@ -219,14 +239,17 @@ namespace Keyblock
               measures[c].volume * (measures[c].centroid - scene.box.center());
             for (const auto &facet : cells.cell(c).facets)
               block.is_infinite =
-                block.is_infinite || (facet.domain_side != nothing &&
-                                      scene.is_truncated[facet.domain_side]);
+                block.is_infinite ||
+                (facet.domain_side != nothing &&
+                 scene.is_truncated[facet.domain_side] &&
+                 !is_narrow(outline_of(c, facet), options.narrow));
           }
       for (const Link &link : links)
         for (const auto &[own, other] :
              {std::pair(link.plus, link.minus), {link.minus, link.plus}})
           if (number[other] == nothing &&
-              result.excavation_of_cell[other] == scene.beyond)
+              result.excavation_of_cell[other] == scene.beyond &&
+              !is_narrow(link.outline, options.narrow))
             found[number[own]].is_infinite = true;
       for (unsigned int b = 0; b < found.size(); ++b)
         if (found[b].volume > 0.)
@@ -271,9 +294,10 @@ namespace Keyblock
                           0.,
                           double(facet.side) * cells.plane(facet.plane).normal,
                           {}};
-            for (const auto &corner : cells.polygon_of(cells.cell(c), facet))
-              face.outline.push_back(cells.to_metres(corner.vertex.x));
-            face.area = area_of_outline(face.outline);
+            face.outline = outline_of(c, facet);
+            face.area    = area_of_outline(face.outline);
+            if (is_narrow(face.outline, options.narrow))
+              continue;
             result.free_faces[result.block_of_cell[c]].push_back(face);
           }
     }
@@ -288,7 +312,7 @@ namespace Keyblock
       const unsigned int own        = is_plus ? link.plus : link.minus,
                          other      = is_plus ? link.minus : link.plus,
                          excavation = result.excavation_of_cell[other];
-      if (excavation == scene.beyond)
+      if (excavation == scene.beyond || is_narrow(link.outline, options.narrow))
         return;
       const unsigned int joint =
         link.extent != nothing ? extents[link.extent].joint : nothing;

@@ -4,6 +4,7 @@
 #include <keyblock/base/box.h>
 #include <keyblock/blocks/plane_scene.h>
 #include <keyblock/blocks/solid_parts.h>
+#include <keyblock/mesh/report.h>
 #include <keyblock/scene/boundary_names.h>
 #include <keyblock/scene/joint_extent.h>
 #include <keyblock/scene/polygon.h>
@@ -107,6 +108,11 @@ namespace Keyblock
       PlaneScene<dim>
       run()
       {
+        result.rules = [&scene = scene](const unsigned int a,
+                                        const unsigned int b) {
+          return Keyblock::rules(scene, a, b);
+        };
+        result.bridging = scene.network.bridging;
         list_domain();
         for (unsigned int e = 0; e < scene.excavations.size(); ++e)
           list_excavation(e);
@@ -363,7 +369,7 @@ namespace Keyblock
   {
     const double side = longest_side(scene.box);
     PlaneBlockOptions options;
-    options.bridging = 1e-5 * side;
+    options.bridging = scene.bridging < 0. ? 1e-5 * side : scene.bridging;
     options.narrow   = 1e-8 * side;
     options.dust     = std::pow(1e-5 * side, dim);
     return options;

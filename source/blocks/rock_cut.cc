@@ -193,13 +193,18 @@ namespace Keyblock
         cells.cut(plane, CutThroughRock<dim>{extents[e], excavation_of_cell});
       }
     excavation_of_cell.resize(cells.n_cells(), nothing);
-    // names of faces do not depend on the order of the cuts
+    // which joint a face is of does not depend on the order of the cuts
     for (auto &list : extents_of_plane)
-      std::stable_sort(list.begin(),
-                       list.end(),
-                       [&](const unsigned int a, const unsigned int b) {
-                         return extents[a].joint < extents[b].joint;
-                       });
+      {
+        std::stable_sort(list.begin(),
+                         list.end(),
+                         [&](const unsigned int a, const unsigned int b) {
+                           const unsigned int i = extents[a].joint,
+                                              j = extents[b].joint;
+                           return scene.rules && i != j ? scene.rules(i, j)
+                                                        : i < j;
+                         });
+      }
   }
 
 
@@ -221,6 +226,24 @@ namespace Keyblock
     return cover_together(together, polygon, options.narrow / cells.length())
              ? list[0]
              : nothing;
+  }
+
+
+
+  template <int dim>
+  bool
+  RockCut<dim>::has_choice(const unsigned int plane,
+                           const std::vector<Point<dim>> &polygon) const
+  {
+    unsigned int joint = nothing;
+    for (const unsigned int e : extents_of_plane[plane])
+      if (extents[e].joint != joint && extents[e].covers(polygon))
+        {
+          if (joint != nothing)
+            return true;
+          joint = extents[e].joint;
+        }
+    return false;
   }
 
 

@@ -154,85 +154,84 @@ namespace Keyblock
               }
         }
     }
+  } // namespace
 
 
 
-    /** Mark the faces on the sides of the domain: of its frame if it is a box
-     * or parallelepiped, else of its bounding box. */
-    template <int dim>
-    void
-    mark_boundaries(Mesh<dim> &mesh, const Scene<dim> &scene)
-    {
-      Point<dim> origin = mesh.vertices[0];
-      Tensor<2, dim> frame;
-      if (scene.domain.shape == DomainShape::box ||
-          scene.domain.shape == DomainShape::parallelepiped)
-        {
-          origin = scene.domain.corner;
+  template <int dim>
+  void
+  mark_boundaries(Mesh<dim> &mesh, const Scene<dim> &scene)
+  {
+    Point<dim> origin = mesh.vertices[0];
+    Tensor<2, dim> frame;
+    if (scene.domain.shape == DomainShape::box ||
+        scene.domain.shape == DomainShape::parallelepiped)
+      {
+        origin = scene.domain.corner;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (scene.domain.shape == DomainShape::box)
+            frame[d][d] = scene.domain.size[d];
+          else
+            frame[d] = scene.domain.edges[d];
+      }
+    else
+      {
+        Point<dim> far = origin;
+        for (const Point<dim> &p : scene.domain.shape == DomainShape::polygon
+                                     ? scene.domain.polygon
+                                     : mesh.vertices)
           for (unsigned int d = 0; d < dim; ++d)
-            if (scene.domain.shape == DomainShape::box)
-              frame[d][d] = scene.domain.size[d];
-            else
-              frame[d] = scene.domain.edges[d];
-        }
-      else
-        {
-          Point<dim> far = origin;
-          for (const Point<dim> &p : mesh.vertices)
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                origin[d] = std::min(origin[d], p[d]);
-                far[d]    = std::max(far[d], p[d]);
-              }
-          for (unsigned int d = 0; d < dim; ++d)
-            frame[d][d] = far[d] - origin[d];
-        }
-      const Tensor<2, dim> to_unit = transpose(invert(frame));
+            {
+              origin[d] = std::min(origin[d], p[d]);
+              far[d]    = std::max(far[d], p[d]);
+            }
+        for (unsigned int d = 0; d < dim; ++d)
+          frame[d][d] = far[d] - origin[d];
+      }
+    const Tensor<2, dim> to_unit = transpose(invert(frame));
 
-      std::array<unsigned int, Mesh<dim>::n_cell_faces> no_face;
-      no_face.fill(none);
-      mesh.boundary.assign(mesh.n_cells(), no_face);
-      mesh.boundary_id.assign(mesh.n_cells(), no_face);
+    std::array<unsigned int, Mesh<dim>::n_cell_faces> no_face;
+    no_face.fill(none);
+    mesh.boundary.assign(mesh.n_cells(), no_face);
+    mesh.boundary_id.assign(mesh.n_cells(), no_face);
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
+        if (mesh.neighbor[c][f] == none)
+          for (unsigned int side = 0; side < 2 * dim; ++side)
+            {
+              bool is_on_side = true;
+              for (const unsigned int v : mesh.face_vertices(c, f))
+                {
+                  const Tensor<1, dim> unit =
+                    to_unit * (mesh.vertices[v] - origin);
+                  is_on_side =
+                    is_on_side && std::abs(unit[side / 2] - side % 2) < 1e-7;
+                }
+              if (is_on_side)
+                mesh.boundary[c][f] = side;
+            }
+
+    if constexpr (dim == 2)
+      if (scene.domain.shape == DomainShape::polygon)
+        mark_polygon_edges(mesh, scene.domain.polygon);
+    std::map<typename Mesh<dim>::FaceVertices, unsigned int> ids;
+    for (auto face : mesh.boundary_faces)
+      {
+        std::sort(face.vertices.begin(), face.vertices.end());
+        ids[face.vertices] = face.id;
+      }
+    if (!ids.empty())
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
         for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
           if (mesh.neighbor[c][f] == none)
-            for (unsigned int side = 0; side < 2 * dim; ++side)
-              {
-                bool is_on_side = true;
-                for (const unsigned int v : mesh.face_vertices(c, f))
-                  {
-                    const Tensor<1, dim> unit =
-                      to_unit * (mesh.vertices[v] - origin);
-                    is_on_side =
-                      is_on_side && std::abs(unit[side / 2] - side % 2) < 1e-7;
-                  }
-                if (is_on_side)
-                  mesh.boundary[c][f] = side;
-              }
-
-      if constexpr (dim == 2)
-        if (scene.domain.shape == DomainShape::polygon)
-          mark_polygon_edges(mesh, scene.domain.polygon);
-      std::map<typename Mesh<dim>::FaceVertices, unsigned int> ids;
-      for (auto face : mesh.boundary_faces)
-        {
-          std::sort(face.vertices.begin(), face.vertices.end());
-          ids[face.vertices] = face.id;
-        }
-      if (!ids.empty())
-        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-          for (unsigned int f = 0; f < Mesh<dim>::n_cell_faces; ++f)
-            if (mesh.neighbor[c][f] == none)
-              {
-                auto key = mesh.face_vertices(c, f);
-                std::sort(key.begin(), key.end());
-                const auto found = ids.find(key);
-                if (found != ids.end())
-                  mesh.boundary_id[c][f] = found->second;
-              }
-    }
-  } // namespace
-
+            {
+              auto key = mesh.face_vertices(c, f);
+              std::sort(key.begin(), key.end());
+              const auto found = ids.find(key);
+              if (found != ids.end())
+                mesh.boundary_id[c][f] = found->second;
+            }
+  }
 
 
   namespace
@@ -301,6 +300,8 @@ namespace Keyblock
 
 
 
+  template void mark_boundaries(Mesh<2> &, const Scene<2> &);
+  template void mark_boundaries(Mesh<3> &, const Scene<3> &);
   template Mesh<2> make_mesh(const Communicator &,
                              const Scene<2> &,
                              const dealii::ConditionalOStream &,

@@ -55,9 +55,11 @@ namespace Keyblock
                                               {"exposed", comparison.n_exposed},
                                               {"lost", Json::array()},
                                               {"unlike", Json::array()}};
-    for (const auto &lost : comparison.lost)
+    for (const unsigned int b : comparison.lost)
       json["lost"].push_back(
-        {{"volume", lost.volume}, {"centroid", list_of<dim>(lost.centroid)}});
+        {{"id", blocks.blocks[b].id},
+         {"volume", blocks.blocks[b].exact.volume},
+         {"centroid", list_of<dim>(blocks.blocks[b].exact.centroid)}});
     for (const unsigned int b : comparison.unlike)
       json["unlike"].push_back(blocks.blocks[b].id);
     return json;

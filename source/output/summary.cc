@@ -86,7 +86,7 @@ namespace Keyblock
                        Json &json)
     {
       json["exact_volume"] = block.exact.volume;
-      json["exact_weight"] = weight_per_mass(scene) * block.exact_mass();
+      json["exact_weight"] = weight_per_mass(scene) * block.best_mass();
       if (!block.exact.joint_area.empty())
         json["exact_joint_areas"] =
           areas_as_json(block.exact.joint_area, scene);
@@ -112,8 +112,9 @@ namespace Keyblock
           json["volume"]    = block.volume;
           if (!block.is_infinite)
             {
-              json["width"]        = block.width;
-              json["cells_across"] = block.cells_across();
+              json["width"] = block.width;
+              if (block.n_cells > 0)
+                json["cells_across"] = block.cells_across();
             }
           if (block.exact.is_known)
             put_exact_measures(block, scene, json);

@@ -160,7 +160,7 @@ namespace Keyblock
     public:
       Exposure(const Scene<dim> &scene, const SplitMesh<dim> &split)
         : scene(scene)
-        , split(split)
+        , split(split.rigid())
         , gravity(scene)
       {}
 
@@ -291,9 +291,9 @@ namespace Keyblock
                                         exposed[1],
                                         exposed[0],
                            block.is_removable ? "yes" : "no",
-                                        exact_text(best_volume(block)),
+                                        exact_text(block.best_volume()),
                                         exact_text(block.volume),
-                                        exact_text(weight * block.exact_mass()),
+                                        exact_text(weight * block.best_mass()),
                                         exact_text(block.width),
                                         exact_text(block.cells_across()),
                                         joints,

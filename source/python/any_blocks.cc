@@ -216,7 +216,7 @@ namespace Keyblock::Python
         if (block.exact.is_known)
           {
             row.exact_volume = block.exact.volume;
-            row.exact_weight = gravity * block.exact_mass();
+            row.exact_weight = gravity * block.best_mass();
           }
         row.centroid = list_of<dim>(block.centroid);
         for (unsigned int n = 1; n < scene.stages.size() + 2; ++n)

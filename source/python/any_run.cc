@@ -244,12 +244,12 @@ namespace Keyblock::Python
   RunOf<dim>::blocks() const
   {
     const Model<dim> &model = open().state();
-    return std::make_shared<BlocksOf<dim>>(scene,
-                                           BlockGeometry<dim>{model.quality,
-                                                              model.mesh_report,
-                                                              model.blocks,
-                                                              model.split,
-                                                              {}});
+    BlockGeometry<dim> geometry;
+    geometry.quality = model.quality;
+    geometry.report  = model.mesh_report;
+    geometry.blocks  = model.blocks;
+    geometry.split   = model.split;
+    return std::make_shared<BlocksOf<dim>>(scene, std::move(geometry));
   }
 
 

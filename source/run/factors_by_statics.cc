@@ -16,7 +16,7 @@ namespace Keyblock
       return blocks;
     const std::vector<bool> is_removed = record.present.removed_before();
     const Ground<dim> ground{model.scene,
-                             model.split,
+                             model.split.rigid(),
                              record.present.number(),
                              &is_removed};
     const FreeFaces<dim> free(ground);
@@ -54,7 +54,7 @@ namespace Keyblock
   {
     const std::vector<bool> is_removed = record.present.removed_before();
     const Ground<dim> ground{model.scene,
-                             model.split,
+                             model.split.rigid(),
                              record.present.number(),
                              &is_removed};
     const double time = model.step->time;

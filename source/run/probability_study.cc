@@ -77,6 +77,9 @@ namespace Keyblock
   BlockGeometry<dim>
   ProbabilityStudy<dim>::make_geometry(const Scene<dim> &sample) const
   {
+    auto between_planes = make_plane_geometry(sample, true);
+    if (std::holds_alternative<BlockGeometry<dim>>(between_planes))
+      return std::move(std::get<BlockGeometry<dim>>(between_planes));
     // each rank for itself
     BlockGeometry<dim> made =
       make_block_geometry(Communicator(MPI_COMM_SELF),
@@ -181,7 +184,7 @@ namespace Keyblock
     if (!changes_geometry())
       geometry = std::make_unique<BlockGeometry<dim>>(make_geometry(scene));
     // the weaker of two joints rules where they share faces
-    if (geometry && !geometry->report.merged.empty())
+    if (geometry && geometry->depends_on_strength)
       geometry = nullptr;
     header = make_header();
     read_samples();

@@ -161,18 +161,48 @@ namespace Keyblock
 
 
   template <int dim>
+  bool
+  ProbabilityStudy<dim>::draws_joints_alone() const
+  {
+    return std::all_of(scene.study_variables.begin(),
+                       scene.study_variables.end(),
+                       [](const auto &v) {
+                         return v->entry.rfind("Joint sets/", 0) == 0;
+                       });
+  }
+
+
+
+  template <int dim>
+  const Scene<dim> &
+  ProbabilityStudy<dim>::scene_of(const unsigned int index) const
+  {
+    const Communicator own(MPI_COMM_SELF);
+    if (strengths->are_all())
+      {
+        strengths->set(index);
+        return scene;
+      }
+    if (sample && draws_joints_alone())
+      {
+        std::vector<std::string> drawn = overrides_of(index);
+        drawn.erase(drawn.begin(), drawn.begin() + overrides.size());
+        sample->redraw(own, drawn);
+        return *sample;
+      }
+    sample = std::make_unique<Scene<dim>>();
+    sample->read(own, scene_file, overrides_of(index));
+    return *sample;
+  }
+
+
+
+  template <int dim>
   SampleResult
   ProbabilityStudy<dim>::judge(const unsigned int index,
                                const bool may_run) const
   {
-    Scene<dim> changed;
-    if (strengths->are_all())
-      strengths->set(index);
-    else
-      changed.read(Communicator(MPI_COMM_SELF),
-                   scene_file,
-                   overrides_of(index));
-    const Scene<dim> &sample = strengths->are_all() ? scene : changed;
+    const Scene<dim> &sample = scene_of(index);
     BlockGeometry<dim> own;
     if (!geometry)
       own = make_geometry(sample);
@@ -233,6 +263,8 @@ namespace Keyblock
   }
 
 #define INSTANTIATE(dim)                                                       \
+  template const Scene<dim> &ProbabilityStudy<dim>::scene_of(                  \
+    const unsigned int) const;                                                 \
   template SampleResult ProbabilityStudy<dim>::judge(const unsigned int,       \
                                                      const bool) const;        \
   template SampleResult ProbabilityStudy<dim>::judge_named(const unsigned int, \

@@ -108,7 +108,7 @@ namespace Keyblock
       if (factors[b] < threshold)
         {
           ++result.n_failed;
-          result.failed_volume += best_volume(blocks.blocks[b]);
+          result.failed_volume += blocks.blocks[b].best_volume();
         }
   }
 
@@ -287,7 +287,7 @@ namespace Keyblock
         for (const SampleResult &result : results)
           factors.push_back(result.factors[b]);
         Json json = {{"id", block.id},
-                     {"volume", best_volume(block)},
+                     {"volume", block.best_volume()},
                      {"probability", as_json(probability_of_block(b))}};
         put_statistics(values_of(factors), "factor", json);
         list.push_back(json);

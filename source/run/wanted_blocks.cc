@@ -52,7 +52,7 @@ namespace Keyblock
                          const Blocks<dim> &blocks,
                          const unsigned int number)
     {
-      const Ground<dim> ground{scene, split, number, nullptr};
+      const Ground<dim> ground{scene, split.rigid(), number, nullptr};
       std::unique_ptr<FreeFaces<dim>> free; // where it matters
       if (scene.safety.wants_exposed_only())
         free = std::make_unique<FreeFaces<dim>>(ground);

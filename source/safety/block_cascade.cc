@@ -255,7 +255,7 @@ namespace Keyblock
       {
         if (number > 1 && !is_changing(scene, number))
           continue;
-        const Ground<dim> ground{scene, split, number, nullptr};
+        const Ground<dim> ground{scene, split.rigid(), number, nullptr};
         action(ground, FreeFaces<dim>(ground));
       }
   }

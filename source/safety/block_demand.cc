@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How a block moves with its support, and what support it needs.
+#include <keyblock/blocks/nodal_areas.h>
 #include <keyblock/safety/block_moments.h>
 #include <keyblock/safety/block_statics.h>
 #include <keyblock/safety/least_support.h>
@@ -274,11 +275,9 @@ namespace Keyblock
       list_supported_faces(ground, free, block, bare.direction);
     std::vector<PointForce<dim>> free_faces;
     for (const CellFace &f : supported)
-      free_faces.push_back(
-        {mesh.face_center(f.cell, f.face),
-         around.free_area_ratio * mesh.face_area_vector(f.cell, f.face)});
-    const double area =
-      around.free_area_ratio * sum_of_areas(mesh, supported).norm();
+      free_faces.push_back({area_center(mesh, f.cell, f.face),
+                            mesh.face_area_vector(f.cell, f.face)});
+    const double area         = sum_of_areas(mesh, supported).norm();
     const Tensor<1, dim> load = around.loads.without_water();
     Tensor<1, dim> resultant  = load;
     for (const BlockFace<dim> &face : around.faces)

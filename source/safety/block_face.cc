@@ -52,24 +52,6 @@ namespace Keyblock
 
 
 
-  template <int dim>
-  bool
-  has_facet_beside(const Scene<dim> &scene,
-                   const Block<dim> &block,
-                   const unsigned int joint)
-  {
-    const Joint<dim> &facet = *scene.joints[joint];
-    return !facet.surface.empty() &&
-           std::any_of(block.exact.bent_area.begin(),
-                       block.exact.bent_area.end(),
-                       [&](const auto &other) {
-                         const Joint<dim> &one = *scene.joints[other.first];
-                         return other.second > 0. &&
-                                one.surface == facet.surface &&
-                                one.piece == facet.piece;
-                       });
-  }
-
   template BlockFace<2> make_block_face(const Tensor<1, 2> &,
                                         const std::string &,
                                         const std::shared_ptr<const JointLaw> &,
@@ -82,8 +64,4 @@ namespace Keyblock
                                         const bool);
   template struct BlockSurroundings<2>;
   template struct BlockSurroundings<3>;
-  template bool
-  has_facet_beside(const Scene<2> &, const Block<2> &, const unsigned int);
-  template bool
-  has_facet_beside(const Scene<3> &, const Block<3> &, const unsigned int);
 } // namespace Keyblock

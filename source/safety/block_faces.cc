@@ -45,87 +45,33 @@ namespace Keyblock
           return;
         if (ground.is_excavated(face.minus_cell) ||
             ground.is_excavated(face.plus_cell))
-          {
-            bare_joints.insert(face.joint);
-            return;
-          }
-        const Joint<dim> &joint = *ground.scene.joints[face.joint];
-        const CellFace own      = is_plus
-                                    ? CellFace{face.plus_cell, face.plus_face}
-                                    : CellFace{face.minus_cell, face.minus_face};
-        if (block.exact.is_known && block.area_ratio(face.joint) == 0.)
-          {
-            add_face_of_crumb(
-              face.joint,
-              is_plus,
-              own,
-              block_of_cell[is_plus ? face.minus_cell : face.plus_cell]);
-            return;
-          }
+          return;
+        const CellFace own       = is_plus
+                                     ? CellFace{face.plus_cell, face.plus_face}
+                                     : CellFace{face.minus_cell, face.minus_face};
         const unsigned int entry = joint_entry(face.joint, is_plus);
         const Tensor<1, dim> inward =
           (is_plus ? 1. : -1.) *
           mesh.face_area_vector(face.minus_cell, face.minus_face);
-        BlockFace<dim> &into = result.faces[entry];
-        const double across  = std::abs(inward * into.inward);
-        const double area    = block.exact.is_known
-                                 ? block.area_ratio(face.joint) * inward.norm()
-                                 : across;
         add_area(entry,
                  own,
-                 area,
+                 std::abs(inward * result.faces[entry].inward),
                  block_of_cell[is_plus ? face.minus_cell : face.plus_cell]);
-        const double bend =
-          std::acos(std::min(1., across / inward.norm())) / degree;
-        if (bend > result.largest_bend)
-          {
-            result.largest_bend = bend;
-            result.bent         = joint.name;
-          }
         if (pressure_in(face.joint))
           wet_faces.push_back({face.joint,
                                is_plus,
                                face_corners(mesh, own.cell, own.face),
-                               block.exact.is_known
-                                 ? area / inward.norm() * into.inward
-                                 : inward / inward.norm()});
+                               inward / inward.norm()});
       }
 
-      /** Faces on joints that cut corners off which the mesh has left on. */
-      void
-      add_faces_without_mesh()
-      {
-        for (const auto &[joint, area] : block.exact.joint_area)
-          if (area > 0. && block.exact.bent_area.at(joint) == 0.)
-            {
-              const bool is_plus =
-                ground.scene.joints[joint]->distance(block.centroid) > 0.;
-              BlockFace<dim> &face = result.faces[joint_entry(joint, is_plus)];
-              face.area += area;
-              face.is_lost = !has_facet_beside(ground.scene, block, joint);
-            }
-      }
-
-      /** Water in the joints: over the faces between the planes where these are
-       * known, else over those of the mesh. */
       void
       add_water()
       {
-        for (const auto &[key, entry] : entries)
-          if (const auto &[joint, is_plus] = key;
-              is_known_exactly(joint) && pressure_in(joint))
-            for (const auto &polygon : block.exact.joint_faces.at(joint))
-              for (const FaceCorners<dim> &corners : faces_of<dim>(polygon))
-                add_pressure(joint,
-                             corners,
-                             result.faces[entry].inward,
-                             result.faces[entry]);
         for (const WetFace &face : wet_faces)
-          if (!is_known_exactly(face.joint))
-            add_pressure(face.joint,
-                         face.corners,
-                         face.inward,
-                         result.faces[entries.at({face.joint, face.is_plus})]);
+          add_pressure(face.joint,
+                       face.corners,
+                       face.inward,
+                       result.faces[entries.at({face.joint, face.is_plus})]);
       }
 
       /** Put the faces into the order of the joints. */
@@ -160,23 +106,6 @@ namespace Keyblock
           add_touching_face(free, free.faces[i]);
       }
 
-      /** Its faces close a surface: what the joints leave is free. */
-      void
-      measure_free_area(const FreeFaces<dim> &free)
-      {
-        if (!block.exact.is_known || result.is_attached || result.is_on_fill)
-          return;
-        Tensor<1, dim> between_planes, in_mesh;
-        for (const auto &[key, entry] : entries)
-          between_planes +=
-            result.faces[entry].area * result.faces[entry].inward;
-        for (const unsigned int i : free.of_block(index))
-          in_mesh +=
-            mesh.face_area_vector(free.faces[i].cell, free.faces[i].face);
-        const double ratio = between_planes * in_mesh / in_mesh.norm_square();
-        result.free_area_ratio = ratio > 0. ? ratio : 1.;
-      }
-
       BlockSurroundings<dim> result;
 
     private:
@@ -190,34 +119,6 @@ namespace Keyblock
           inward, name, law, joint, has_reduced(reduced, joint)));
         result.others.emplace_back();
         return result.faces.size() - 1;
-      }
-
-      /** A face that only the mesh has. */
-      void
-      add_face_of_crumb(const unsigned int j,
-                        const bool is_plus,
-                        const CellFace &own,
-                        const unsigned int other)
-      {
-        const Joint<dim> &joint      = *ground.scene.joints[j];
-        const Tensor<1, dim> inward  = (is_plus ? 1. : -1.) * joint.normal();
-        auto &faces                  = result.faces_of_crumbs;
-        const unsigned int next      = faces.size();
-        const auto [entry, is_first] = crumbs.insert({{j, is_plus}, next});
-        if (is_first)
-          {
-            faces.push_back(make_block_face<dim>(inward,
-                                                 joint.name,
-                                                 make_joint_law(joint),
-                                                 j,
-                                                 has_reduced(reduced, j)));
-            result.others_of_crumbs.emplace_back();
-          }
-        add_part(faces[entry->second],
-                 result.others_of_crumbs[entry->second],
-                 own,
-                 std::abs(inward * mesh.face_area_vector(own.cell, own.face)),
-                 other);
       }
 
       unsigned int
@@ -291,17 +192,6 @@ namespace Keyblock
           }
       }
 
-      /** Whether the faces between the planes are all of those on a joint. */
-      bool
-      is_known_exactly(const unsigned int joint) const
-      {
-        return block.exact.is_known &&
-               block.exact.joint_faces.count(joint) > 0 &&
-               bare_joints.count(joint) == 0 &&
-               entries.count({joint, true}) + entries.count({joint, false}) ==
-                 1;
-      }
-
       void
       add_touching_face(const FreeFaces<dim> &free, const CellFace &own)
       {
@@ -351,13 +241,9 @@ namespace Keyblock
       std::vector<std::unique_ptr<Expression<dim>>> pressure; ///< by joint
       const std::vector<bool> reduced; ///< joints, list_reduced_joints()
       std::vector<WetFace> wet_faces;
-      std::set<unsigned int> bare_joints; ///< one side is excavated in places
 
       /** Of faces, by joint and side; free faces come after them. */
       std::map<std::pair<unsigned int, bool>, unsigned int> entries;
-
-      /** The same of faces that only the mesh has. */
-      std::map<std::pair<unsigned int, bool>, unsigned int> crumbs;
     };
   } // namespace
 
@@ -373,18 +259,15 @@ namespace Keyblock
     Collector<dim> collector(ground, block, time);
     for (const unsigned int i : free.joint_faces_of_block(block.id - 1))
       collector.add_joint_face(ground.split.interface.joint_faces[i]);
-    collector.add_faces_without_mesh();
     collector.add_water();
     collector.sort_faces();
     collector.add_other_faces(free);
-    collector.measure_free_area(free);
     BlockLoads<dim> &loads = collector.result.loads;
     BlockLoads<dim> body   = body_forces_on(ground, free, block, time);
     body.water             = loads.water;
     body.water_along       = loads.water_along;
-    body.tractions         = tractions_on(
-      ground, free, block.id - 1, time, collector.result.free_area_ratio);
-    loads = body;
+    body.tractions         = tractions_on(ground, free, block.id - 1, time);
+    loads                  = body;
     return collector.result;
   }
 

@@ -62,8 +62,8 @@ namespace Keyblock
                  const Block<dim> &block,
                  const double time)
   {
-    const double mass = block.exact_mass() *
-                        mass_ratio(ground, free.cells_of_block(block.id - 1));
+    const double mass =
+      block.best_mass() * mass_ratio(ground, free.cells_of_block(block.id - 1));
     BlockLoads<dim> loads;
     loads.centroid =
       block.exact.is_known ? block.exact.centroid : block.centroid;
@@ -79,8 +79,7 @@ namespace Keyblock
   tractions_on(const Ground<dim> &ground,
                const FreeFaces<dim> &free,
                const unsigned int block,
-               const double time,
-               const double free_area_ratio)
+               const double time)
   {
     std::vector<CellFace> own;
     for (const unsigned int i : free.of_block(block))
@@ -106,8 +105,7 @@ namespace Keyblock
             for (const FacePoint<dim> &point : adapted_points<dim>(
                    face_corners(ground.split.mesh, f.cell, f.face), acting_at))
               forces.push_back(
-                {point.place,
-                 free_area_ratio * point.area.norm() * acting_at(point.place)});
+                {point.place, point.area.norm() * acting_at(point.place)});
           }
       }
     return forces;
@@ -142,7 +140,6 @@ namespace Keyblock
   template std::vector<PointForce<dim>> tractions_on(const Ground<dim> &,      \
                                                      const FreeFaces<dim> &,   \
                                                      const unsigned int,       \
-                                                     const double,             \
                                                      const double);            \
   template std::vector<PointForce<dim>> pressure_on(const FaceCorners<dim> &,  \
                                                     const Expression<dim> &,   \

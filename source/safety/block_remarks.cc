@@ -16,15 +16,9 @@ namespace Keyblock
 {
   namespace
   {
-    /** Faces bent by less are not worth a remark [deg]. */
-    constexpr double least_bend = 1.;
-
     /** Way over the size of a block beyond which it has no number: what
      * balances almost passes anywhere [-]. */
     constexpr double far_outside = 10.;
-
-    /** From which on it may lock a block between its faces [degrees]. */
-    constexpr double locking_bend = 5.;
 
     /** Adds what is to be said about one block. */
     template <int dim>
@@ -130,14 +124,6 @@ namespace Keyblock
           add() << "parallel faces share the normal force by their areas";
         if (around.has_free_face)
           add() << "free faces that touch have the default friction angle";
-        if (around.largest_bend > least_bend)
-          add() << "faces on " << around.bent << ", bent by up to "
-                << around.largest_bend << " degrees, taken as plane"
-                << (around.largest_bend > locking_bend &&
-                        std::isfinite(limit.factor)
-                      ? "; they may lock it, so that strength reduction finds "
-                        "far too much"
-                      : "");
         // facets of bent joints, by their pieces
         std::map<std::string, std::map<unsigned int, unsigned int>> n_facets;
         for (unsigned int j = 0; j < scene.joints.size(); ++j)
@@ -312,7 +298,6 @@ namespace Keyblock
               const unsigned int block,
               const double time,
               const SupportedMotion<dim> &motion,
-              const std::string &lost_faces,
               BlockStatics<dim> &statics)
   {
     Remarks<dim> remarks(ground, free, blocks, block, statics);
@@ -322,8 +307,6 @@ namespace Keyblock
       remarks.add_text(text);
     remarks.add_fixed_joints();
     remarks.add_rotation(motion.rotation, motion.factor_of_sliding);
-    if (!lost_faces.empty())
-      remarks.add_text(lost_faces);
     remarks.add_faces();
     remarks.add_neighbors();
     remarks.add_obstacle();
@@ -337,7 +320,6 @@ namespace Keyblock
                             const unsigned int,                                \
                             const double,                                      \
                             const SupportedMotion<dim> &,                      \
-                            const std::string &,                               \
                             BlockStatics<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -71,55 +71,6 @@ namespace Keyblock
 
 
 
-    /** Take the block together with the crumb that went to it, where that holds
-     * less well: without the faces between them, which the mesh has lost, and
-     * with those of the crumb. Returns what is to be said of that, empty:
-     * nothing. */
-    template <int dim>
-    std::string
-    leave_out_lost_faces(BlockStatics<dim> &statics,
-                         const bool is_passive,
-                         SupportedMotion<dim> &motion)
-    {
-      constexpr double less = 0.999;
-      std::ostringstream out;
-      out.precision(4);
-      if (std::isfinite(motion.limit.factor))
-        out << motion.limit.factor;
-      else
-        out << "above all";
-      const char *between          = " with its ";
-      BlockSurroundings<dim> found = statics.around;
-      found.faces.clear();
-      found.others.clear();
-      for (unsigned int i = 0; i < statics.around.faces.size(); ++i)
-        if (const BlockFace<dim> &face = statics.around.faces[i]; face.is_lost)
-          out << std::exchange(between, " and ") << face.area
-              << (dim == 2 ? " m" : " m2") << " on " << face.name;
-        else
-          {
-            found.faces.push_back(face);
-            found.others.push_back(statics.around.others[i]);
-          }
-      if (found.faces.size() == statics.around.faces.size())
-        return "";
-      const BlockSurroundings<dim> &around = statics.around;
-      found.faces.insert(found.faces.end(),
-                         around.faces_of_crumbs.begin(),
-                         around.faces_of_crumbs.end());
-      found.others.insert(found.others.end(),
-                          around.others_of_crumbs.begin(),
-                          around.others_of_crumbs.end());
-      const SupportedMotion<dim> without =
-        find_motion<dim>(found, statics.support, is_passive);
-      if (!(without.limit.factor < less * motion.limit.factor))
-        return "";
-      statics.around = found;
-      motion         = without;
-      out << ", which the mesh has lost";
-      return out.str();
-    }
-
     /** The motion of a block by itself with its seismic load times @p times. */
     template <int dim>
     SupportedMotion<dim>
@@ -203,8 +154,6 @@ namespace Keyblock
       ground.scene.safety.bolt_convention == BoltConvention::passive;
     SupportedMotion<dim> motion =
       find_motion<dim>(statics.around, statics.support, is_passive);
-    const std::string lost_remark =
-      leave_out_lost_faces(statics, is_passive, motion);
     statics.facts = find_facts(ground.scene, statics);
     statics.limit = statics.alone = motion.limit;
     const std::string seismic_remark =
@@ -218,8 +167,7 @@ namespace Keyblock
       blocks,
       statics,
       group_remark);
-    add_remarks<dim>(
-      ground, free, blocks, block, time, motion, lost_remark, statics);
+    add_remarks<dim>(ground, free, blocks, block, time, motion, statics);
     if (motion.rotation.is_by_moments)
       statics.remarks.push_back(
         remark_on_moments(is_passive && !statics.support.pulls.empty(),

@@ -92,8 +92,8 @@ namespace Keyblock
     const Ground<dim> ground = run.conditions.active_cells.ground();
     const FreeFaces<dim> free(ground);
     const BlockStatics<dim> statics =
-      judge_block<dim>(ground,
-                       free,
+      judge_block<dim>(ground.rigid(),
+                       FreeFaces<dim>(ground.rigid()),
                        blocks,
                        result.block,
                        run.step.time,
@@ -111,8 +111,7 @@ namespace Keyblock
                trials.measures.motion(alone).load);
     if (pressed.unit == 0.)
       return pressed;
-    pressed.area_of_force =
-      statics.around.free_area_ratio * pressed.area.norm();
+    pressed.area_of_force = pressed.area.norm();
     const double by_statics =
       std::isfinite(statics.demand.pressure) ? statics.demand.pressure : 0.;
     if (statics.facts.is_complete)

@@ -23,7 +23,7 @@ namespace Keyblock
               const unsigned int block,
               const RunParts<dim> &run)
     {
-      const Ground<dim> ground = run.conditions.active_cells.ground();
+      const Ground<dim> ground = run.conditions.active_cells.ground().rigid();
       return judge_block<dim>(ground,
                               FreeFaces<dim>(ground),
                               blocks,
@@ -174,7 +174,7 @@ namespace Keyblock
   StrengthReductionSearch<dim>::judge_among_others(
     const unsigned int block) const
   {
-    const Ground<dim> ground = run.conditions.active_cells.ground();
+    const Ground<dim> ground = run.conditions.active_cells.ground().rigid();
     const FreeFaces<dim> free(ground);
     Judgement now{ground.stage_number,
                   run.step.time,
@@ -285,7 +285,7 @@ namespace Keyblock
   {
     TriedBlocks found                 = tried;
     const std::vector<bool> is_guided = trials.measures.guided_blocks();
-    const Ground<dim> ground          = run.conditions.active_cells.ground();
+    const Ground<dim> ground = run.conditions.active_cells.ground().rigid();
     std::vector<bool> is_gone(blocks.blocks.size(), false);
     if (ground.is_removed && !ground.is_removed->empty())
       is_gone = *ground.is_removed;

@@ -233,6 +233,7 @@ namespace Keyblock
       least  = {{}, limit, false, false};
       for (unsigned int i = 1; i < members.size(); ++i)
         least.others.push_back(members[i].block);
+      std::sort(least.others.begin(), least.others.end());
       return true;
     };
     add_neighbors(ground, free, blocks, time, broken, factor, hanging, [&]() {

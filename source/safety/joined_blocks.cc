@@ -246,10 +246,9 @@ namespace Keyblock
     BlockSupport<dim> all;
     for (const JoinedBlock<dim> &member : members)
       {
-        area += member.around.free_area_ratio *
-                sum_of_areas(ground.split.mesh,
-                             list_supported_faces(
-                               ground, free, member.block, bare.direction));
+        area += sum_of_areas(
+          ground.split.mesh,
+          list_supported_faces(ground, free, member.block, bare.direction));
         load += member.around.loads.without_water();
         for (const BlockFace<dim> &face : member.around.faces)
           water += face.water_force * face.inward;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Blocks that may lean on one that can move, and what that needs then.
 #include <keyblock/base/number_text.h>
+#include <keyblock/blocks/nodal_areas.h>
 #include <keyblock/safety/block_cascade.h>
 #include <keyblock/safety/hanging_group.h>
 
@@ -92,7 +93,7 @@ namespace Keyblock
       const std::vector<CellFace> faces = list_supported_faces(
         ground, free, above.block, above.statics.limit.direction);
       for (const CellFace &f : faces)
-        thrusts.push_back({mesh.face_center(f.cell, f.face),
+        thrusts.push_back({area_center(mesh, f.cell, f.face),
                            mesh.face_area_vector(f.cell, f.face)});
       const double area = sum_of_areas(mesh, faces).norm();
       for (PointForce<dim> &one : thrusts)

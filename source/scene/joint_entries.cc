@@ -57,6 +57,13 @@ namespace Keyblock
       "SET.NAME; a subsection of that name overrides the row. Other columns "
       "are left out with a warning.");
     prm.add_parameter(
+      "Bridging",
+      bridging,
+      "Joints that end within this distance before another joint or a free "
+      "face close against it [m]; all others leave the rock joined. -1: 1e-5 "
+      "of the longest side of the domain, which closes what rounding leaves "
+      "open.");
+    prm.add_parameter(
       "Resolved",
       is_resolved,
       "Whether Names already lists all joints, those of File and of the sets "

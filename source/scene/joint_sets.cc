@@ -32,92 +32,174 @@ namespace Keyblock
       return h ^ seed;
     }
 
-    /** Cosine of the angle to the mean pole by Fisher's law, by inversion. */
-    Real
-    draw_fisher_cosine(const double concentration, RandomNumbers &random)
-    {
-      const Real v = random.positive_uniform();
-      if (concentration < 0.)
-        return 1;
-      if (concentration == 0.)
-        return 2 * v - 1;
-      const Real k      = concentration;
-      const Real cosine = 1 + log(v + (1 - v) * exp(-2 * k)) / k;
-      return cosine < -1 ? Real(-1) : cosine;
-    }
-
-    /** Angle to the mean pole by von Mises' law, by the rejection of Best and
-     * Fisher (1979). */
-    Real
-    draw_von_mises_angle(const double concentration, RandomNumbers &random)
-    {
-      if (concentration < 0.)
-        return 0;
-      if (concentration == 0.)
-        return RandomNumbers::two_pi() * (Real(random.uniform()) - 0.5);
-      const Real k = concentration;
-      const Real t = 1 + sqrt(1 + 4 * k * k);
-      const Real b = (t - sqrt(2 * t)) / (2 * k);
-      const Real r = (1 + b * b) / (2 * b);
-      for (;;)
-        {
-          const Real z =
-            cos(RandomNumbers::two_pi() / 2 * Real(random.uniform()));
-          const Real f = (1 + r * z) / (r + z);
-          const Real c = k * (r - f);
-          const Real v = random.positive_uniform();
-          if (c * (2 - c) > v || log(c / v) + 1 - c >= 0)
-            return acos(f) * (random.uniform() < 0.5 ? -1 : 1);
-        }
-    }
-
-    /** Draw a pole about the mean one of @p set into dip and dip direction. */
+    /** Draws poles about the mean one of a set. */
     template <int dim>
-    std::array<Real, dim>
-    draw_orientation(const JointSet<dim> &set,
-                     RandomNumbers &random,
-                     Joint<dim> &joint)
+    class PoleLaw
     {
-      const Real dip     = set.dip * degrees();
-      const Real azimuth = set.dip_direction * degrees();
-      std::array<Real, dim> n;
-      if constexpr (dim == 2)
+    public:
+      /** What makes a pole: in 2D its angle from the vertical towards +x, in 3D
+       * its components. */
+      using Pole = std::array<Real, dim == 2 ? 1 : 3>;
+
+      explicit PoleLaw(const JointSet<dim> &set)
+        : set(set)
+        , concentration(set.concentration)
+        , dip(set.dip * degrees())
+        , azimuth(set.dip_direction * degrees())
+        , sd(sin(dip))
+        , cd(cos(dip))
+        , sa(sin(azimuth))
+        , ca(cos(azimuth))
+      {
+        if (concentration <= 0.)
+          return;
+        const Real k = concentration;
+        const Real t = 1 + sqrt(1 + 4 * k * k);
+        const Real b = (t - sqrt(2 * t)) / (2 * k);
+        r            = (1 + b * b) / (2 * b);
+        r_by_doubles = rounded(r);
+      }
+
+      /** The numbers of a pole; those of angles by von Mises' law are chosen by
+       * the rejection of Best and Fisher (1979). */
+      RandomNumbers::Pair draw(RandomNumbers &random) const;
+
+      /** Put the pole that numbers make into dip and dip direction. */
+      Pole set_pole(const RandomNumbers::Pair &numbers,
+                    Joint<dim> &joint) const;
+
+      static std::array<Real, dim>
+      components(const Pole &pole)
+      {
+        if constexpr (dim == 2)
+          return {{sin(pole[0]), cos(pole[0])}};
+        else
+          return pole;
+      }
+
+    private:
+      /** Cosine of the angle to the mean pole by von Mises' law. */
+      template <typename Number>
+      Number
+      von_mises_cosine(const Number &r, const double u) const
+      {
+        using std::cos;
+        const Number z = cos(boost::math::constants::pi<Number>() * Number(u));
+        return (1 + r * z) / (r + z);
+      }
+
+      /** By how much Best and Fisher take it, or do not [-]. */
+      template <typename Number>
+      Number
+      excess(const Number &r, const double u, const double v) const
+      {
+        using std::log;
+        const Number c = Number(concentration) * (r - von_mises_cosine(r, u));
+        const Number quick = c * (2 - c) - v;
+        return quick > 0 ? quick : log(c / v) + 1 - c;
+      }
+
+      /** Cosine of the angle to the mean pole by Fisher's law, by inversion. */
+      Real
+      fisher_cosine(const double v) const
+      {
+        if (concentration < 0.)
+          return 1;
+        if (concentration == 0.)
+          return 2 * Real(v) - 1;
+        const Real k      = concentration;
+        const Real cosine = 1 + log(v + (1 - Real(v)) * exp(-2 * k)) / k;
+        return cosine < -1 ? Real(-1) : cosine;
+      }
+
+      const JointSet<dim> &set;
+      const double concentration;
+      const Real dip, azimuth;
+      const Real sd, cd, sa, ca; ///< their sines and cosines
+      Real r              = 0;   ///< of Best and Fisher
+      double r_by_doubles = 0.;  ///< the same
+    };
+
+    template <>
+    RandomNumbers::Pair
+    PoleLaw<2>::draw(RandomNumbers &random) const
+    {
+      constexpr double safe = 1e-9; // error by doubles, at most [-]
+      if (concentration < 0.)
+        return {0., 0.};
+      while (true)
         {
-          // an angle from the vertical towards +x
-          const Real angle = (set.dip_direction < 180. ? dip : -dip) +
-                             draw_von_mises_angle(set.concentration, random);
-          n = {{sin(angle), cos(angle)}};
+          const double u = random.uniform();
+          if (concentration == 0.)
+            return {u, 0.};
+          const double v = random.positive_uniform();
+          double more    = excess(r_by_doubles, u, v);
+          if (std::abs(more) < safe * (1. + concentration))
+            more = rounded(excess(r, u, v));
+          if (more >= 0.)
+            return {u, random.uniform()};
         }
-      else
+    }
+
+    template <>
+    RandomNumbers::Pair
+    PoleLaw<3>::draw(RandomNumbers &random) const
+    {
+      return random.pair();
+    }
+
+    template <>
+    PoleLaw<2>::Pole
+    PoleLaw<2>::set_pole(const RandomNumbers::Pair &numbers,
+                         Joint<2> &joint) const
+    {
+      Real angle = set.dip_direction < 180. ? dip : -dip;
+      if (concentration == 0.)
+        angle += RandomNumbers::two_pi() * (Real(numbers.u) - 0.5);
+      else if (concentration > 0.)
+        angle +=
+          acos(von_mises_cosine(r, numbers.u)) * (numbers.v < 0.5 ? -1 : 1);
+      // upwards
+      const Real half_turn = RandomNumbers::two_pi() / 2;
+      while (angle > half_turn / 2)
+        angle -= half_turn;
+      while (angle < -half_turn / 2)
+        angle += half_turn;
+      joint.dip           = set.dip;
+      joint.dip_direction = set.dip_direction;
+      if (concentration >= 0.)
         {
-          const Real along  = draw_fisher_cosine(set.concentration, random);
-          const Real across = sqrt(1 - along * along);
-          const Real turn   = RandomNumbers::two_pi() * Real(random.uniform());
-          // mean pole, line of dip, strike
-          const Real sd = sin(dip), cd = cos(dip), sa = sin(azimuth),
-                     ca = cos(azimuth), u = across * cos(turn),
-                     v = across * sin(turn);
-          n            = {{along * sd * sa + u * cd * sa + v * ca,
-                           along * sd * ca + u * cd * ca - v * sa,
-                           along * cd - u * sd}};
+          joint.dip           = rounded(abs(angle) / degrees());
+          joint.dip_direction = angle < 0 ? 270. : 90.;
         }
-      if (n[dim - 1] < 0)
+      return {{angle}};
+    }
+
+    template <>
+    PoleLaw<3>::Pole
+    PoleLaw<3>::set_pole(const RandomNumbers::Pair &numbers,
+                         Joint<3> &joint) const
+    {
+      const Real along  = fisher_cosine(numbers.u);
+      const Real across = sqrt(1 - along * along);
+      const Real turn   = RandomNumbers::two_pi() * Real(numbers.v);
+      // mean pole, line of dip, strike
+      const Real u = across * cos(turn), v = across * sin(turn);
+      Pole n = {{along * sd * sa + u * cd * sa + v * ca,
+                 along * sd * ca + u * cd * ca - v * sa,
+                 along * cd - u * sd}};
+      if (n[2] < 0)
         for (Real &component : n)
           component = -component;
       joint.dip           = set.dip;
       joint.dip_direction = set.dip_direction;
-      if (set.concentration < 0.)
+      if (concentration < 0.)
         return n;
-      const Real level =
-        dim == 2 ? abs(n[0]) : sqrt(n[0] * n[0] + n[dim - 2] * n[dim - 2]);
-      joint.dip           = rounded(atan2(level, n[dim - 1]) / degrees());
-      joint.dip_direction = n[0] < 0 ? 270. : 90.;
-      if constexpr (dim == 3)
-        {
-          const Real direction = atan2(n[0], n[1]) / degrees();
-          joint.dip_direction =
-            rounded(direction < 0 ? direction + 360 : direction);
-        }
+      joint.dip =
+        rounded(atan2(sqrt(n[0] * n[0] + n[1] * n[1]), n[2]) / degrees());
+      const Real direction = atan2(n[0], n[1]) / degrees();
+      joint.dip_direction =
+        rounded(direction < 0 ? direction + 360 : direction);
       return n;
     }
 
@@ -201,6 +283,7 @@ namespace Keyblock
       SetMaker(const JointSet<dim> &set, const DomainOutline<dim> &outline)
         : set(set)
         , outline(outline)
+        , poles(set)
         , random(seed_of(set.seed, set.name))
       {}
 
@@ -243,13 +326,19 @@ namespace Keyblock
         const unsigned int n = random.poisson(expected);
         for (unsigned int i = 0; i < n; ++i)
           {
-            auto joint = make_joint();
-            draw_orientation(set, random, *joint);
+            const RandomNumbers::Pair pole = poles.draw(random);
+            Point<dim> center;
             for (unsigned int d = 0; d < dim; ++d)
-              joint->point[d] = rounded(Real(corner[d]) +
-                                        Real(random.uniform()) * Real(size[d]));
+              center[d] = rounded(Real(corner[d]) +
+                                  Real(random.uniform()) * Real(size[d]));
+            const RadiusLaw::Draw radius = law.draw(random);
+            if (!may_reach_domain(center, radius.estimate))
+              continue;
+            auto joint = make_joint();
+            poles.set_pole(pole, *joint);
+            joint->point  = center;
             joint->extent = JointShape::disc;
-            joint->radius = rounded(law.draw(random));
+            joint->radius = rounded(law.radius_of<Real>(radius.numbers));
             keep_if_inside(joint);
           }
       }
@@ -267,6 +356,19 @@ namespace Keyblock
         return joint;
       }
 
+      /** Whether a disc, whatever its pole, may reach into the domain. */
+      bool
+      may_reach_domain(const Point<dim> &center, const double radius) const
+      {
+        double square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          square += std::pow(std::max({0.,
+                                       outline.lower[d] - center[d],
+                                       center[d] - outline.upper[d]}),
+                             2);
+        return square <= std::pow((1. + 1e-6) * radius, 2);
+      }
+
       void
       keep_if_inside(std::unique_ptr<Joint<dim>> &joint)
       {
@@ -279,8 +381,9 @@ namespace Keyblock
       void
       add_plane(const Real &distance)
       {
-        auto joint   = make_joint();
-        const auto n = draw_orientation(set, random, *joint);
+        auto joint = make_joint();
+        const auto n =
+          poles.components(poles.set_pole(poles.draw(random), *joint));
         for (unsigned int d = 0; d < dim; ++d)
           joint->point[d] =
             rounded((Real(outline.lower[d]) + Real(outline.upper[d])) / 2 +
@@ -290,6 +393,7 @@ namespace Keyblock
 
       const JointSet<dim> &set;
       const DomainOutline<dim> &outline;
+      const PoleLaw<dim> poles;
       RandomNumbers random;
     };
   } // namespace

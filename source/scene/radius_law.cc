@@ -79,9 +79,13 @@ namespace Keyblock
             "Radius deviation",
             deviation,
             ", but a lognormal law needs a positive one [m].");
-    const double ratio = deviation / mean;
-    log_deviation      = std::sqrt(std::log1p(ratio * ratio));
-    log_mean           = std::log(mean) - 0.5 * log_deviation * log_deviation;
+    const double ratio  = deviation / mean;
+    log_deviation       = std::sqrt(std::log1p(ratio * ratio));
+    log_mean            = std::log(mean) - 0.5 * log_deviation * log_deviation;
+    const Real of_mean  = Real(deviation) / mean;
+    const Real variance = log(1 + of_mean * of_mean);
+    sigma               = sqrt(variance);
+    mu                  = log(Real(mean)) - variance / 2;
     require(share_within_bounds(0) > 0.01,
             "Radius maximum",
             upper,
@@ -128,37 +132,63 @@ namespace Keyblock
 
 
 
-  Real
-  RadiusLaw::draw(RandomNumbers &random) const
+  template <typename Number>
+  Number
+  RadiusLaw::radius_of(const RandomNumbers::Pair &numbers) const
   {
-    const Real a = lower, b = upper, m = mean;
+    using std::exp, std::log, std::pow;
+    const Number a = lower, b = upper, m = mean, u = numbers.u;
     if (law == D::constant)
       return m;
     if (law == D::lognormal)
-      {
-        const Real ratio    = Real(deviation) / m;
-        const Real variance = log(1 + ratio * ratio);
-        const Real sigma    = sqrt(variance);
-        const Real mu       = log(m) - variance / 2;
-        for (;;)
-          {
-            const Real radius = exp(mu + sigma * random.normal());
-            if (radius >= a && radius <= b)
-              return radius;
-          }
-      }
-    const Real u = random.uniform();
+      return exp(static_cast<Number>(mu) +
+                 static_cast<Number>(sigma) * numbers.normal<Number>());
     if (law == D::uniform)
       return a + u * (b - a);
     if (law == D::exponential)
       return a - m * log(1 - u * (1 - exp((a - b) / m)));
-    const Real p = 1 - Real(exponent);
+    const Number p = 1 - Number(exponent);
     if (p == 0)
       return a * pow(b / a, u);
-    const Real from = pow(a, p), to = pow(b, p);
+    const Number from = pow(a, p), to = pow(b, p);
     return pow(from + u * (to - from), 1 / p);
   }
 
+
+
+  RadiusLaw::Draw
+  RadiusLaw::draw(RandomNumbers &random) const
+  {
+    constexpr double safe = 1e-9; // error of an estimate, at most [-]
+    Draw drawn{{0., 0.}, mean};
+    if (law == D::constant)
+      return drawn;
+    if (law != D::lognormal)
+      {
+        drawn.numbers.u = random.uniform();
+        drawn.estimate  = radius_of<double>(drawn.numbers);
+        return drawn;
+      }
+    while (true)
+      {
+        drawn.numbers  = random.pair();
+        const double r = radius_of<double>(drawn.numbers);
+        drawn.estimate = r;
+        const bool is_near =
+          std::abs(r - lower) <= safe * r || std::abs(r - upper) <= safe * r;
+        if (is_near)
+          {
+            const Real exact = radius_of<Real>(drawn.numbers);
+            if (exact >= lower && exact <= upper)
+              return drawn;
+          }
+        else if (r >= lower && r <= upper)
+          return drawn;
+      }
+  }
+
+  template double RadiusLaw::radius_of(const RandomNumbers::Pair &) const;
+  template Real RadiusLaw::radius_of(const RandomNumbers::Pair &) const;
   template RadiusLaw::RadiusLaw(const JointSet<2> &);
   template RadiusLaw::RadiusLaw(const JointSet<3> &);
 } // namespace Keyblock

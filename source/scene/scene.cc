@@ -231,8 +231,10 @@ namespace Keyblock
                    const std::vector<std::string> &overrides)
   {
     file = file_name;
-    const SceneText text(communicator, file_name, overrides);
-    old_names = text.warnings;
+    source =
+      std::make_shared<const SceneText>(communicator, file_name, overrides);
+    const SceneText &text = *source;
+    old_names             = text.warnings;
     ParameterHandler names;
     declare_names(names);
     text.parse(names, true);
@@ -252,6 +254,7 @@ namespace Keyblock
     text.parse(*prm, false);
     if (network.is_resolved)
       refuse_idle_overrides(text, ground.is_given());
+    is_resolved = network.is_resolved;
     refuse_idle_entries(*prm, *this, text);
     tidy_corners(domain.polygon, "Domain/Polygon");
     for (const auto &one : excavations)
@@ -260,10 +263,8 @@ namespace Keyblock
     complete_ground(text);
     check_domain(*this);
     read_shape_files(communicator, *this);
-    joints = make_joints(*this, read_names(names, "Joints"), text);
-    for (const auto &joint : joints)
-      if (dim == 3 && joint->extent == JointShape::polygon)
-        tidy_corners(joint->vertices, "Joints/" + joint->name + "/Vertices");
+    joint_names = read_names(names, "Joints");
+    make_joints_of_sources();
     for (const auto &warnings : {warnings_of_table(*this, text),
                                  warnings_of_sets(*this),
                                  warnings_of_drawings(*this),
@@ -281,6 +282,45 @@ namespace Keyblock
     damp_beside_rigid_bodies(*this);
     leave_steps_out(*this);
     read_histories();
+    cross_check();
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::make_joints_of_sources()
+  {
+    joints = make_joints(*this, joint_names, *source);
+    for (const auto &joint : joints)
+      if (dim == 3 && joint->extent == JointShape::polygon)
+        tidy_corners(joint->vertices, "Joints/" + joint->name + "/Vertices");
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::redraw(const Communicator &communicator,
+                     const std::vector<std::string> &overrides)
+  {
+    for (const std::string &assignment : overrides)
+      {
+        const auto parts = dealii::Utilities::split_string_list(
+          assignment.substr(0, assignment.find('=')), '/');
+        const std::string value = assignment.substr(assignment.find('=') + 1);
+        for (const auto &set : joint_sets)
+          if (matches_name(parts.at(1), set->name))
+            parse_entries(*prm,
+                          "subsection Joint sets\nsubsection " + set->name +
+                            "\nset " + parts.at(2) + " = " + value +
+                            "\nend\nend\n",
+                          "",
+                          "the override '" + assignment + "'");
+      }
+    network.is_resolved = is_resolved;
+    make_joints_of_sources();
+    make_facets(communicator, *this);
     cross_check();
   }
 

@@ -671,15 +671,6 @@ def coarse_mesh():
     warnings = [line for line in text.splitlines()
                 if line.startswith("Warning: The mesh ")]
     assert any("instead of 15.8 m3" in line for line in warnings), warnings
-    # a study says it, too, on its one mesh
-    study = ["Study/Names=phi", "Study/phi/Entry=Joints/J1/Friction angle",
-             "Study/phi/Distribution=uniform", "Study/phi/Minimum=20",
-             "Study/phi/Maximum=40", "Study/Samples=4"]
-    done = run(["--study", "s.prm", "--output", "o"]
-               + [word for entry in study for word in ("--set", entry)])
-    assert done.returncode == 0, done.stderr
-    results = json.loads(pathlib.Path("o/study.json").read_text("utf-8"))
-    assert any("instead of 15.8 m3" in text for text in results["warnings"])
     # joints in their planes are not warned of
     done = validate("s.prm", ["Mesh/Snap=0"])
     assert done.returncode == 0, done.stderr

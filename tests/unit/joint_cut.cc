@@ -5,6 +5,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <keyblock/blocks/block_geometry.h>
 #include <keyblock/blocks/block_measures.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/mesh/joint_cut.h>
@@ -251,12 +252,12 @@ BOOST_AUTO_TEST_CASE(exact_volume_of_a_bent_block)
     " set Size = 1\n");
   Scene<3> scene;
   scene.read(world, name + ".prm", {});
-  const Mesh<3> mesh     = make_mesh(world, scene, silent);
-  const Blocks<3> blocks = find_blocks(mesh, scene);
+  const BlockGeometry<3> made = make_block_geometry(world, scene, silent);
+  const Blocks<3> &blocks     = made.blocks;
   if (world.is_root())
     {
-      BOOST_TEST(mesh.report.way == "cut");
-      BOOST_TEST(mesh.report.merged.size() == 1);
+      BOOST_TEST(made.report.way == "cut");
+      BOOST_TEST(made.report.merged.size() == 1);
     }
   // right of near: y = 6.1 - z / 10 on plane b, z from 0 to 5.7 or on to 12
   const double width = 12. - 5.300001;

@@ -7,6 +7,7 @@
 #  include <boost/multiprecision/float128.hpp>
 #endif
 
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -49,26 +50,43 @@ namespace Keyblock
       return static_cast<double>(bits() >> 11) * 0x1p-53;
     }
 
-    /** Uniform in (0, 1]. */
-    Real
+    /** Uniform in (0, 1], without rounding. */
+    double
     positive_uniform()
     {
-      return Real(1) - Real(uniform());
+      return 1. - uniform();
     }
 
     /** Exponential with mean 1, by inversion: -log(1 - u). */
     double
     exponential()
     {
-      return rounded(-log(positive_uniform()));
+      return rounded(-log(Real(positive_uniform())));
     }
 
-    /** Standard normal, by Box and Muller: sqrt(-2 log(1 - u)) cos(2 pi v). */
-    Real
-    normal()
+    /** Two uniform numbers, of which Box and Muller make a normal one. */
+    struct Pair
     {
-      const Real radius = sqrt(-2 * log(positive_uniform()));
-      return radius * cos(two_pi() * Real(uniform()));
+      double u; ///< in (0, 1]
+      double v; ///< in [0, 1)
+
+      /** Standard normal: sqrt(-2 log u) cos(2 pi v), by doubles with an error
+       * of some 1e-14, or by Real. */
+      template <typename Number>
+      Number
+      normal() const
+      {
+        using std::cos, std::log, std::sqrt;
+        return sqrt(-2 * log(Number(u))) *
+               cos(2 * boost::math::constants::pi<Number>() * Number(v));
+      }
+    };
+
+    Pair
+    pair()
+    {
+      const double u = positive_uniform();
+      return {u, uniform()};
     }
 
     /** Poisson: how many exponential steps fit into @p mean. */

@@ -5,6 +5,7 @@
 #include <keyblock/blocks/interface.h>
 
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace Keyblock
@@ -18,9 +19,21 @@ namespace Keyblock
     MeshReport<dim> report; ///< on rank 0
     Blocks<dim> blocks;
     SplitMesh<dim> split;
+
+    /** Joints share places, and the weaker one rules there. */
+    bool depends_on_strength = false;
+
     /** warnings_of_coarse_mesh(), of those who ask for it. */
     std::vector<std::string> warnings;
   };
+
+  /** The same of what the planes of the scene bound, without a mesh of its
+   * rock (make_plane_mesh()); or why it has no planes, as list_planes() says.
+   * Throws InputError.
+   * @param is_about_exposed leave out joints that bound no exposed block */
+  template <int dim>
+  std::variant<BlockGeometry<dim>, std::string>
+  make_plane_geometry(const Scene<dim> &scene, const bool is_about_exposed);
 
   /** Mesh the scene, find its blocks and split the mesh along their faces
    * (collective). Throws InputError.

@@ -2,30 +2,28 @@
 #ifndef keyblock_blocks_block_measures_h
 #define keyblock_blocks_block_measures_h
 
-#include <keyblock/blocks/blocks.h>
+#include <keyblock/blocks/plane_blocks.h>
 
 namespace Keyblock
 {
   /**
-   * Measure the blocks as the planes of the scene bound them, whatever the cut
-   * of joints into the mesh bent: fills Block::exact where a block of the mesh
-   * and one between the planes have more than half of each other. A joint on
-   * which only one of the two has a face has an area of zero for the other. On
-   * meshes that are exact all of this is what the mesh has.
+   * Number the blocks of a mesh like those between planes, and the other way
+   * round. They are the same where each has more than half of the other, and
+   * both are finite. The finite blocks between the planes come first, with what
+   * the planes say of them in Block::exact and of when they are exposed; those
+   * that the mesh has not have no cells. Other blocks of the mesh come after
+   * them, and last what is infinite. Fills Blocks::comparison.
+   * @param blocks of the mesh
+   * @param exact of the planes, in their order
+   * @param block_of_cell of a mesh between the planes: index into @p exact,
+   * which becomes one into @p blocks
    */
   template <int dim>
-  void measure_exactly(Blocks<dim> &blocks,
-                       const Mesh<dim> &mesh,
-                       const Scene<dim> &scene);
-
-  /** Volume between the planes, if it is known, or else that of the mesh
-   * [m^dim]. */
-  template <int dim>
-  double
-  best_volume(const Block<dim> &block)
-  {
-    return block.exact.is_known ? block.exact.volume : block.volume;
-  }
+  void number_like_planes(Blocks<dim> &blocks,
+                          const Mesh<dim> &mesh,
+                          const PlaneBlocks<dim> &planes,
+                          const Blocks<dim> &exact,
+                          std::vector<unsigned int> &block_of_cell);
 
   /** Weight of a mass in the scene, at its origin and time zero; in a scene
    * without gravity standard gravity [m/s2]. */

@@ -28,8 +28,8 @@ namespace Keyblock
   template <int dim>
   struct Block
   {
-    unsigned int id      = 0; ///< from 1; finite blocks first, largest first
-    unsigned int n_cells = 0;
+    unsigned int id      = 0;  ///< from 1; finite blocks first, largest first
+    unsigned int n_cells = 0;  ///< 0: only the planes have it
     double volume        = 0.; ///< [m^dim]
     double mass          = 0.; ///< [kg], per metre in 2D
     Point<dim> centroid;       ///< of the volume [m]
@@ -64,38 +64,28 @@ namespace Keyblock
       return width / std::pow(volume / n_cells, 1. / dim);
     }
 
-    /** The block as its planes bound it, where joints were bent to fit the
-     * mesh (measure_exactly()). */
+    /** The block as planes bound it, whatever the mesh made of it
+     * (number_like_planes()); where it has no cells all else is that, too. */
     struct Measures
     {
       bool is_known = false;
       double volume = 0.;                        ///< [m^dim]
-      std::map<unsigned int, double> joint_area; ///< in the plane [m^(dim-1)]
-      std::map<unsigned int, double> bent_area;  ///< of the same faces as bent
+      double mass   = 0.;                        ///< [kg], per metre in 2D
+      std::map<unsigned int, double> joint_area; ///< [m^(dim-1)]
       Point<dim> centroid;                       ///< of the volume [m]
-
-      /** Polygons in the plane by joint, around them as seen from one side; in
-       * 2D segments. */
-      std::map<unsigned int, std::vector<std::vector<Point<dim>>>> joint_faces;
     };
     Measures exact;
 
-    /** Mass with the exact volume, if it is known [kg], per metre in 2D. */
     double
-    exact_mass() const
+    best_volume() const
     {
-      return exact.is_known ? mass * exact.volume / volume : mass;
+      return exact.is_known ? exact.volume : volume;
     }
 
-    /** Area of joint @p joint in its plane over that in the mesh [-]. */
     double
-    area_ratio(const unsigned int joint) const
+    best_mass() const
     {
-      const auto plane = exact.joint_area.find(joint);
-      const auto bent  = exact.bent_area.find(joint);
-      return plane != exact.joint_area.end() && bent->second > 0.
-               ? plane->second / bent->second
-               : 1.;
+      return exact.is_known ? exact.mass : mass;
     }
   };
 
@@ -111,13 +101,8 @@ namespace Keyblock
     unsigned int n_finite  = 0; ///< between the planes
     unsigned int n_exposed = 0; ///< of these, after the last stage
 
-    struct LostBlock
-    {
-      double volume; ///< [m^dim]
-      Point<dim> centroid;
-    };
-    std::vector<LostBlock>
-      lost; ///< exposed, and not in the mesh; largest first
+    /** Exposed blocks (index) that the mesh has not. */
+    std::vector<unsigned int> lost;
 
     /** Exposed blocks of the mesh (index) that are none between the planes:
      * several in one, a part of one, or open to the rock. */
@@ -145,7 +130,12 @@ namespace Keyblock
 
     /** Whether a block (index) is none of those between the planes, so that it
      * gets no factor. */
-    bool is_unlike(const unsigned int block) const;
+    bool
+    is_unlike(const unsigned int block) const
+    {
+      return comparison.is_known && !blocks[block].is_infinite &&
+             !blocks[block].exact.is_known;
+    }
 
     /** Whether the nodes on a face are to be duplicated. */
     bool is_split(const Mesh<dim> &mesh,

@@ -44,7 +44,7 @@ namespace Keyblock
 
     unsigned int set; ///< index into Scene::bolts
     Point<dim> head, end;
-    std::vector<double> places; ///< of its nodes, from the head [m]
+    std::vector<double> places; ///< of its nodes, from the head, ascending [m]
 
     /** The rock at each of them when it is installed. */
     std::vector<CellPoint<dim>> rock;

@@ -16,6 +16,13 @@ namespace Keyblock
   std::vector<Bolt<dim>> lay_out_bolts(const Scene<dim> &scene,
                                        const SplitMesh<dim> &split);
 
+  /** The same bolts, with the same nodes, in other cells of the same rock:
+   * those of a mesh between planes. */
+  template <int dim>
+  std::vector<Bolt<dim>> lay_out_bolts_like(const std::vector<Bolt<dim>> &bolts,
+                                            const Scene<dim> &scene,
+                                            const SplitMesh<dim> &split);
+
   /** Whether the rock at a point is there at the stage of @p ground. */
   template <int dim>
   bool

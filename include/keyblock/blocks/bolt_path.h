@@ -18,12 +18,12 @@ namespace Keyblock
 
   /**
    * Find the way of a bolt through the cells of @p rock: its pieces, where it
-   * goes from one block to another, and its nodes. These are at equal distances
-   * of no more than the set's segment length; if it says none, of a twentieth
-   * of the bolt, and closer at the head and where blocks part if the grout is
-   * stiff. One more stands in each stretch in one block that has none else. A
-   * node on the border of two cells is in that towards the head, the head in
-   * that along the bolt.
+   * goes from one block to another, and its nodes, unless it has them. These
+   * are at equal distances of no more than the set's segment length; if it says
+   * none, of a twentieth of the bolt, and closer at the head and where blocks
+   * part if the grout is stiff. One more stands in each stretch in one block
+   * that has none else. A node on the border of two cells is in that towards
+   * the head, the head in that along the bolt.
    */
   template <int dim>
   void trace_bolt(const CellLocator<dim> &rock,

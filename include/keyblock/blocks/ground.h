@@ -21,6 +21,13 @@ namespace Keyblock
     /** Blocks that were taken away, by index; null or empty: none. */
     const std::vector<bool> *is_removed = nullptr;
 
+    /** The same of the rock that limit equilibrium is asked of. */
+    Ground<dim>
+    rigid() const
+    {
+      return {scene, split.rigid(), stage_number, is_removed};
+    }
+
     bool is_filled(const unsigned int cell) const;
     bool is_excavated(const unsigned int cell) const;
 

@@ -6,6 +6,8 @@
 #include <keyblock/blocks/bolt.h>
 #include <keyblock/blocks/laid_liner.h>
 
+#include <memory>
+
 namespace Keyblock
 {
   /** Two nodes at one place on the two sides of a joint, or, without an area,
@@ -88,6 +90,19 @@ namespace Keyblock
     /** Vertices of smaller cells in the middle of larger ones' edges and faces;
      * they carry no mass and are in no pair. */
     std::vector<HangingVertex> hanging;
+
+    bool is_between_planes = false; ///< made by make_plane_mesh()
+
+    /** The same rock as the planes of the scene bound it, with the same numbers
+     * of blocks (make_plane_mesh()); null: the scene has no planes. */
+    std::shared_ptr<const SplitMesh<dim>> between_planes;
+
+    /** What limit equilibrium is asked of. */
+    const SplitMesh<dim> &
+    rigid() const
+    {
+      return between_planes ? *between_planes : *this;
+    }
 
     std::vector<Bolt<dim>> bolts;       ///< of the scene, see lay_out_bolts()
     std::vector<LaidLiner<dim>> liners; ///< the same, see lay_out_liners()

@@ -14,7 +14,8 @@ namespace Keyblock
   template <int dim>
   struct LinerTrace
   {
-    std::array<unsigned int, 2> vertex; ///< of the split mesh
+    std::array<unsigned int, 2> vertex; ///< of the split mesh; none: it is one
+                                        ///< between planes
     std::array<unsigned int, 2> block;  ///< index into Blocks::blocks
     std::array<unsigned int, 2> cell;   ///< under the shotcrete
     unsigned int joint;                 ///< or `none`

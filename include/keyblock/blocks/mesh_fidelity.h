@@ -13,9 +13,8 @@ namespace Keyblock
    * Warnings about finite blocks that a coarse mesh has changed, one sentence
    * each: faces that lie farther from their joint's plane than half the size of
    * their cell; exposed blocks that only the mesh or only the planes have;
-   * volumes that differ by more than 5 % from those between the planes; corners
-   * that a joint cuts off and the mesh does not; curved faces of solids; and
-   * masses, see warning_of_material_shares(). Empty: none.
+   * volumes that differ by more than 5 % from those between the planes; curved
+   * faces of solids; and masses, see warning_of_material_shares(). Empty: none.
    */
   template <int dim>
   std::vector<std::string> warnings_of_coarse_mesh(const Scene<dim> &scene,

@@ -16,6 +16,12 @@ namespace Keyblock
               const unsigned int cell,
               const unsigned int face);
 
+  /** The centroid of a face's area. */
+  template <int dim>
+  Point<dim> area_center(const Mesh<dim> &mesh,
+                         const unsigned int cell,
+                         const unsigned int face);
+
   /** The same of the shape function times the outward normal, exact: they sum
    * up to Mesh::face_area_vector() [m^(dim-1)]. */
   template <int dim>

@@ -5,6 +5,7 @@
 #include <keyblock/blocks/blocks.h>
 #include <keyblock/blocks/plane_extent.h>
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,11 @@ namespace Keyblock
 
     std::vector<ExcavationPiece<dim>> excavations;
     std::vector<JointPiece<dim>> joints;
+    double bridging = -1.; ///< `Joints/Bridging` [m]; negative: not given
+
+    /** Whether the first joint (index) rules where it shares a plane with the
+     * second; not given: it has the lower index. */
+    std::function<bool(unsigned int, unsigned int)> rules;
 
     /** Index of an excavation that stands for rock beyond the domain, which
      * goes on there; or nothing. */
@@ -47,7 +53,8 @@ namespace Keyblock
      * that they nearly meet. */
     double bridging = 1e-6;
 
-    /** Width of openings that do not join two parts of rock [m]. */
+    /** Width of openings that do not join two parts of rock, and of faces that
+     * are none: what rounding leaves [m]. */
     double narrow = 1e-6;
 
     /** Volume below which a block is rounding and goes to one beside it: to one
@@ -98,16 +105,25 @@ namespace Keyblock
     {}
 
     /** In the order of rank_blocks(). Not set, as they need materials or a
-     * mesh: mass, is_rigid, width, exact. */
+     * mesh: mass, is_rigid, width, exact; `n_cells` counts convex cells. */
     std::vector<Block<dim>> blocks;
     std::vector<std::vector<Face>> faces;          ///< of each block
     std::vector<std::vector<FreeFace>> free_faces; ///< of each block
+    double bridging            = 0.; ///< PlaneBlockOptions::bridging [m]
+    double narrow              = 0.; ///< the same [m]
     unsigned int n_stages      = 0;
     unsigned int n_joints_used = 0; ///< pieces that were not left out
 
     ConvexCells<dim> cells;
     std::vector<unsigned int> block_of_cell;      ///< index; or nothing
     std::vector<unsigned int> excavation_of_cell; ///< index; or nothing
+
+    /** Index of the joint that closes each of ConvexCells::for_each_contact(),
+     * with rock on one side at least; or nothing. */
+    std::vector<unsigned int> joint_of_contact;
+
+    /** Joints share places, so that their strengths say which one counts. */
+    bool has_shared_places = false;
 
     /** Index of the block with a point [m]; nothing if it is excavated or not
      * in the domain's box. */

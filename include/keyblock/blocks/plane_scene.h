@@ -10,9 +10,9 @@
 
 namespace Keyblock
 {
-  /** The planes of a scene; or what in it has none, as the part of a sentence
-   * after "because". A circle is a polygon of many sides with its area. Joints
-   * keep their numbers, and excavations theirs. */
+  /** The planes of a scene, which is to live as long; or what in it has none,
+   * as the part of a sentence after "because". A circle is a polygon of many
+   * sides with its area. Joints keep their numbers, and excavations theirs. */
   template <int dim>
   std::variant<PlaneScene<dim>, std::string>
   list_planes(const Scene<dim> &scene);

@@ -22,6 +22,10 @@ namespace Keyblock
     unsigned int closing_extent(const unsigned int plane,
                                 const std::vector<Point<dim>> &polygon) const;
 
+    /** Whether several joints cover a polygon each. */
+    bool has_choice(const unsigned int plane,
+                    const std::vector<Point<dim>> &polygon) const;
+
     ConvexCells<dim> cells;
     std::vector<unsigned int> excavation_of_cell;  ///< index; or nothing
     std::vector<unsigned int> stage_of_excavation; ///< by index

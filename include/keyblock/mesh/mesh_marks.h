@@ -20,6 +20,12 @@ namespace Keyblock
   template <int dim>
   void check_boundary_groups(const Mesh<dim> &mesh, const Scene<dim> &scene);
 
+  /** Mark the faces without a neighbour on the sides of the domain: of its
+   * frame if it is a box or parallelepiped, else of its bounding box; and those
+   * on edges of a polygon, or that a mesh file has names for. */
+  template <int dim>
+  void mark_boundaries(Mesh<dim> &mesh, const Scene<dim> &scene);
+
   /** Set the material of each cell: the last whose region holds it. */
   template <int dim>
   void mark_materials(Mesh<dim> &mesh, const Scene<dim> &scene);

@@ -49,6 +49,12 @@ namespace Keyblock
 
     BlockGeometry<dim> make_geometry(const Scene<dim> &sample) const;
 
+    /** Whether samples differ in joints of sets alone. */
+    bool draws_joints_alone() const;
+
+    /** The scene of a sample, until the next one is asked for. */
+    const Scene<dim> &scene_of(const unsigned int index) const;
+
     /** Overrides that give the variables these values. */
     std::vector<std::string>
     overrides_of(const std::vector<double> &drawn) const;
@@ -126,6 +132,7 @@ namespace Keyblock
 
     std::unique_ptr<VariedStrengths<dim>> strengths; ///< of the scene
     std::string header;
+    mutable std::unique_ptr<Scene<dim>> sample;   ///< last one that was read
     std::unique_ptr<BlockGeometry<dim>> geometry; ///< null: one for each sample
     std::vector<std::vector<double>> values;
     std::vector<SampleResult> results;

@@ -21,21 +21,8 @@ namespace Keyblock
     /** Blocks across each of the faces, by index. */
     std::vector<std::set<unsigned int>> others;
 
-    /** Joints that only the mesh has it touch, where the block is known
-     * exactly: those of a crumb that went to it. And blocks across them. */
-    std::vector<BlockFace<dim>> faces_of_crumbs;
-    std::vector<std::set<unsigned int>> others_of_crumbs;
-
     BlockLoads<dim> loads;
 
-    /** Of a face against its joint's plane [deg]. */
-    double largest_bend = 0.;
-
-    /** Of the free faces between the planes over that in the mesh, by their
-     * mean normal [-]. */
-    double free_area_ratio = 1.;
-
-    std::string bent;           ///< name of the joint that is bent most
     bool is_attached   = false; ///< to rock that is not excavated yet
     bool is_on_fill    = false;
     bool has_free_face = false; ///< that touches another one
@@ -59,20 +46,10 @@ namespace Keyblock
                                  const unsigned int joint,
                                  const bool is_reduced);
 
-  /** Whether the mesh has plane parts of a bent joint on a block (known between
-   * its planes) beside the part @p joint: they cut across the corner that this
-   * one rounds. */
-  template <int dim>
-  bool has_facet_beside(const Scene<dim> &scene,
-                        const Block<dim> &block,
-                        const unsigned int joint);
-
   /**
    * What @p block touches and what acts on it at @p time. Water and tractions
    * are summed as Loads does, water by its pressure at the faces'
-   * vertices; of a block that is known exactly (Block::exact), weight, areas
-   * and water are those between its planes, where the mesh has bent them;
-   * tractions are scaled by the ratio of its free areas.
+   * vertices.
    */
   template <int dim>
   BlockSurroundings<dim> look_around(const Ground<dim> &ground,

@@ -62,17 +62,15 @@ namespace Keyblock
                                  const Block<dim> &block,
                                  const double time);
 
-  /** Tractions at @p time on the free faces of a block (by index), times
-   * @p free_area_ratio. */
+  /** Tractions at @p time on the free faces of a block (by index). */
   template <int dim>
   std::vector<PointForce<dim>> tractions_on(const Ground<dim> &ground,
                                             const FreeFaces<dim> &free,
                                             const unsigned int block,
-                                            const double time,
-                                            const double free_area_ratio);
+                                            const double time);
 
-  /** Forces of a pressure over a face: of its area times @p inward (no unit
-   * vector where the face stands for another area or way) [N]. */
+  /** Forces of a pressure over a face: of its area times the unit
+   * vector @p inward [N]. */
   template <int dim>
   std::vector<PointForce<dim>> pressure_on(const FaceCorners<dim> &face,
                                            const Expression<dim> &pressure,

@@ -10,8 +10,7 @@ namespace Keyblock
 {
   /** Add to @p statics of a block (index), which has all but them, the remarks:
    * what is special about its @p motion at @p time [s], and what was left out.
-   * @param lost_faces what is said of faces that the mesh has lost; empty:
-   * nothing */
+   */
   template <int dim>
   void add_remarks(const Ground<dim> &ground,
                    const FreeFaces<dim> &free,
@@ -19,7 +18,6 @@ namespace Keyblock
                    const unsigned int block,
                    const double time,
                    const SupportedMotion<dim> &motion,
-                   const std::string &lost_faces,
                    BlockStatics<dim> &statics);
 
   /** Those on its support, and on what it asks for besides. */

@@ -30,8 +30,7 @@ namespace Keyblock
     /** Set if friction depends on the normal stress. */
     std::shared_ptr<const JointLaw> law{};
 
-    bool is_lost    = false; ///< between the planes, but not in the mesh
-    bool is_reduced = true;  ///< the factor divides its strength
+    bool is_reduced = true; ///< the factor divides its strength
 
     bool loses_friction = false; ///< where it slips
 

@@ -131,6 +131,7 @@ namespace Keyblock
   {
     std::string file;
     bool is_resolved = false;
+    double bridging  = -1.; ///< [m]; negative: a share of the domain's size
 
     void declare(ParameterHandler &prm);
   };

@@ -23,7 +23,18 @@ namespace Keyblock
     /** E[r^k] of the law as it is cut off [m^k], k = 1 or 2. */
     double moment(const int k) const;
 
-    Real draw(RandomNumbers &random) const;
+    /** The numbers that make a radius, and the radius but for round-off [m]. */
+    struct Draw
+    {
+      RandomNumbers::Pair numbers;
+      double estimate;
+    };
+
+    Draw draw(RandomNumbers &random) const;
+
+    /** The radius of a draw [m]: by doubles, or by Real. */
+    template <typename Number>
+    Number radius_of(const RandomNumbers::Pair &numbers) const;
 
     /** The largest radius there can be [m]. */
     double
@@ -42,6 +53,7 @@ namespace Keyblock
     const double lower;
     double upper;
     double log_mean = 0., log_deviation = 0.;
+    Real mu, sigma; ///< the same with more digits
   };
 } // namespace Keyblock
 

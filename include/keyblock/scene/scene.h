@@ -82,6 +82,12 @@ namespace Keyblock
               const std::string &file_name,
               const std::vector<std::string> &overrides);
 
+    /** Make the joints anew with @p overrides of entries of joint sets
+     * ("Joint sets/NAME/Entry=value"), after read(), and check. Throws
+     * InputError (collective). */
+    void redraw(const Communicator &communicator,
+                const std::vector<std::string> &overrides);
+
     /** Number of the stage called @p name: 1 for start, before the first stage,
      * 2 for the first one of `Stages/Names`, and so on. */
     unsigned int stage_number(const std::string &name) const;
@@ -129,6 +135,8 @@ namespace Keyblock
     std::string used_entries() const;
 
   private:
+    void make_joints_of_sources();
+
     void read_histories();
 
     /** Put polygons in place of the excavations of a profile, one for each
@@ -142,6 +150,9 @@ namespace Keyblock
     /** All entries as text, every joint written out. */
     std::string print_entries(const bool has_descriptions) const;
 
+    std::shared_ptr<const SceneText> source;
+    std::vector<std::string> joint_names;  ///< of `Joints/Names`
+    bool is_resolved = false;              ///< as the file says
     std::shared_ptr<ParameterHandler> prm; ///< as read, all but the joints
     std::vector<std::string> old_names;    ///< sentences on those in the file
   };
