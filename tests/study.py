@@ -227,6 +227,30 @@ def faults_of_going_on(keyblock, scene, folder):
     return faults
 
 
+def faults_of_networks(keyblock, scene, folder):
+    """What is wrong where each sample draws discs of its own."""
+    networks = str(pathlib.Path(scene).parents[1] / "benchmark"
+                   / "networks_3d.prm")
+    table, results = study(keyblock, networks, folder / "networks",
+                           "Study/Samples=60")
+    faults = []
+    if not 0 < results["probability"]["value"] < 0.2:
+        faults.append(f"of 60 networks {results['probability']} fail")
+    if study(keyblock, networks, folder / "networks_2", "Study/Samples=60",
+             ranks=2)[0] != table:
+        faults.append("networks on 2 ranks are others")
+    # each sample is read by itself where a variable is not of joint sets
+    more = study(keyblock, networks, folder / "read", "Study/Samples=60",
+                 "Study/Names=a, b, c, depth", "Study/depth/Entry=Ground/Depth",
+                 "Study/depth/Distribution=sequence",
+                 "Study/depth/Minimum=120")[0]
+    rows = [[row.split(",")[5:] for row in text.splitlines()[2:]]
+            for text in (table, more)]
+    if [row[-8:] for row in rows[0]] != [row[-8:] for row in rows[1]]:
+        faults.append("joints drawn anew are not those that are read")
+    return faults
+
+
 def main():
     """Exit with 1 and a sentence for what is wrong."""
     keyblock, scene, folder = sys.argv[1:]
@@ -308,6 +332,7 @@ def main():
     faults += faults_of_joints(keyblock, folder)
     faults += faults_of_runs(keyblock, scene, folder)
     faults += faults_of_stages(keyblock, scene, folder)
+    faults += faults_of_networks(keyblock, scene, folder)
     faults += faults_of_groups(keyblock, scene, folder)
     faults += faults_of_leaning(keyblock, scene, folder)
     faults += faults_of_notch(keyblock, scene, folder)

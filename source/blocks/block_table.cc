@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The table of blocks on the screen.
-#include <keyblock/blocks/block_measures.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/blocks.h>
+#include <keyblock/blocks/exact_blocks.h>
 
 #include <algorithm>
 #include <cmath>

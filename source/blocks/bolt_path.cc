@@ -169,7 +169,16 @@ namespace Keyblock
          {rock.find_in(before.last.cell, bolt.at(crossing.begin)),
           rock.find_in(behind.first.cell, bolt.at(crossing.end))}};
       if (crossing.begin == crossing.end)
-        find_joint(mesh, before.last.cell, bolt.at(crossing.begin), crossing);
+        {
+          const Point<dim> place = bolt.at(crossing.begin);
+          find_joint(mesh, before.last.cell, place, crossing);
+          // (beside slivers that rounding leaves only the far side is on it)
+          if (crossing.joint == none)
+            {
+              find_joint(mesh, behind.first.cell, place, crossing);
+              crossing.normal *= -1.;
+            }
+        }
       return crossing;
     }
   } // namespace

@@ -158,7 +158,8 @@ namespace Keyblock
   template <int dim>
   typename ConvexCells<dim>::PlaneSide
   ConvexCells<dim>::add_plane(const Point<dim> &point,
-                              const Tensor<1, dim> &normal)
+                              const Tensor<1, dim> &normal,
+                              const double near)
   {
     const Point<dim> x  = to_unit(point);
     const double origin = -(normal * x) / normal.norm();
@@ -168,6 +169,15 @@ namespace Keyblock
     const ExactPlane<dim> plane = make_exact_plane<dim>(x, normal);
     if (!plane.meets_box())
       return {nothing, side};
+    for (unsigned int i = 0; near > 0. && i < planes.size(); ++i)
+      {
+        const int way     = planes[i].normal * plane.normal > 0. ? 1 : -1;
+        double difference = std::abs(planes[i].offset - way * plane.offset);
+        for (unsigned int d = 0; d < dim; ++d)
+          difference += std::abs(planes[i].normal[d] - way * plane.normal[d]);
+        if (difference * unit_length < near)
+          return {i, way};
+      }
     const auto [entry, is_new] =
       plane_of_key.try_emplace(plane.key(), planes.size());
     if (is_new)

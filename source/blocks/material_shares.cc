@@ -158,7 +158,7 @@ namespace Keyblock
           low[d] = double(rest % n_parts) / n_parts;
         sum.add(low, 1. / n_parts, n_halvings);
       }
-    return sum.mass / sum.volume;
+    return sum.volume > 0. ? sum.mass / sum.volume : of_cell;
   }
 
 

@@ -2,6 +2,7 @@
 #include <keyblock/blocks/mesh_fidelity.h>
 
 #include <keyblock/base/number_text.h>
+#include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/ground.h>
 #include <keyblock/blocks/material_shares.h>
 #include <keyblock/mesh/excavation_region.h>
@@ -20,10 +21,6 @@ namespace Keyblock
     /** Distance of a face from its joint's plane over the size of its cell
      * that is not warned of [-]. */
     constexpr double largest_shift = 0.5;
-
-    /** Difference of a block's volume from the exact one that is not warned
-     * of [-]. */
-    constexpr double largest_difference = 0.05;
 
     /** Distance of a cell from the curved face of a solid over the length of
      * its chord that is not warned of: that of 16 chords in a circle [-]. */
@@ -156,7 +153,7 @@ namespace Keyblock
              text_of(most->exact.volume, 4) + unit +
              " between the planes of its joints" +
              (ids.size() > 1
-                ? " (more than 5 % off are blocks " + list_some(ids) + ")"
+                ? " (more than 2 % off are blocks " + list_some(ids) + ")"
                 : "") +
              ", and its factor by strength reduction is found with that; " +
              remedy_of_coarse_cells(scene.meshing) + ".";

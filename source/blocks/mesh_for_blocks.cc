@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/box.h>
 #include <keyblock/blocks/block_resolution.h>
+#include <keyblock/blocks/exact_blocks.h>
 #include <keyblock/mesh/excavation_region.h>
 
 #include <algorithm>
@@ -14,6 +15,10 @@ namespace Keyblock
      * than asked for are aimed at: not every block gets what it is to get. */
     constexpr unsigned int most_passes = 3;
     constexpr double surplus           = 1.15;
+
+    /** Cells across a block that the mesh has lost, where it is meshed again,
+     * and the largest part of the size of its cells before. */
+    constexpr double cells_across_lost = 2., smaller = 0.5;
 
     /** Finds where a mesh is too coarse for its blocks. */
     template <int dim>
@@ -38,6 +43,8 @@ namespace Keyblock
       demands() const
       {
         std::vector<SizeDemand<dim>> result;
+        if (scene.meshing.cells_across <= 0.)
+          return result;
         std::vector<std::vector<Point<dim>>> centers(blocks.blocks.size());
         for (unsigned int c = 0; c < mesh.n_cells(); ++c)
           if (blocks.block_of_cell[c] != none)
@@ -55,6 +62,34 @@ namespace Keyblock
             add(result,
                 {rock.place},
                 rock.thickness / scene.meshing.cells_across / size(rock.place));
+        return result;
+      }
+
+      /** Where exposed blocks between the planes are none of the mesh, or have
+       * another volume there. */
+      std::vector<SizeDemand<dim>>
+      demands_of_lost(const ExactBlocks<dim> &exact) const
+      {
+        std::vector<SizeDemand<dim>> result;
+        const BlockMatch<dim> match(blocks, mesh, exact);
+        for (unsigned int p = 0; p < match.like.size(); ++p)
+          if (const Block<dim> &block = exact.blocks.blocks[p];
+              !block.is_infinite && block.exposed_stage != none &&
+              (match.like[p] == none
+                 ? block.width >= size.least()
+                 : std::abs(blocks.blocks[match.like[p]].volume / block.volume -
+                            1.) > largest_difference))
+            {
+              std::vector<Point<dim>> places = {block.centroid};
+              for (const auto &face : exact.planes.faces[p])
+                for (const auto &outline : face.outlines)
+                  places.insert(places.end(), outline.begin(), outline.end());
+              add(result,
+                  places,
+                  std::min(smaller,
+                           block.width / cells_across_lost /
+                             size(block.centroid)));
+            }
         return result;
       }
 
@@ -103,29 +138,37 @@ namespace Keyblock
   std::pair<Mesh<dim>, Blocks<dim>>
   make_mesh_for_blocks(const Communicator &communicator,
                        const Scene<dim> &scene,
+                       const ExactBlocks<dim> *exact,
                        const dealii::ConditionalOStream &out)
   {
     std::vector<SizeDemand<dim>> demands; // on rank 0
-    Mesh<dim> mesh      = make_mesh(communicator, scene, out);
-    Blocks<dim> blocks  = find_blocks(mesh, scene);
-    unsigned int n_made = 1;
-    while (scene.meshing.cells_across > 0. &&
-           scene.meshing.generator == MeshGenerator::gmsh &&
-           n_made <= most_passes)
+    Mesh<dim> mesh;
+    Blocks<dim> blocks;
+    unsigned int n_made = 0;
+    while (true)
       {
+        mesh   = make_mesh(communicator, scene, out, demands);
+        blocks = find_blocks(mesh, scene);
+        if (exact)
+          mesh.report.n_welded = weld_phantoms(mesh, blocks, *exact, scene);
+        if (++n_made > most_passes ||
+            scene.meshing.generator != MeshGenerator::gmsh)
+          break;
         std::vector<unsigned int> n_new(1, 0);
         communicator.on_root([&]() {
-          const auto more =
-            CoarseBlocks<dim>(scene, mesh, blocks, demands).demands();
+          const CoarseBlocks<dim> coarse(scene, mesh, blocks, demands);
+          auto more = coarse.demands();
+          if (exact)
+            {
+              const auto lost = coarse.demands_of_lost(*exact);
+              more.insert(more.end(), lost.begin(), lost.end());
+            }
           demands.insert(demands.end(), more.begin(), more.end());
           n_new[0] = more.size();
         });
         communicator.broadcast(n_new);
         if (n_new[0] == 0)
           break;
-        mesh   = make_mesh(communicator, scene, out, demands);
-        blocks = find_blocks(mesh, scene);
-        ++n_made;
       }
     mesh.report.n_passes = n_made;
     return {std::move(mesh), std::move(blocks)};
@@ -134,9 +177,11 @@ namespace Keyblock
   template std::pair<Mesh<2>, Blocks<2>>
   make_mesh_for_blocks(const Communicator &,
                        const Scene<2> &,
+                       const ExactBlocks<2> *,
                        const dealii::ConditionalOStream &);
   template std::pair<Mesh<3>, Blocks<3>>
   make_mesh_for_blocks(const Communicator &,
                        const Scene<3> &,
+                       const ExactBlocks<3> *,
                        const dealii::ConditionalOStream &);
 } // namespace Keyblock

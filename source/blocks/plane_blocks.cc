@@ -24,8 +24,7 @@ namespace Keyblock
         , result(std::move(rock.cells))
       {
         result.excavation_of_cell = rock.excavation_of_cell;
-        result.bridging           = options.bridging;
-        result.narrow             = options.narrow;
+        result.options            = options;
         result.n_stages           = rock.n_stages;
         result.n_joints_used      = rock.extents.size();
       }
@@ -72,7 +71,6 @@ namespace Keyblock
       }
 
       void find_contacts();
-      void give_dust_to_excavations(const std::vector<double> &volume);
       void join_dust();
       void measure_blocks();
       void list_faces();
@@ -136,38 +134,7 @@ namespace Keyblock
 
 
 
-    /** Blocks that are nothing but rounding, and open to an excavation, as
-     * between a joint and an outline on it, are excavated with it.
-     * @param volume of each set, by its root [m^dim] */
-    template <int dim>
-    void
-    PlaneBlockFinder<dim>::give_dust_to_excavations(
-      const std::vector<double> &volume)
-    {
-      std::map<unsigned int, std::pair<double, unsigned int>>
-        largest; // opening
-      for (const Link &link : links)
-        if (link.extent == nothing)
-          {
-            const auto [own, other] = is_rock(link.minus)
-                                        ? std::pair(link.minus, link.plus)
-                                        : std::pair(link.plus, link.minus);
-            if (const unsigned int root = sets.root(own);
-                volume[root] < options.dust)
-              largest[root] = std::max(largest[root],
-                                       {area_of_outline(link.outline),
-                                        result.excavation_of_cell[other]});
-          }
-      for (unsigned int c = 0; c < result.cells.n_cells(); ++c)
-        if (is_rock(c))
-          if (const auto found = largest.find(sets.root(c));
-              found != largest.end())
-            result.excavation_of_cell[c] = found->second.second;
-    }
-
-
-
-    /** Other blocks that are nothing but rounding go to one beside them: to one
+    /** Blocks that are nothing but rounding go to one beside them: to one
      * that they are open to, or else to that of the largest common polygon. */
     template <int dim>
     void
@@ -180,7 +147,6 @@ namespace Keyblock
           measures.push_back(result.cells.measures(c));
           volume[sets.root(c)] += measures[c].volume;
         }
-      give_dust_to_excavations(volume);
       const auto is_dust = [&](const unsigned int a, const unsigned int b) {
         return std::min(volume[sets.root(a)], volume[sets.root(b)]) <
                options.dust;

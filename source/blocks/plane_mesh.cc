@@ -67,7 +67,8 @@ namespace Keyblock
             if (std::all_of(face.outlines.begin(),
                             face.outlines.end(),
                             [&](const auto &outline) {
-                              return is_narrow(outline, 2. * planes.bridging);
+                              return is_narrow(outline,
+                                               2. * planes.options.bridging);
                             }))
               narrow.insert(between(b, face.neighbour, face.joint));
       }
@@ -188,8 +189,8 @@ namespace Keyblock
         std::vector<Point<dim>> outline;
         for (const unsigned int v : row)
           outline.push_back(mesh.vertices[v]);
-        return a != b &&
-               ((a != none && b != none) || is_narrow(outline, planes.narrow));
+        return a != b && ((a != none && b != none) ||
+                          is_narrow(outline, planes.options.narrow));
       }
 
       void
@@ -303,15 +304,20 @@ namespace Keyblock
   {
     const Mesh<dim> &mesh         = split.mesh;
     std::vector<Block<dim>> found = planes.blocks;
+    std::vector<double> rigid_volume(found.size(), 0.);
     const DensityOfPlaces<dim> density(scene);
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       if (const unsigned int b = split.block_of_cell[c]; b != none)
         {
           const Material<dim> &material = *scene.materials[mesh.material[c]];
-          found[b].mass +=
-            mesh.cell_volume(c) * density.mean(mesh, c, material.density);
-          found[b].is_rigid = found[b].is_rigid || material.is_rigid();
+          const double volume           = mesh.cell_volume(c);
+          found[b].mass += volume * density.mean(mesh, c, material.density);
+          if (material.is_rigid())
+            rigid_volume[b] += volume;
         }
+    // (rounding may put a sliver of a block beyond a material's boundary)
+    for (unsigned int b = 0; b < found.size(); ++b)
+      found[b].is_rigid = rigid_volume[b] > planes.options.dust;
     for (Block<dim> &block : found)
       if (block.is_rigid)
         {

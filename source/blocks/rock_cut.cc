@@ -84,7 +84,8 @@ namespace Keyblock
         inside.push_back(c);
     for (const auto &side : scene.excavations[piece].sides)
       {
-        const auto outward = cells.add_plane(side.point, side.outward);
+        const auto outward =
+          cells.add_plane(side.point, side.outward, options.narrow);
         if (outward.plane == nothing)
           {
             if (outward.side > 0)
@@ -164,7 +165,8 @@ namespace Keyblock
         PlaneExtent<dim> extent(piece, cells, options.bridging);
         if (!extent.meets_box())
           continue;
-        extent.plane = cells.add_plane(piece.point, piece.normal);
+        extent.plane =
+          cells.add_plane(piece.point, piece.normal, options.narrow);
         if (extent.plane.plane != nothing)
           extents.push_back(extent);
       }

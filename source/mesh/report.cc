@@ -58,7 +58,11 @@ namespace Keyblock
     {
       if (report.n_passes > 1)
         out << "        meshed " << report.n_passes
-            << " times for 'Mesh/Cells across blocks'\n";
+            << " times, with smaller cells at blocks that need them\n";
+      if (report.n_welded > 0)
+        out << "        " << report.n_welded << " block"
+            << (report.n_welded == 1 ? "" : "s")
+            << " that joints closed in the mesh alone are joined to the rock\n";
       if (report.way == "exact")
         out << "        joints are where the scene has them\n";
       else

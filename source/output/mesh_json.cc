@@ -19,6 +19,7 @@ namespace Keyblock
                  {"area_ratio_of_finite_joints", report.area_ratio},
                  {"area_ratio_of_large_joints", report.area_ratio_of_large},
                  {"passes", report.n_passes},
+                 {"welded_blocks", report.n_welded},
                  {"lost_blocks", report.n_lost_blocks},
                  {"largest_lost_volume", report.largest_lost_volume}};
     if (report.n_lost_blocks > 0)

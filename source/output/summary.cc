@@ -3,7 +3,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <keyblock/base/digest.h>
-#include <keyblock/blocks/block_measures.h>
+#include <keyblock/blocks/exact_blocks.h>
 #include <keyblock/output/bolt_output.h>
 #include <keyblock/output/factor_json.h>
 #include <keyblock/output/mesh_json.h>

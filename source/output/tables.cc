@@ -2,7 +2,7 @@
 // blocks.csv and factors.csv, for spreadsheets.
 #include <keyblock/base/delimited_text.h>
 #include <keyblock/base/number_text.h>
-#include <keyblock/blocks/block_measures.h>
+#include <keyblock/blocks/exact_blocks.h>
 #include <keyblock/blocks/excavation_parts.h>
 #include <keyblock/blocks/free_faces.h>
 #include <keyblock/output/output.h>

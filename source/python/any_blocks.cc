@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <keyblock/blocks/block_measures.h>
+#include <keyblock/blocks/exact_blocks.h>
 #include <keyblock/python/any_blocks.h>
 #include <keyblock/safety/block_cascade.h>
 #include <keyblock/safety/hanging_group.h>

@@ -52,7 +52,8 @@ namespace Keyblock
   {
     const Block<dim> &b = model.blocks.blocks[block];
     if (!model.scene.safety.wants_block(b.id) || b.is_infinite || b.is_rigid ||
-        b.n_cells == 0 || model.blocks.is_unlike(block))
+        (b.n_cells == 0 && !model.scene.safety.is_by_statics()) ||
+        model.blocks.is_unlike(block))
       return false;
     const BlockClass now =
       b.class_of_stage[std::min<std::size_t>(record.present.number(),

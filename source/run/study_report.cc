@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/warning_list.h>
-#include <keyblock/blocks/block_measures.h>
+#include <keyblock/blocks/exact_blocks.h>
 #include <keyblock/run/study_report.h>
 
 #include <nlohmann/json.hpp>

@@ -46,7 +46,8 @@ namespace Keyblock
         << bar << entries << " end\nend\n";
     Scene<dim> scene;
     scene.read(world, name, {});
-    auto [mesh, blocks]        = make_mesh_for_blocks(world, scene, silent);
+    auto [mesh, blocks] =
+      make_mesh_for_blocks<dim>(world, scene, nullptr, silent);
     const SplitMesh<dim> split = split_mesh(mesh, blocks, scene);
     action(lay_out_bolts(scene, split), split, scene);
   }

@@ -39,7 +39,8 @@ namespace
     MPI_Barrier(world);
     Scene<dim> scene;
     scene.read(world, name, {});
-    auto [mesh, blocks] = make_mesh_for_blocks(world, scene, silent);
+    auto [mesh, blocks] =
+      make_mesh_for_blocks<dim>(world, scene, nullptr, silent);
     std::map<unsigned int, double> dug;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       dug[mesh.excavation_stage[c]] += mesh.cell_volume(c);

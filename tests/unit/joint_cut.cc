@@ -6,8 +6,8 @@
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/blocks/block_geometry.h>
-#include <keyblock/blocks/block_measures.h>
 #include <keyblock/blocks/block_resolution.h>
+#include <keyblock/blocks/exact_blocks.h>
 #include <keyblock/mesh/joint_cut.h>
 #include <keyblock/run/simulation.h>
 
@@ -338,7 +338,8 @@ BOOST_AUTO_TEST_CASE(thin_block_gets_cells_across)
                      " set Size = 2\n set Grading distance = 4\n" + entries);
     Scene<2> scene;
     scene.read(world, name + ".prm", {});
-    const auto [mesh, blocks] = make_mesh_for_blocks(world, scene, silent);
+    const auto [mesh, blocks] =
+      make_mesh_for_blocks<2>(world, scene, nullptr, silent);
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       largest_cell = std::max(largest_cell, mesh.cell_volume(c));
     for (const auto &block : blocks.blocks)

@@ -8,6 +8,9 @@
 
 namespace Keyblock
 {
+  template <int dim>
+  struct ExactBlocks; // blocks/exact_blocks.h
+
   /** Fill Block::width of finite blocks: the least of the distances between two
    * planes that hold the block between them and are parallel to one of its
    * joints or free faces. For convex blocks in 2D that is the least width of
@@ -16,6 +19,10 @@ namespace Keyblock
   void measure_widths(Blocks<dim> &blocks,
                       const Mesh<dim> &mesh,
                       const Scene<dim> &scene);
+
+  /** Difference of a block's volume in the mesh from the exact one that makes
+   * it mesh again, and that is warned of [-]. */
+  constexpr double largest_difference = 0.02;
 
   /** Whether a finite block has fewer cells across than Mesh/Cells across
    * blocks asks for. */
@@ -28,15 +35,20 @@ namespace Keyblock
   }
 
   /**
-   * Mesh the scene and find its blocks. With Mesh/Cells across blocks, mesh it
-   * again with smaller cells where finite blocks near excavations have fewer
-   * cells across, and where rock between joints was too thin to become a block.
-   * For all ranks together; throws as make_mesh().
+   * Mesh the scene and find its blocks. Blocks that only the mesh has closed
+   * are joined to the rock again (weld_phantoms()). The scene is meshed again
+   * with smaller cells where it lacks exposed blocks that the planes bound, or
+   * gives them another volume; with Mesh/Cells across blocks also where finite
+   * blocks near excavations have fewer cells across, and where rock between
+   * joints was too thin to become a block. For all ranks together; throws as
+   * make_mesh().
+   * @param exact null: the scene has no planes
    */
   template <int dim>
   std::pair<Mesh<dim>, Blocks<dim>>
   make_mesh_for_blocks(const Communicator &communicator,
                        const Scene<dim> &scene,
+                       const ExactBlocks<dim> *exact,
                        const dealii::ConditionalOStream &out);
 } // namespace Keyblock
 

@@ -129,9 +129,11 @@ namespace Keyblock
       return unit_length;
     }
 
-    /** Add a plane through a point [m] to the list; one with the same points is
-     * not added again. */
-    PlaneSide add_plane(const Point<dim> &point, const Tensor<1, dim> &normal);
+    /** Add a plane through a point [m] to the list, if there is none yet that
+     * is not farther from it than @p near anywhere in the domain [m]. */
+    PlaneSide add_plane(const Point<dim> &point,
+                        const Tensor<1, dim> &normal,
+                        const double near = 0.);
 
     const ExactPlane<dim> &
     plane(const unsigned int i) const

@@ -13,7 +13,7 @@ namespace Keyblock
    * Warnings about finite blocks that a coarse mesh has changed, one sentence
    * each: faces that lie farther from their joint's plane than half the size of
    * their cell; exposed blocks that only the mesh or only the planes have;
-   * volumes that differ by more than 5 % from those between the planes; curved
+   * volumes that differ by more than 2 % from those between the planes; curved
    * faces of solids; and masses, see warning_of_material_shares(). Empty: none.
    */
   template <int dim>

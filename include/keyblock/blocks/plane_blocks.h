@@ -53,8 +53,9 @@ namespace Keyblock
      * that they nearly meet. */
     double bridging = 1e-6;
 
-    /** Width of openings that do not join two parts of rock, and of faces that
-     * are none: what rounding leaves [m]. */
+    /** What rounding leaves [m]: width of openings that do not join two parts
+     * of rock, and of faces that are none, and distance of planes that are one.
+     */
     double narrow = 1e-6;
 
     /** Volume below which a block is rounding and goes to one beside it: to one
@@ -109,8 +110,7 @@ namespace Keyblock
     std::vector<Block<dim>> blocks;
     std::vector<std::vector<Face>> faces;          ///< of each block
     std::vector<std::vector<FreeFace>> free_faces; ///< of each block
-    double bridging            = 0.; ///< PlaneBlockOptions::bridging [m]
-    double narrow              = 0.; ///< the same [m]
+    PlaneBlockOptions options;
     unsigned int n_stages      = 0;
     unsigned int n_joints_used = 0; ///< pieces that were not left out
 

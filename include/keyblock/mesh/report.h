@@ -106,8 +106,12 @@ namespace Keyblock
     };
     std::set<Gap> gaps;
 
-    /** How often the scene was meshed for Mesh/Cells across blocks. */
+    /** How often the scene was meshed for its blocks. */
     unsigned int n_passes = 1;
+
+    /** Blocks that joints closed in the mesh alone, joined to the rock again.
+     */
+    unsigned int n_welded = 0;
   };
 
   /** Whether joint @p a rules where it shares faces with joint @p b: the
