@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <keyblock/base/errors.h>
 #include <keyblock/blocks/block_geometry.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/bolt_layout.h>
 #include <keyblock/blocks/exact_blocks.h>
 #include <keyblock/blocks/liner_layout.h>
+#include <keyblock/mesh/mesh_marks.h>
 
+#include <algorithm>
 #include <memory>
 #include <tuple>
 
@@ -17,15 +20,10 @@ namespace Keyblock
                       const dealii::ConditionalOStream &out)
   {
     std::unique_ptr<ExactBlocks<dim>> exact;
-    if (!scene.joints.empty())
-      if (auto found = find_exact_blocks(scene, false);
-          std::holds_alternative<ExactBlocks<dim>>(found))
-        exact = std::make_unique<ExactBlocks<dim>>(
-          std::move(std::get<ExactBlocks<dim>>(found)));
     BlockGeometry<dim> result;
     Mesh<dim> mesh;
     std::tie(mesh, result.blocks) =
-      make_mesh_for_blocks(communicator, scene, exact.get(), out);
+      make_mesh_for_blocks(communicator, scene, exact, out);
     result.quality = measure_quality(mesh);
     result.report  = mesh.report;
     if (exact)
@@ -48,6 +46,32 @@ namespace Keyblock
 
 
 
+  namespace
+  {
+    /** Refuse scenes whose excavations contain nothing, or all. */
+    template <int dim>
+    void
+    check_excavations(const ExactBlocks<dim> &exact, const Scene<dim> &scene)
+    {
+      const auto &of_cell = exact.planes.excavation_of_cell;
+      for (unsigned int e = 0; e < scene.excavations.size(); ++e)
+        AssertThrow(std::find(of_cell.begin(), of_cell.end(), e) !=
+                      of_cell.end(),
+                    InputError("The excavation '" + scene.excavations[e]->name +
+                               "' contains no rock that is not excavated "
+                               "before; check 'Excavations/" +
+                               scene.excavations[e]->name +
+                               "' against the domain."));
+      AssertThrow(exact.split.mesh.n_cells() > 0,
+                  InputError("The excavations take away all rock before the "
+                             "first stage; check the section 'Excavations' "
+                             "against 'Domain'."));
+      check_rock_is_left(exact.split.mesh, scene);
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::variant<BlockGeometry<dim>, std::string>
   make_plane_geometry(const Scene<dim> &scene, const bool is_about_exposed)
@@ -56,6 +80,7 @@ namespace Keyblock
     if (std::holds_alternative<std::string>(found))
       return std::get<std::string>(found);
     auto &exact = std::get<ExactBlocks<dim>>(found);
+    check_excavations(exact, scene);
     BlockGeometry<dim> result;
     result.split               = std::move(exact.split);
     result.blocks              = std::move(exact.blocks);

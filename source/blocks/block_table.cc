@@ -132,6 +132,10 @@ namespace Keyblock
                       return !block.is_infinite && block.n_cells > 0;
                     });
     const auto &planes = blocks.comparison;
+    if (planes.is_known)
+      out << "      Joints that end within " << std::setprecision(3)
+          << planes.bridging
+          << " m before another one close against it ('Joints/Bridging').\n";
     // (where exposed blocks differ, a warning has the numbers)
     if (planes.is_known && planes.n_finite != n_finite && planes.lost.empty() &&
         planes.unlike.empty())

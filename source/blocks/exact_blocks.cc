@@ -301,8 +301,9 @@ namespace Keyblock
     const BlockNumbering<dim> numbers(blocks, exact.blocks, match.like);
     numbers.renumber(numbers.number_of_mesh, blocks.block_of_cell);
     numbers.renumber(numbers.number_of_planes, exact.split.block_of_cell);
-    blocks.blocks     = numbers.blocks;
-    blocks.comparison = numbers.comparison;
+    blocks.blocks              = numbers.blocks;
+    blocks.comparison          = numbers.comparison;
+    blocks.comparison.bridging = exact.planes.options.bridging;
   }
 
 

@@ -138,7 +138,7 @@ namespace Keyblock
   std::pair<Mesh<dim>, Blocks<dim>>
   make_mesh_for_blocks(const Communicator &communicator,
                        const Scene<dim> &scene,
-                       const ExactBlocks<dim> *exact,
+                       std::unique_ptr<ExactBlocks<dim>> &exact,
                        const dealii::ConditionalOStream &out)
   {
     std::vector<SizeDemand<dim>> demands; // on rank 0
@@ -149,6 +149,11 @@ namespace Keyblock
       {
         mesh   = make_mesh(communicator, scene, out, demands);
         blocks = find_blocks(mesh, scene);
+        if (n_made == 0 && !scene.joints.empty())
+          if (auto found = find_exact_blocks(scene, false);
+              std::holds_alternative<ExactBlocks<dim>>(found))
+            exact = std::make_unique<ExactBlocks<dim>>(
+              std::move(std::get<ExactBlocks<dim>>(found)));
         if (exact)
           mesh.report.n_welded = weld_phantoms(mesh, blocks, *exact, scene);
         if (++n_made > most_passes ||
@@ -177,11 +182,11 @@ namespace Keyblock
   template std::pair<Mesh<2>, Blocks<2>>
   make_mesh_for_blocks(const Communicator &,
                        const Scene<2> &,
-                       const ExactBlocks<2> *,
+                       std::unique_ptr<ExactBlocks<2>> &,
                        const dealii::ConditionalOStream &);
   template std::pair<Mesh<3>, Blocks<3>>
   make_mesh_for_blocks(const Communicator &,
                        const Scene<3> &,
-                       const ExactBlocks<3> *,
+                       std::unique_ptr<ExactBlocks<3>> &,
                        const dealii::ConditionalOStream &);
 } // namespace Keyblock

@@ -36,7 +36,8 @@ namespace Keyblock
         for (unsigned int c = 0; c < planes.cells.n_cells(); ++c)
           if (is_there(c))
             add_domain_sides(c);
-        mark_boundaries(mesh, scene);
+        if (mesh.n_cells() > 0)
+          mark_boundaries(mesh, scene);
         result.is_between_planes = true;
         mark_places();
         result.interface.group_begin       = {0};

@@ -52,7 +52,8 @@ namespace Keyblock
   comparison_as_json(const Blocks<dim> &blocks)
   {
     const BlockComparison<dim> &comparison = blocks.comparison;
-    Json json                              = {{"finite", comparison.n_finite},
+    Json json                              = {{"bridging", comparison.bridging},
+                                              {"finite", comparison.n_finite},
                                               {"exposed", comparison.n_exposed},
                                               {"lost", Json::array()},
                                               {"unlike", Json::array()}};

@@ -6,6 +6,7 @@
 
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/bolt_layout.h>
+#include <keyblock/blocks/exact_blocks.h>
 
 #include <fstream>
 
@@ -46,8 +47,9 @@ namespace Keyblock
         << bar << entries << " end\nend\n";
     Scene<dim> scene;
     scene.read(world, name, {});
+    std::unique_ptr<ExactBlocks<dim>> exact;
     auto [mesh, blocks] =
-      make_mesh_for_blocks<dim>(world, scene, nullptr, silent);
+      make_mesh_for_blocks<dim>(world, scene, exact, silent);
     const SplitMesh<dim> split = split_mesh(mesh, blocks, scene);
     action(lay_out_bolts(scene, split), split, scene);
   }

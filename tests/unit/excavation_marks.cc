@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <keyblock/blocks/block_resolution.h>
+#include <keyblock/blocks/exact_blocks.h>
 
 #include <cmath>
 #include <fstream>
@@ -39,8 +40,9 @@ namespace
     MPI_Barrier(world);
     Scene<dim> scene;
     scene.read(world, name, {});
+    std::unique_ptr<ExactBlocks<dim>> exact;
     auto [mesh, blocks] =
-      make_mesh_for_blocks<dim>(world, scene, nullptr, silent);
+      make_mesh_for_blocks<dim>(world, scene, exact, silent);
     std::map<unsigned int, double> dug;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       dug[mesh.excavation_stage[c]] += mesh.cell_volume(c);

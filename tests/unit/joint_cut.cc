@@ -338,8 +338,9 @@ BOOST_AUTO_TEST_CASE(thin_block_gets_cells_across)
                      " set Size = 2\n set Grading distance = 4\n" + entries);
     Scene<2> scene;
     scene.read(world, name + ".prm", {});
+    std::unique_ptr<ExactBlocks<2>> exact;
     const auto [mesh, blocks] =
-      make_mesh_for_blocks<2>(world, scene, nullptr, silent);
+      make_mesh_for_blocks<2>(world, scene, exact, silent);
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       largest_cell = std::max(largest_cell, mesh.cell_volume(c));
     for (const auto &block : blocks.blocks)

@@ -4,6 +4,7 @@
 
 #include <keyblock/blocks/blocks.h>
 
+#include <memory>
 #include <utility>
 
 namespace Keyblock
@@ -42,13 +43,14 @@ namespace Keyblock
    * blocks near excavations have fewer cells across, and where rock between
    * joints was too thin to become a block. For all ranks together; throws as
    * make_mesh().
-   * @param exact null: the scene has no planes
+   * @param exact are found once there is a mesh, which checks the scene; null:
+   * it has no joints, or no planes
    */
   template <int dim>
   std::pair<Mesh<dim>, Blocks<dim>>
   make_mesh_for_blocks(const Communicator &communicator,
                        const Scene<dim> &scene,
-                       const ExactBlocks<dim> *exact,
+                       std::unique_ptr<ExactBlocks<dim>> &exact,
                        const dealii::ConditionalOStream &out);
 } // namespace Keyblock
 

@@ -98,6 +98,9 @@ namespace Keyblock
     /** The scene has planes, and a mesh that may leave them. */
     bool is_known = false;
 
+    /** How far joints may end before another one and close against it [m]. */
+    double bridging = 0.;
+
     unsigned int n_finite  = 0; ///< between the planes
     unsigned int n_exposed = 0; ///< of these, after the last stage
 
