@@ -244,9 +244,9 @@ def faults_of_networks(keyblock, scene, folder):
                  "Study/Names=a, b, c, depth", "Study/depth/Entry=Ground/Depth",
                  "Study/depth/Distribution=sequence",
                  "Study/depth/Minimum=120")[0]
-    rows = [[row.split(",")[5:] for row in text.splitlines()[2:]]
-            for text in (table, more)]
-    if [row[-8:] for row in rows[0]] != [row[-8:] for row in rows[1]]:
+    figures = [[row.split(",")[-8:] for row in text.splitlines()[2:]]
+               for text in (table, more)]
+    if figures[0] != figures[1]:
         faults.append("joints drawn anew are not those that are read")
     return faults
 

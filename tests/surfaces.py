@@ -381,7 +381,8 @@ def small_parts():
               "Stages/rest/Unbalanced ratio=0", "Safety factor/Blocks=none"]
     for size in 3., 2., 0.6:
         name = f"size_{size}"
-        printed = blocks(scene, name, common + [f"Mesh/Size={size}"])[1]
+        printed = blocks(scene, name, common + [
+            f"Mesh/Size={size}", f"Mesh/Least size={size}"])[1]
         kept = set(re.findall(r"fault_\d+", printed[printed.index("\nBlocks"):]))
         lost = 12 - len(kept)
         summary = json.loads((FOLDER / name / "summary.json").read_text("utf-8"))

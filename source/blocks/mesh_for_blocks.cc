@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/base/box.h>
+#include <keyblock/base/errors.h>
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/exact_blocks.h>
 #include <keyblock/mesh/excavation_region.h>
@@ -147,7 +148,17 @@ namespace Keyblock
     unsigned int n_made = 0;
     while (true)
       {
-        mesh   = make_mesh(communicator, scene, out, demands);
+        try
+          {
+            mesh = make_mesh(communicator, scene, out, demands);
+          }
+        catch (const InputError &)
+          {
+            // what Gmsh cannot mesh with smaller cells stays as it was
+            if (n_made == 0)
+              throw;
+            break;
+          }
         blocks = find_blocks(mesh, scene);
         if (n_made == 0 && !scene.joints.empty())
           if (auto found = find_exact_blocks(scene, false);
