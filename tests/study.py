@@ -4,6 +4,7 @@
 
 usage: study.py KEYBLOCK SCENE FOLDER
 """
+import json
 import math
 import pathlib
 import shutil
@@ -248,6 +249,20 @@ def faults_of_networks(keyblock, scene, folder):
                for text in (table, more)]
     if figures[0] != figures[1]:
         faults.append("joints drawn anew are not those that are read")
+    # the blocks of a sample have the numbers of those of its run
+    traces = str(pathlib.Path(networks).with_name("networks_2d.prm"))
+    table = study(keyblock, traces, folder / "networks_full", "Study/Samples=2",
+                  "Study/Level=full", "Safety factor/Wanted=0")[0]
+    values = dict(zip(table.splitlines()[1].split(","),
+                      table.splitlines()[3].split(",")))
+    run = json.loads((folder / "networks_full" / "samples" / "2"
+                      / "summary.json").read_text(encoding="utf-8"))
+    block = run["blocks"][int(values["block"]) - 1]
+    for name, found in (("rigid_factor", block["limit_equilibrium"]),
+                        ("factor", block["safety_factor"])):
+        if abs(found[0]["value"] / float(values[name]) - 1) > 1e-9:
+            faults.append(f"{name} of a sample is {values[name]}, in its run "
+                          f"{found[0]['value']}")
     return faults
 
 

@@ -77,7 +77,9 @@ namespace Keyblock
   BlockGeometry<dim>
   ProbabilityStudy<dim>::make_geometry(const Scene<dim> &sample) const
   {
-    auto between_planes = make_plane_geometry(sample, true);
+    // blocks are numbered as those of a run, unless nothing refers to them
+    auto between_planes = make_plane_geometry(
+      sample, changes_geometry() && scene.study.level != StudyLevel::full);
     if (std::holds_alternative<BlockGeometry<dim>>(between_planes))
       return std::move(std::get<BlockGeometry<dim>>(between_planes));
     // each rank for itself

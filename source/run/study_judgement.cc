@@ -152,10 +152,11 @@ namespace Keyblock
     // all blocks of a group fail with it, those that were not asked for, too
     for (const SafetyFactor &found : simulation.factors())
       for (const unsigned int id : found.group)
-        {
-          is_new[id - 1] = false;
-          offer(id - 1, found.value_of_group(), found.stage);
-        }
+        if (id <= is_new.size()) // else the mesh of the run alone has it
+          {
+            is_new[id - 1] = false;
+            offer(id - 1, found.value_of_group(), found.stage);
+          }
   }
 
 

@@ -142,21 +142,12 @@ namespace Keyblock
                const double area,
                const unsigned int other)
       {
-        add_part(result.faces[entry], result.others[entry], own, area, other);
-      }
-
-      void
-      add_part(BlockFace<dim> &face,
-               std::set<unsigned int> &others,
-               const CellFace &own,
-               const double area,
-               const unsigned int other) const
-      {
+        BlockFace<dim> &face = result.faces[entry];
         face.area += area;
         for (const unsigned int v : mesh.face_vertices(own.cell, own.face))
           face.vertices.push_back(mesh.vertices[v]);
         if (other != none)
-          others.insert(other);
+          result.others[entry].insert(other);
       }
 
       /** The pressure of water in a joint, or none. */

@@ -8,7 +8,7 @@
 namespace Keyblock
 {
   /**
-   * The rock between planes as a mesh, for all that asks for surfaces, volumes
+   * The rock between planes as a mesh, for all that needs surfaces, volumes
    * and places of blocks: weights, faces, free faces, bolts. It has a pyramid
    * (in 2D a triangle) from the middle of each convex cell to each
    * quadrilateral part of what it touches. Those are cells whose last vertices
