@@ -45,7 +45,7 @@ namespace Keyblock
         for (unsigned int c = first_cell; c < mesh.cells.size(); ++c)
           if (mesh.cells[c].is_alive)
             {
-              const double quality = mesh.quality(mesh.cells[c].vertices);
+              const double quality = mesh.quality_of(c);
               if (quality < wanted_quality)
                 bad.emplace_back(quality, c);
             }
@@ -53,7 +53,7 @@ namespace Keyblock
         bool has_changed = false;
         for (const auto &[quality, cell] : bad)
           if (mesh.cells[cell].is_alive &&
-              mesh.quality(mesh.cells[cell].vertices) < wanted_quality)
+              mesh.quality_of(cell) < wanted_quality)
             has_changed |= mend(cell);
         if (!has_changed)
           return;
@@ -112,26 +112,15 @@ namespace Keyblock
 
 
 
-  /** Normal of the facet opposite to @p vertex in the worst cell around it,
-   * towards the vertex. */
+  /** Normal of the facet of a cell opposite to @p vertex, towards it. */
   template <int dim>
   Tensor<1, dim>
-  MeshImprovement<dim>::away_from_worst(const unsigned int vertex) const
+  MeshImprovement<dim>::away_from(const unsigned int cell,
+                                  const unsigned int vertex) const
   {
-    unsigned int worst = no_index;
-    double least       = 1e300;
-    for (const unsigned int cell : mesh.cells_at[vertex])
-      {
-        const double quality = mesh.quality(mesh.cells[cell].vertices);
-        if (quality < least)
-          {
-            least = quality;
-            worst = cell;
-          }
-      }
-    const CellVertices &v = mesh.cells[worst].vertices;
+    const CellVertices &v = mesh.cells[cell].vertices;
     const unsigned int i  = std::find(v.begin(), v.end(), vertex) - v.begin();
-    const Facet f         = mesh.facet(worst, i);
+    const Facet f         = mesh.facet(cell, i);
     Tensor<1, dim> normal;
     if constexpr (dim == 2)
       normal = cross_product_2d(mesh.vertices[f[1]] - mesh.vertices[f[0]]);
@@ -171,13 +160,14 @@ namespace Keyblock
     mean /= weight;
 
     const double size  = mesh.target_size[vertex];
-    const double start = mesh.least_quality_at(vertex);
-    double best        = start;
+    auto qualities     = mesh.qualities_at(vertex);
+    const double start = qualities.front().first;
     for (unsigned int move = 0; move < n_moves; ++move)
       {
-        Tensor<1, dim> direction = move < 2   ? mean - mesh.vertices[vertex]
-                                   : move < 5 ? away_from_worst(vertex)
-                                              : random_direction();
+        Tensor<1, dim> direction =
+          move < 2   ? mean - mesh.vertices[vertex]
+          : move < 5 ? away_from(qualities.front().second, vertex)
+                     : random_direction();
         direction         = SimplexMesh<dim>::free_part(direction, locked);
         const double norm = direction.norm();
         if (norm < 1e-9 * size)
@@ -185,16 +175,19 @@ namespace Keyblock
         const double length =
           move < 2 ? norm / (move + 1) : move_lengths[move % 3] * size;
         const Point<dim> before = mesh.vertices[vertex];
-        mesh.vertices[vertex] +=
-          std::min(length, longest_move * size) / norm * direction;
+        mesh.move(vertex,
+                  before +
+                    std::min(length, longest_move * size) / norm * direction);
         mesh.return_to_circles(vertex);
-        const double now = mesh.least_quality_at(vertex, best);
-        if (now > best && (!may_leave || is_near_its_joints(vertex)))
-          best = now;
+        if (auto now = mesh.better_qualities(qualities);
+            !now.empty() && (!may_leave || is_near_its_joints(vertex)))
+          qualities = std::move(now);
         else
-          mesh.vertices[vertex] = before;
+          mesh.move(vertex, before);
       }
-    return best > gain * start;
+    for (const auto &[quality, cell] : qualities)
+      mesh.cells[cell].quality = quality;
+    return qualities.front().first > gain * start;
   }
 
 
@@ -281,19 +274,21 @@ namespace Keyblock
                 if (way.norm() < (is_joint ? least_sine : surface.least_sine()))
                   continue;
                 if (is_joint)
-                  mesh.vertices[v] -= part * distance / way.norm_square() * way;
+                  mesh.move(v,
+                            mesh.vertices[v] -
+                              part * distance / way.norm_square() * way);
                 locked.push_back(way / way.norm());
               }
         mesh.return_to_circles(v);
         if (height < flat_enough * size ||
             mesh.vertices[v].distance(before) > longest_move * size)
           {
-            mesh.vertices[v] = before;
+            mesh.move(v, before);
             return;
           }
         if (mesh.least_quality_at(v) >= std::min(quality / gain, least_quality))
           return;
-        mesh.vertices[v] = before;
+        mesh.move(v, before);
       }
   }
 

@@ -35,7 +35,7 @@ namespace Keyblock
             if (w != a && w != b)
               opposite = w;
           const double before =
-            std::min(mesh.quality(v), mesh.quality(mesh.cells[other].vertices));
+            std::min(mesh.quality_of(cell), mesh.quality_of(other));
           const CellVertices first{{apex, a, opposite}},
             second{{apex, opposite, b}};
           if (std::min(mesh.quality(first), mesh.quality(second)) >
@@ -115,7 +115,7 @@ namespace Keyblock
               if (v != a && v != b &&
                   mesh.marks.count(mesh.sorted(Facet{{a, b, v}})) > 0)
                 return false;
-            before = std::min(before, mesh.quality(mesh.cells[cell].vertices));
+            before = std::min(before, mesh.quality_of(cell));
           }
         const std::vector<unsigned int> ring = ring_around(a, b, cells);
         if (ring.empty())
@@ -201,8 +201,7 @@ namespace Keyblock
           if (mesh.volume({{top, bottom, f[0], f[1]}}) < 0.)
             std::swap(f[0], f[1]);
           const double before =
-            std::min(mesh.quality(mesh.cells[cell].vertices),
-                     mesh.quality(mesh.cells[other].vertices));
+            std::min(mesh.quality_of(cell), mesh.quality_of(other));
           std::array<CellVertices, 3> created;
           double after = 1e300;
           for (unsigned int j = 0; j < 3; ++j)

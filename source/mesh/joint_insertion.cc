@@ -210,10 +210,10 @@ namespace Keyblock
           return;
         const Point<dim> old = mesh.vertices[v];
         const double before  = mesh.least_quality_at(v);
-        mesh.vertices[v] -= distance[v] / way.norm_square() * way;
+        mesh.move(v, old - distance[v] / way.norm_square() * way);
         mesh.return_to_circles(v);
         if (mesh.least_quality_at(v) < std::min(least_quality_of_snap, before))
-          mesh.vertices[v] = old;
+          mesh.move(v, old);
         else
           distance[v] = sheet.distance(mesh.vertices[v]);
       }

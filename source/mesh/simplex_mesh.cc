@@ -204,12 +204,24 @@ namespace Keyblock
 
   template <int dim>
   void
+  SimplexMesh<dim>::move(const unsigned int vertex, const Point<dim> &place)
+  {
+    vertices[vertex] = place;
+    for (const unsigned int cell : cells_at[vertex])
+      cells[cell].quality = unknown;
+  }
+
+
+
+  template <int dim>
+  void
   SimplexMesh<dim>::return_to_circles(const unsigned int vertex)
   {
     for (const unsigned int s : bound_to[vertex])
       if (surfaces[s].radius > 0.)
-        vertices[vertex] -= surfaces[s].distance(vertices[vertex]) *
-                            surfaces[s].normal_at(vertices[vertex]);
+        move(vertex,
+             vertices[vertex] - surfaces[s].distance(vertices[vertex]) *
+                                  surfaces[s].normal_at(vertices[vertex]));
   }
 
 

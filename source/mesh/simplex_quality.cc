@@ -148,27 +148,73 @@ namespace Keyblock
 
   template <int dim>
   double
-  SimplexMesh<dim>::least_quality_at(const unsigned int vertex,
-                                     const double bound) const
+  SimplexMesh<dim>::quality_of(const unsigned int cell) const
+  {
+    if (cells[cell].quality == unknown)
+      cells[cell].quality = quality(cells[cell].vertices);
+    return cells[cell].quality;
+  }
+
+
+
+  template <int dim>
+  double
+  SimplexMesh<dim>::least_quality_at(const unsigned int vertex) const
   {
     double least = 1e300;
     for (const unsigned int cell : cells_at[vertex])
-      {
-        least = std::min(least, quality(cells[cell].vertices, bound));
-        if (least <= bound)
-          break;
-      }
+      least = std::min(least, quality_of(cell));
     return least;
+  }
+
+
+
+  template <int dim>
+  typename SimplexMesh<dim>::Qualities
+  SimplexMesh<dim>::qualities_at(const unsigned int vertex) const
+  {
+    Qualities result;
+    for (const unsigned int cell : cells_at[vertex])
+      result.emplace_back(quality_of(cell), cell);
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+
+
+  template <int dim>
+  typename SimplexMesh<dim>::Qualities
+  SimplexMesh<dim>::better_qualities(const Qualities &before) const
+  {
+    Qualities result;
+    const double least = before.front().first;
+    for (const auto &[old, cell] : before)
+      {
+        const double now = quality(cells[cell].vertices, least);
+        if (now <= least)
+          return {};
+        result.emplace_back(now, cell);
+      }
+    std::sort(result.begin(), result.end());
+    return result;
   }
 
   template double SimplexMesh<2>::volume(const CellVertices &) const;
   template double SimplexMesh<2>::quality(const CellVertices &,
                                           const double) const;
-  template double SimplexMesh<2>::least_quality_at(const unsigned int,
-                                                   const double) const;
+  template double SimplexMesh<2>::quality_of(const unsigned int) const;
+  template double SimplexMesh<2>::least_quality_at(const unsigned int) const;
+  template SimplexMesh<2>::Qualities
+  SimplexMesh<2>::qualities_at(const unsigned int) const;
+  template SimplexMesh<2>::Qualities
+  SimplexMesh<2>::better_qualities(const Qualities &) const;
   template double SimplexMesh<3>::volume(const CellVertices &) const;
   template double SimplexMesh<3>::quality(const CellVertices &,
                                           const double) const;
-  template double SimplexMesh<3>::least_quality_at(const unsigned int,
-                                                   const double) const;
+  template double SimplexMesh<3>::quality_of(const unsigned int) const;
+  template double SimplexMesh<3>::least_quality_at(const unsigned int) const;
+  template SimplexMesh<3>::Qualities
+  SimplexMesh<3>::qualities_at(const unsigned int) const;
+  template SimplexMesh<3>::Qualities
+  SimplexMesh<3>::better_qualities(const Qualities &) const;
 } // namespace Keyblock

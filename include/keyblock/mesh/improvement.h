@@ -61,7 +61,8 @@ namespace Keyblock
 
     // by moving a vertex
     bool smooth(const unsigned int vertex);
-    Tensor<1, dim> away_from_worst(const unsigned int vertex) const;
+    Tensor<1, dim> away_from(const unsigned int cell,
+                             const unsigned int vertex) const;
     Tensor<1, dim> random_direction();
 
     // by joining two vertices

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -34,8 +35,11 @@ namespace Keyblock
     struct Cell
     {
       CellVertices vertices;
-      bool is_alive = true;
+      bool is_alive          = true;
+      mutable double quality = unknown; ///< until a vertex moves
     };
+
+    static constexpr double unknown = -std::numeric_limits<double>::infinity();
 
     /** That a facet lies on a surface. Its positive side is where the
      * right-hand normal of the sorted vertices points to (in 2D the left of the
@@ -121,10 +125,23 @@ namespace Keyblock
      */
     double quality(const CellVertices &cell, const double bound = -1e300) const;
 
-    /** Least quality of the cells around a vertex; once it is not above
-     * @p bound, some value not above it. */
-    double least_quality_at(const unsigned int vertex,
-                            const double bound = -1e300) const;
+    /** The same of a cell of the mesh, computed once. */
+    double quality_of(const unsigned int cell) const;
+
+    /** Least quality of the cells around a vertex. */
+    double least_quality_at(const unsigned int vertex) const;
+
+    /** Cells with their qualities, the worst first: the move of a vertex that
+     * is no use mostly shows there. */
+    using Qualities = std::vector<std::pair<double, unsigned int>>;
+
+    Qualities qualities_at(const unsigned int vertex) const;
+
+    /** The qualities of these cells after a vertex moved; empty unless all are
+     * above the least one of before. */
+    Qualities better_qualities(const Qualities &before) const;
+
+    void move(const unsigned int vertex, const Point<dim> &place);
 
     /** Orthonormal directions in which the vertex must not move: normals of
      * the surfaces it is bound to, those of the model first, and unless it
