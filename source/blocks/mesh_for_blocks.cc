@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Keyblock
 {
@@ -146,11 +147,22 @@ namespace Keyblock
     Mesh<dim> mesh;
     Blocks<dim> blocks;
     unsigned int n_made = 0;
+    double narrowest    = std::numeric_limits<double>::infinity();
+    if (!scene.joints.empty())
+      if (auto found = find_exact_blocks(scene, false);
+          std::holds_alternative<ExactBlocks<dim>>(found))
+        {
+          exact = std::make_unique<ExactBlocks<dim>>(
+            std::move(std::get<ExactBlocks<dim>>(found)));
+          for (const Block<dim> &block : exact->blocks.blocks)
+            if (!block.is_infinite)
+              narrowest = std::min(narrowest, block.width);
+        }
     while (true)
       {
         try
           {
-            mesh = make_mesh(communicator, scene, out, demands);
+            mesh = make_mesh(communicator, scene, out, demands, narrowest);
           }
         catch (const InputError &)
           {
@@ -160,11 +172,6 @@ namespace Keyblock
             break;
           }
         blocks = find_blocks(mesh, scene);
-        if (n_made == 0 && !scene.joints.empty())
-          if (auto found = find_exact_blocks(scene, false);
-              std::holds_alternative<ExactBlocks<dim>>(found))
-            exact = std::make_unique<ExactBlocks<dim>>(
-              std::move(std::get<ExactBlocks<dim>>(found)));
         if (exact)
           mesh.report.n_welded = weld_phantoms(mesh, blocks, *exact, scene);
         if (++n_made > most_passes ||

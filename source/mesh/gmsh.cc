@@ -243,9 +243,10 @@ namespace Keyblock
       return to_marked_mesh(mesh);
     }
 
-    /** Refuse a mesh that does not fit into memory before it is made. */
+    /** Refuse a mesh that does not fit into memory before it is made; returns
+     * the smallest size wanted [m]. */
     template <int dim>
-    void
+    double
     require_estimated_size(const Scene<dim> &scene,
                            const dealii::ConditionalOStream &out,
                            const std::vector<SizeDemand<dim>> &demands)
@@ -263,7 +264,7 @@ namespace Keyblock
       // more cannot be: mostly it is seen at once that all is well
       if (part * volume_of_box / std::pow(size.smallest(), double(dim)) <
           many_cells)
-        return;
+        return size.smallest();
       const double n =
         part * estimate_cells(size,
                               outline.lower,
@@ -283,6 +284,7 @@ namespace Keyblock
                                << " times as large, or the domain smaller";
                           return text.str();
                         });
+      return size.smallest();
     }
 
     template <int dim>
@@ -306,10 +308,11 @@ namespace Keyblock
   Mesh<dim>
   make_gmsh_mesh(const Scene<dim> &scene,
                  const dealii::ConditionalOStream &out,
-                 const std::vector<SizeDemand<dim>> &demands)
+                 const std::vector<SizeDemand<dim>> &demands,
+                 const double narrowest)
   {
-    require_estimated_size(scene, out, demands);
-    const double snap = scene.meshing.snap;
+    const double smallest = require_estimated_size(scene, out, demands);
+    const double snap     = scene.meshing.snap;
     std::ostringstream remedy;
     remedy << "change 'Mesh/Size' (" << scene.meshing.size
            << " m), move joints and excavations that almost touch each other"
@@ -319,10 +322,18 @@ namespace Keyblock
     Mesh<dim> exact;
     double thinness     = 0.; // of the exact mesh, if there is one
     const bool is_exact = snap == 0. || scene.joints.empty();
-    reason              = reason_of_failure([&]() {
-      exact =
-        to_mesh(mesh_exactly(scene, demands, is_exact), scene, remedy.str());
-    });
+    if (!is_exact && narrowest < acceptable_part * least_thinness * smallest)
+      {
+        std::ostringstream text;
+        text << "the narrowest block between them is " << std::setprecision(2)
+             << narrowest << " m wide";
+        reason = text.str();
+      }
+    else
+      reason = reason_of_failure([&]() {
+        exact =
+          to_mesh(mesh_exactly(scene, demands, is_exact), scene, remedy.str());
+      });
     if (reason.empty())
       {
         exact.report.way = "exact";
@@ -365,8 +376,10 @@ namespace Keyblock
 
   template Mesh<2> make_gmsh_mesh(const Scene<2> &,
                                   const dealii::ConditionalOStream &,
-                                  const std::vector<SizeDemand<2>> &);
+                                  const std::vector<SizeDemand<2>> &,
+                                  const double);
   template Mesh<3> make_gmsh_mesh(const Scene<3> &,
                                   const dealii::ConditionalOStream &,
-                                  const std::vector<SizeDemand<3>> &);
+                                  const std::vector<SizeDemand<3>> &,
+                                  const double);
 } // namespace Keyblock

@@ -259,14 +259,15 @@ namespace Keyblock
   make_mesh(const Communicator &communicator,
             const Scene<dim> &scene,
             const dealii::ConditionalOStream &out,
-            const std::vector<SizeDemand<dim>> &demands)
+            const std::vector<SizeDemand<dim>> &demands,
+            const double narrowest)
   {
     Mesh<dim> mesh;
     communicator.on_root([&]() {
       if (scene.meshing.generator == MeshGenerator::structured)
         mesh = make_structured_mesh(scene);
       else if (scene.meshing.generator == MeshGenerator::gmsh)
-        mesh = make_gmsh_mesh(scene, out, demands);
+        mesh = make_gmsh_mesh(scene, out, demands, narrowest);
       else
         mesh = read_mesh(scene);
       if (scene.meshing.is_refined())
@@ -305,9 +306,11 @@ namespace Keyblock
   template Mesh<2> make_mesh(const Communicator &,
                              const Scene<2> &,
                              const dealii::ConditionalOStream &,
-                             const std::vector<SizeDemand<2>> &);
+                             const std::vector<SizeDemand<2>> &,
+                             const double);
   template Mesh<3> make_mesh(const Communicator &,
                              const Scene<3> &,
                              const dealii::ConditionalOStream &,
-                             const std::vector<SizeDemand<3>> &);
+                             const std::vector<SizeDemand<3>> &,
+                             const double);
 } // namespace Keyblock

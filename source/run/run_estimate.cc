@@ -19,7 +19,8 @@ namespace Keyblock
 {
   namespace
   {
-    // for so long steps are timed [s], not more of them, and not the first ones
+    // for so long steps are made [s], not more of them, and the first ones are
+    // not timed unless they take as long
     constexpr double timed_seconds    = 0.7;
     constexpr unsigned int most_timed = 2000, n_warm_up = 10;
 
@@ -175,22 +176,26 @@ namespace Keyblock
       stage.is_quasi_static()
         ? std::max(model.scene.output.history_interval, 25u)
         : model.scene.output.history_interval;
-    double begin         = 0.;
+    const double first   = processor_seconds();
+    double begin         = first;
     unsigned int n_steps = 0;
     for (unsigned int i = 0; i < most_timed; ++i)
       {
         if (i == n_warm_up)
-          begin = processor_seconds();
+          {
+            begin   = processor_seconds();
+            n_steps = 0;
+          }
         model.step->advance(i % interval == 0);
         if (i % interval == 0)
           run.monitors.sample(*model.step, progress.index);
-        n_steps += i >= n_warm_up;
-        if (i > n_warm_up && model.communicator.on_any(
-                               processor_seconds() - begin > timed_seconds))
+        ++n_steps;
+        if (model.communicator.on_any(processor_seconds() - first >
+                                      timed_seconds))
           break;
       }
-    seconds_per_step = model.communicator.max(processor_seconds() - begin) /
-                       std::max(1u, n_steps);
+    seconds_per_step =
+      model.communicator.max(processor_seconds() - begin) / n_steps;
   }
 
 

@@ -43,8 +43,7 @@ namespace Keyblock
    * blocks near excavations have fewer cells across, and where rock between
    * joints was too thin to become a block. For all ranks together; throws as
    * make_mesh().
-   * @param exact are found once there is a mesh, which checks the scene; null:
-   * it has no joints, or no planes
+   * @param exact are found before; null: there are no joints, or no planes
    */
   template <int dim>
   std::pair<Mesh<dim>, Blocks<dim>>

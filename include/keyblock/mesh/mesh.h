@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <iosfwd>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -211,12 +212,16 @@ namespace Keyblock
    * @param out where a mesh that takes a while is announced
    * @param demands smaller cells than the section Mesh asks for (Gmsh only,
    * known on rank 0)
+   * @param narrowest width of the narrowest block, if it is known [m]: Gmsh is
+   * not asked for exact cells that cannot but be thin
    */
   template <int dim>
-  Mesh<dim> make_mesh(const Communicator &communicator,
-                      const Scene<dim> &scene,
-                      const dealii::ConditionalOStream &out,
-                      const std::vector<SizeDemand<dim>> &demands = {});
+  Mesh<dim>
+  make_mesh(const Communicator &communicator,
+            const Scene<dim> &scene,
+            const dealii::ConditionalOStream &out,
+            const std::vector<SizeDemand<dim>> &demands = {},
+            const double narrowest = std::numeric_limits<double>::infinity());
 
   /** Equal cells in a box or parallelepiped. */
   template <int dim>
@@ -226,11 +231,12 @@ namespace Keyblock
    * made by Gmsh in this process, or, where that would give cells too thin or
    * fails, with the joints cut into a mesh of the rest (cut_joints()). Throws
    * InputError if Mesh/Snap forbids to cut what cannot be exact.
-   * @param out as in make_mesh() */
+   * The parameters are those of make_mesh(). */
   template <int dim>
   Mesh<dim> make_gmsh_mesh(const Scene<dim> &scene,
                            const dealii::ConditionalOStream &out,
-                           const std::vector<SizeDemand<dim>> &demands);
+                           const std::vector<SizeDemand<dim>> &demands,
+                           const double narrowest);
 
   /** A mesh from Domain/File, non-quadrilateral cells cut. */
   template <int dim>
