@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
 namespace Keyblock
 {
@@ -89,6 +91,38 @@ namespace Keyblock
       }
   }
 
+  template <int dim>
+  double
+  deviation(const Block<dim> &of_mesh,
+            const double volume,
+            const std::map<unsigned int, double> &joint_area,
+            const Scene<dim> &scene)
+  {
+    const auto whole = [&scene](const unsigned int j) {
+      const Joint<dim> &joint = *scene.joints[j];
+      return joint.surface.empty() ? joint.name : joint.surface;
+    };
+    std::set<std::string> touched;
+    for (const auto &entry : of_mesh.joint_area)
+      touched.insert(whole(entry.first));
+    double all = 0., missing = 0.;
+    for (const auto &[joint, area] : joint_area)
+      {
+        all += area;
+        missing += touched.count(whole(joint)) == 0 ? area : 0.;
+      }
+    return std::max(std::abs(of_mesh.volume / volume - 1.),
+                    all > 0. ? missing / all : 0.);
+  }
+
+  template double deviation(const Block<2> &,
+                            const double,
+                            const std::map<unsigned int, double> &,
+                            const Scene<2> &);
+  template double deviation(const Block<3> &,
+                            const double,
+                            const std::map<unsigned int, double> &,
+                            const Scene<3> &);
   template void measure_widths(Blocks<2> &, const Mesh<2> &, const Scene<2> &);
   template void measure_widths(Blocks<3> &, const Mesh<3> &, const Scene<3> &);
 } // namespace Keyblock

@@ -3,6 +3,7 @@
 #include <keyblock/blocks/block_resolution.h>
 #include <keyblock/blocks/blocks.h>
 #include <keyblock/blocks/exact_blocks.h>
+#include <keyblock/scene/near_misses.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,9 @@ namespace Keyblock
   {
     /** So many joints of an infinite block are named. */
     constexpr unsigned int most_joints_of_infinite = 8;
+
+    /** So many gaps beyond the bridging are listed. */
+    constexpr unsigned int most_misses = 5;
 
     /** So many blocks are listed. */
     constexpr unsigned int most_blocks = 40;
@@ -133,9 +137,23 @@ namespace Keyblock
                     });
     const auto &planes = blocks.comparison;
     if (planes.is_known)
-      out << "      Joints that end within " << std::setprecision(3)
-          << planes.bridging
-          << " m before another one close against it ('Joints/Bridging').\n";
+      {
+        out << "      Joints that end within " << std::setprecision(3)
+            << planes.bridging
+            << " m before another one close against it ('Joints/Bridging').\n";
+        const auto misses = list_near_misses(scene,
+                                             planes.bridging,
+                                             just_beyond * planes.bridging);
+        for (unsigned int i = 0; i < misses.size() && i < most_misses; ++i)
+          out << (i == 0 ? "      Farther away, and open: " : ", ")
+              << scene.joints[misses[i].joint]->name << " ends "
+              << misses[i].gap << " m before "
+              << scene.joints[misses[i].other]->name;
+        if (misses.size() > most_misses)
+          out << ", and " << misses.size() - most_misses << " more";
+        if (!misses.empty())
+          out << ".\n";
+      }
     // (where exposed blocks differ, a warning has the numbers)
     if (planes.is_known && planes.n_finite != n_finite && planes.lost.empty() &&
         planes.unlike.empty())

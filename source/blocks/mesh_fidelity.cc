@@ -135,7 +135,7 @@ namespace Keyblock
           if (block.is_infinite || !block.exact.is_known || block.n_cells == 0)
             continue;
           const double difference =
-            std::abs(block.volume / block.exact.volume - 1.);
+            deviation(block, block.exact.volume, block.exact.joint_area, scene);
           if (difference <= largest_difference)
             continue;
           ids.push_back(std::to_string(block.id));
@@ -147,11 +147,17 @@ namespace Keyblock
         }
       if (ids.empty())
         return "";
+      std::vector<std::string> faces;
+      for (const auto &[joint, area] : most->exact.joint_area)
+        if (most->joint_area.count(joint) == 0 &&
+            scene.joints[joint]->surface.empty())
+          faces.push_back(scene.joints[joint]->name);
       const std::string unit = dim == 2 ? " m2" : " m3";
       return "The mesh gives block " + std::to_string(most->id) + " " +
              text_of(most->volume, 4) + unit + " instead of " +
              text_of(most->exact.volume, 4) + unit +
              " between the planes of its joints" +
+             (faces.empty() ? "" : ", and no face on " + list_some(faces)) +
              (ids.size() > 1
                 ? " (more than 2 % off are blocks " + list_some(ids) + ")"
                 : "") +

@@ -369,7 +369,7 @@ namespace Keyblock
   {
     const double side = longest_side(scene.box);
     PlaneBlockOptions options;
-    options.bridging = scene.bridging < 0. ? 1e-5 * side : scene.bridging;
+    options.bridging = bridging_length(scene.bridging, side);
     options.narrow   = 1e-8 * side;
     options.dust     = std::pow(1e-5 * side, dim);
     return options;

@@ -308,10 +308,9 @@ namespace Keyblock
   Mesh<dim>
   make_gmsh_mesh(const Scene<dim> &scene,
                  const dealii::ConditionalOStream &out,
-                 const std::vector<SizeDemand<dim>> &demands,
-                 const double narrowest)
+                 const MeshWishes<dim> &wishes)
   {
-    const double smallest = require_estimated_size(scene, out, demands);
+    const double smallest = require_estimated_size(scene, out, wishes.demands);
     const double snap     = scene.meshing.snap;
     std::ostringstream remedy;
     remedy << "change 'Mesh/Size' (" << scene.meshing.size
@@ -320,19 +319,22 @@ namespace Keyblock
 
     std::string reason;
     Mesh<dim> exact;
-    double thinness     = 0.; // of the exact mesh, if there is one
-    const bool is_exact = snap == 0. || scene.joints.empty();
-    if (!is_exact && narrowest < acceptable_part * least_thinness * smallest)
+    double thinness = 0.; // of the exact mesh, if there is one
+    const bool is_exact =
+      snap == 0. || scene.joints.empty() || wishes.must_be_exact;
+    if (!is_exact &&
+        wishes.narrowest < acceptable_part * least_thinness * smallest)
       {
         std::ostringstream text;
         text << "the narrowest block between them is " << std::setprecision(2)
-             << narrowest << " m wide";
+             << wishes.narrowest << " m wide";
         reason = text.str();
       }
     else
       reason = reason_of_failure([&]() {
-        exact =
-          to_mesh(mesh_exactly(scene, demands, is_exact), scene, remedy.str());
+        exact = to_mesh(mesh_exactly(scene, wishes.demands, is_exact),
+                        scene,
+                        remedy.str());
       });
     if (reason.empty())
       {
@@ -354,7 +356,9 @@ namespace Keyblock
     Mesh<dim> mesh;
     MeshReport<dim> report;
     const std::string failure = reason_of_failure([&]() {
-      mesh = to_mesh(mesh_by_cuts(scene, demands, report), scene, remedy.str());
+      mesh = to_mesh(mesh_by_cuts(scene, wishes.demands, report),
+                     scene,
+                     remedy.str());
     });
     if (thinness > 0. &&
         (!failure.empty() ||
@@ -376,10 +380,8 @@ namespace Keyblock
 
   template Mesh<2> make_gmsh_mesh(const Scene<2> &,
                                   const dealii::ConditionalOStream &,
-                                  const std::vector<SizeDemand<2>> &,
-                                  const double);
+                                  const MeshWishes<2> &);
   template Mesh<3> make_gmsh_mesh(const Scene<3> &,
                                   const dealii::ConditionalOStream &,
-                                  const std::vector<SizeDemand<3>> &,
-                                  const double);
+                                  const MeshWishes<3> &);
 } // namespace Keyblock

@@ -2,6 +2,7 @@
 #include <keyblock/mesh/gmsh_model.h>
 #include <keyblock/mesh/polyhedron.h>
 #include <keyblock/scene/joint_extent.h>
+#include <keyblock/scene/near_misses.h>
 #include <keyblock/scene/section_axis.h>
 #include <keyblock/scene/solid_file.h>
 
@@ -16,6 +17,9 @@ namespace Keyblock
   {
     namespace occ = gmsh::model::occ;
     using gmsh::vectorpair;
+
+    /** Gaps that OpenCASCADE closes by itself, over the size of the domain. */
+    constexpr double rounding = 1e-8;
 
     template <int dim>
     Point<3>
@@ -324,6 +328,13 @@ namespace Keyblock
     std::vector<vectorpair> pieces_of;
     if (!tools.empty())
       {
+        const Tensor<1, 3> sides = high - low;
+        const double side        = std::max({sides[0], sides[1], sides[2]});
+        const double bridging = bridging_length(scene.network.bridging, side);
+        // what ends so near to another joint ends on it
+        if (with_joints &&
+            !list_near_misses(scene, rounding * side, bridging).empty())
+          gmsh::option::setNumber("Geometry.ToleranceBoolean", bridging);
         occ::fragment(model.domain, tools, all_pieces, pieces_of);
         model.domain = pieces_of[0];
       }

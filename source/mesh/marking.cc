@@ -259,15 +259,14 @@ namespace Keyblock
   make_mesh(const Communicator &communicator,
             const Scene<dim> &scene,
             const dealii::ConditionalOStream &out,
-            const std::vector<SizeDemand<dim>> &demands,
-            const double narrowest)
+            const MeshWishes<dim> &wishes)
   {
     Mesh<dim> mesh;
     communicator.on_root([&]() {
       if (scene.meshing.generator == MeshGenerator::structured)
         mesh = make_structured_mesh(scene);
       else if (scene.meshing.generator == MeshGenerator::gmsh)
-        mesh = make_gmsh_mesh(scene, out, demands, narrowest);
+        mesh = make_gmsh_mesh(scene, out, wishes);
       else
         mesh = read_mesh(scene);
       if (scene.meshing.is_refined())
@@ -306,11 +305,9 @@ namespace Keyblock
   template Mesh<2> make_mesh(const Communicator &,
                              const Scene<2> &,
                              const dealii::ConditionalOStream &,
-                             const std::vector<SizeDemand<2>> &,
-                             const double);
+                             const MeshWishes<2> &);
   template Mesh<3> make_mesh(const Communicator &,
                              const Scene<3> &,
                              const dealii::ConditionalOStream &,
-                             const std::vector<SizeDemand<3>> &,
-                             const double);
+                             const MeshWishes<3> &);
 } // namespace Keyblock

@@ -57,8 +57,8 @@ namespace Keyblock
     print_way(std::ostream &out, const MeshReport<dim> &report)
     {
       if (report.n_passes > 1)
-        out << "        meshed " << report.n_passes
-            << " times, with smaller cells at blocks that need them\n";
+        out << "        made " << report.n_passes
+            << " times to get its blocks right\n";
       if (report.n_welded > 0)
         out << "        " << report.n_welded << " block"
             << (report.n_welded == 1 ? "" : "s")

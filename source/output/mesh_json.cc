@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/output/mesh_json.h>
+#include <keyblock/scene/near_misses.h>
 
 #include <string>
 #include <vector>
@@ -49,14 +50,21 @@ namespace Keyblock
 
   template <int dim>
   Json
-  comparison_as_json(const Blocks<dim> &blocks)
+  comparison_as_json(const Blocks<dim> &blocks, const Scene<dim> &scene)
   {
     const BlockComparison<dim> &comparison = blocks.comparison;
     Json json                              = {{"bridging", comparison.bridging},
                                               {"finite", comparison.n_finite},
                                               {"exposed", comparison.n_exposed},
+                                              {"gaps", Json::array()},
                                               {"lost", Json::array()},
                                               {"unlike", Json::array()}};
+    for (const auto &miss : list_near_misses(scene,
+                                             comparison.bridging,
+                                             just_beyond * comparison.bridging))
+      json["gaps"].push_back({{"joint", scene.joints[miss.joint]->name},
+                              {"before", scene.joints[miss.other]->name},
+                              {"width", miss.gap}});
     for (const unsigned int b : comparison.lost)
       json["lost"].push_back(
         {{"id", blocks.blocks[b].id},
@@ -69,6 +77,6 @@ namespace Keyblock
 
   template Json mesh_report_as_json(const MeshReport<2> &, const Scene<2> &);
   template Json mesh_report_as_json(const MeshReport<3> &, const Scene<3> &);
-  template Json comparison_as_json(const Blocks<2> &);
-  template Json comparison_as_json(const Blocks<3> &);
+  template Json comparison_as_json(const Blocks<2> &, const Scene<2> &);
+  template Json comparison_as_json(const Blocks<3> &, const Scene<3> &);
 } // namespace Keyblock

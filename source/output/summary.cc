@@ -292,7 +292,7 @@ namespace Keyblock
     if (!mesh_report.way.empty())
       root["mesh"] = mesh_report_as_json(mesh_report, scene);
     if (blocks.comparison.is_known)
-      root["between_planes"] = comparison_as_json(blocks);
+      root["between_planes"] = comparison_as_json(blocks, scene);
     root["run"]                      = run_as_json(run);
     root["run"]["peak_memory_bytes"] = memory;
     root["warnings"]                 = run.warnings;

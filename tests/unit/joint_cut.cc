@@ -10,6 +10,7 @@
 #include <keyblock/blocks/exact_blocks.h>
 #include <keyblock/mesh/joint_cut.h>
 #include <keyblock/run/simulation.h>
+#include <keyblock/scene/near_misses.h>
 
 #include <cmath>
 #include <fstream>
@@ -295,6 +296,60 @@ BOOST_AUTO_TEST_CASE(area_of_a_joint_that_ends_in_a_block)
              1e-9 * length);
 }
 
+namespace
+{
+  /** Blocks of a slanted joint across the domain, and of another one from the
+   * top to a @p gap [m] above it. */
+  template <int dim>
+  void
+  check_joint_that_ends_before_another(const double gap, const bool closes)
+  {
+    const std::string from = std::to_string(5.7 + gap);
+    const std::string name = write_scene<dim>(
+      "subsection Joints\n set Bridging = 1e-4\n set Names = a, b\n"
+      " subsection a\n  set Point = 6, 6" +
+        std::string(dim == 2 ? "" : ", 6") + "\n  set Normal = 0.3, " +
+        (dim == 2 ? "1" : "0, 1") +
+        "\n end\n subsection b\n  set Extent = polygon\n  set Vertices = " +
+        (dim == 2
+           ? "7, " + from + "; 7, 12"
+           : "7, 0, " + from + "; 7, 12, " + from + "; 7, 12, 12; 7, 0, 12") +
+        "\n end\nend\n",
+      " set Size = 3\n set Snap = 0\n");
+    Scene<dim> scene;
+    scene.read(world, name + ".prm", {});
+    const BlockGeometry<dim> made = make_block_geometry(world, scene, silent);
+    unsigned int n_in_mesh = 0, n_between_planes = 0;
+    for (const Block<dim> &block : made.blocks.blocks)
+      {
+        n_in_mesh += block.n_cells > 0;
+        n_between_planes += block.exact.is_known || block.is_infinite;
+      }
+    const auto misses = list_near_misses(scene, 1e-4, 1e-3);
+    BOOST_TEST_CONTEXT(dim << "D, gap of " << gap << " m")
+    {
+      BOOST_TEST(n_in_mesh == (closes ? 3 : 2));
+      BOOST_TEST(n_between_planes == n_in_mesh);
+      BOOST_TEST(misses.size() == (closes ? 0 : 1));
+      for (const NearMiss &miss : misses)
+        BOOST_TEST((miss.joint == 1 && miss.other == 0 &&
+                    std::abs(miss.gap - gap) < 2e-6));
+    }
+  }
+} // namespace
+
+// The bridging is the same in the mesh and between the planes, also where
+// joints are not moved.
+BOOST_AUTO_TEST_CASE(joints_that_end_before_others)
+{
+  for (const auto &[gap, closes] :
+       {std::make_pair(5e-5, true), std::make_pair(5e-4, false)})
+    {
+      check_joint_that_ends_before_another<2>(gap, closes);
+      check_joint_that_ends_before_another<3>(gap, closes);
+    }
+}
+
 // Halved cells have the joints and outlines of those they come from.
 BOOST_AUTO_TEST_CASE(refined_cells_keep_joints)
 {
@@ -508,7 +563,9 @@ namespace
                        mesh_entries.str());
     Scene<dim> scene;
     scene.read(world, name + ".prm", {});
-    const Mesh<dim> mesh     = make_mesh(world, scene, silent);
+    MeshWishes<dim> cuts;
+    cuts.narrowest           = 0.;
+    const Mesh<dim> mesh     = make_mesh(world, scene, silent, cuts);
     const Blocks<dim> blocks = find_blocks(mesh, scene);
     if (world.is_root())
       BOOST_REQUIRE(mesh.report.way == "cut");

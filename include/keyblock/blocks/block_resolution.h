@@ -4,6 +4,7 @@
 
 #include <keyblock/blocks/blocks.h>
 
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -21,9 +22,19 @@ namespace Keyblock
                       const Mesh<dim> &mesh,
                       const Scene<dim> &scene);
 
-  /** Difference of a block's volume in the mesh from the exact one that makes
-   * it mesh again, and that is warned of [-]. */
+  /** With a larger deviation() the scene is meshed again, and what is left of
+   * it is warned of [-]. */
   constexpr double largest_difference = 0.02;
+
+  /** How far a block of the mesh is from that between the planes: the larger of
+   * the change of volume, and the part of the area on joints that is on those
+   * which the mesh's block does not touch, parts of a bent joint taken together
+   * [-]. */
+  template <int dim>
+  double deviation(const Block<dim> &of_mesh,
+                   const double volume,
+                   const std::map<unsigned int, double> &joint_area,
+                   const Scene<dim> &scene);
 
   /** Whether a finite block has fewer cells across than Mesh/Cells across
    * blocks asks for. */

@@ -203,6 +203,19 @@ namespace Keyblock
     unsigned int worst_cell        = 0;  ///< which has it, if it is below 1
   };
 
+  /** What is asked of Gmsh besides the section Mesh. */
+  template <int dim>
+  struct MeshWishes
+  {
+    /** Smaller cells; known on rank 0. */
+    std::vector<SizeDemand<dim>> demands;
+    /** Width of the narrowest block, if it is known [m]: where exact cells
+     * cannot but be thin, they are not tried. */
+    double narrowest = std::numeric_limits<double>::infinity();
+    /** However thin exact cells become. */
+    bool must_be_exact = false;
+  };
+
   /**
    * Make or read the mesh of a scene (on rank 0; all ranks get the same copy),
    * sort its cells along a Hilbert curve, find neighbours, and mark materials,
@@ -210,18 +223,12 @@ namespace Keyblock
    * Throws InputError if the mesh does not follow a joint or an excavation, if
    * a joint misses the domain, or if a file cannot be read (collective).
    * @param out where a mesh that takes a while is announced
-   * @param demands smaller cells than the section Mesh asks for (Gmsh only,
-   * known on rank 0)
-   * @param narrowest width of the narrowest block, if it is known [m]: Gmsh is
-   * not asked for exact cells that cannot but be thin
    */
   template <int dim>
-  Mesh<dim>
-  make_mesh(const Communicator &communicator,
-            const Scene<dim> &scene,
-            const dealii::ConditionalOStream &out,
-            const std::vector<SizeDemand<dim>> &demands = {},
-            const double narrowest = std::numeric_limits<double>::infinity());
+  Mesh<dim> make_mesh(const Communicator &communicator,
+                      const Scene<dim> &scene,
+                      const dealii::ConditionalOStream &out,
+                      const MeshWishes<dim> &wishes = {});
 
   /** Equal cells in a box or parallelepiped. */
   template <int dim>
@@ -235,8 +242,7 @@ namespace Keyblock
   template <int dim>
   Mesh<dim> make_gmsh_mesh(const Scene<dim> &scene,
                            const dealii::ConditionalOStream &out,
-                           const std::vector<SizeDemand<dim>> &demands,
-                           const double narrowest);
+                           const MeshWishes<dim> &wishes);
 
   /** A mesh from Domain/File, non-quadrilateral cells cut. */
   template <int dim>

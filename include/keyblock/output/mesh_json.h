@@ -29,7 +29,7 @@ namespace Keyblock
 
   /** How its blocks differ from those between the planes. */
   template <int dim>
-  Json comparison_as_json(const Blocks<dim> &blocks);
+  Json comparison_as_json(const Blocks<dim> &blocks, const Scene<dim> &scene);
 } // namespace Keyblock
 
 #endif

@@ -136,6 +136,14 @@ namespace Keyblock
     void declare(ParameterHandler &prm);
   };
 
+  /** @param given `Joints/Bridging` [m], negative if it is not
+   * @param side the domain's longest one [m] */
+  inline double
+  bridging_length(const double given, const double side)
+  {
+    return given < 0. ? 1e-5 * side : given;
+  }
+
   /**
    * Joints that belong together: their strength and, if Spacing, P32 or P10
    * is given, the statistics that they are made from.
