@@ -196,21 +196,25 @@ namespace Keyblock
 
     /** Joints and excavations as they are. In 3D bad cells are mended.
      * Throws what went wrong, also cells that are thin unless they @p must_be.
+     * In 2D triangles @p are_paired to quadrilaterals; the others are cut
+     * later.
      */
     template <int dim>
     MarkedMesh<dim>
     mesh_exactly(const Scene<dim> &scene,
                  const std::vector<SizeDemand<dim>> &demands,
-                 const bool must_be)
+                 const bool must_be,
+                 const bool are_paired)
     {
       const GmshSession session;
       const GmshModel<dim> model = build_gmsh_model<dim>(scene, true);
       const MeshSize<dim> size   = wanted_size(scene, demands, model);
       set_sizes<dim>(size,
-                     dim == 2 ? quadrilateral_coarsening
-                              : simplex_coarsening<dim>);
+                     dim == 2 && are_paired ? quadrilateral_coarsening
+                                            : simplex_coarsening<dim>);
       if constexpr (dim == 2)
-        require_meshed(mesh_with_quadrilaterals());
+        require_meshed(are_paired ? mesh_with_quadrilaterals()
+                                  : mesh_surfaces());
       else
         mesh_volumes(size, must_be);
       MarkedMesh<dim> marked = read_marked_mesh(model, scene);
@@ -331,11 +335,18 @@ namespace Keyblock
         reason = text.str();
       }
     else
-      reason = reason_of_failure([&]() {
-        exact = to_mesh(mesh_exactly(scene, wishes.demands, is_exact),
-                        scene,
-                        remedy.str());
-      });
+      for (const bool are_paired : {true, false})
+        {
+          reason = reason_of_failure([&]() {
+            exact =
+              to_mesh(mesh_exactly(scene, wishes.demands, is_exact, are_paired),
+                      scene,
+                      remedy.str());
+          });
+          // (pairs go wrong around the ends of some joints)
+          if (dim == 3 || !is_exact || reason.empty())
+            break;
+        }
     if (reason.empty())
       {
         exact.report.way = "exact";
