@@ -10,7 +10,7 @@ namespace Keyblock
   namespace
   {
     /** Planes at a smaller angle (sine) do not meet. */
-    constexpr double least_sine = 1e-6;
+    constexpr double least_sine_of_meeting = 1e-6;
 
     /** The way from the rim of a joint, within its plane, to the plane of
      * another one that it lies on one side of [m]; negative if it crosses it.
@@ -25,7 +25,7 @@ namespace Keyblock
         : ahead(other.normal - (other.normal * extent.normal) * extent.normal)
         , sine(ahead.norm())
       {
-        if (sine < least_sine)
+        if (sine < least_sine_of_meeting)
           return;
         if (joint.extent == JointShape::disc)
           add(joint.point, joint.radius, other);
