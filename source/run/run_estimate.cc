@@ -167,7 +167,7 @@ namespace Keyblock
       return;
     if (const double duration =
           model.conditions->remember().loads.ramp.duration;
-        duration > 0. && given == 0.)
+        may_solve && duration > 0. && given == 0.)
       ramp_steps = duration / model.step->dt;
 
     // waves have not reached all cells yet, which the run will step
