@@ -163,13 +163,12 @@ namespace Keyblock
                 const ExactBlocks<dim> &exact,
                 const Scene<dim> &scene)
   {
-    unsigned int n_before = 0, n_finite = 0;
     const auto count = [&]() {
       return std::count_if(blocks.blocks.begin(),
                            blocks.blocks.end(),
                            [](const auto &b) { return !b.is_infinite; });
     };
-    n_before = n_finite = count();
+    const unsigned int n_before = count();
     while (true)
       {
         const BlockMatch<dim> match(blocks, mesh, exact);
@@ -179,11 +178,25 @@ namespace Keyblock
           if (match.is_phantom(blocks, b) && match.most[b] != none)
             is_welded = welder.weld(b, match.most[b]) || is_welded;
         if (!is_welded)
-          break;
-        blocks   = find_blocks(mesh, scene);
-        n_finite = count();
+          {
+            // the mesh has lost the rock between these and the domain's end
+            for (unsigned int b = 0; b < blocks.blocks.size(); ++b)
+              if (match.is_phantom(blocks, b) && match.most[b] != none &&
+                  exact.blocks.blocks[match.most[b]].is_infinite)
+                {
+                  Block<dim> &block  = blocks.blocks[b];
+                  block.is_infinite  = true;
+                  block.is_removable = false;
+                  block.width        = 0.;
+                  std::fill(block.class_of_stage.begin(),
+                            block.class_of_stage.end(),
+                            BlockClass::infinite);
+                }
+            break;
+          }
+        blocks = find_blocks(mesh, scene);
       }
-    return n_before - n_finite;
+    return n_before - count();
   }
 
 
