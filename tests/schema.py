@@ -27,7 +27,7 @@ FREE = {"monitors", "checks", "joint_areas", "exact_joint_areas", "seeds",
 # absent where there is nothing to tell
 OPTIONAL = FREE - {"monitors", "checks", "seeds"} | {
     "between_planes", "block_theory", "blocks", "bolts", "exposed_stage", "geostress",
-    "governed_by", "group", "largest_volumes", "mesh", "open_ends", "remark",
+    "governed_by", "group", "largest_volumes", "mesh", "remark",
     "removable", "removed_in_stage", "support_demand", "least_factor",
     "failed_volume", "turned_most"}
 

@@ -350,9 +350,11 @@ def warnings_of(run):
                      + few([f"{names} ({number(area)} "
                             f"{'m' if run.is_plane else 'm²'})"
                             for names, area in shared]) + ".")
-    if mesh.get("open_ends"):
+    gaps = summary.get("between_planes", {}).get("gaps", [])
+    if gaps:
         found.append("Joints that end just before another: "
-                     + few(mesh["open_ends"]) + ".")
+                     + few([f"{gap['joint']} before {gap['before']} "
+                            f"({number(gap['width'])} m)" for gap in gaps]) + ".")
     undecided = [n for n in run.finite_blocks() if any(
         r.get("outcome") == "undecided" or "undecided_upper" in r
         for r in run.blocks[n].get("safety_factor", []))]

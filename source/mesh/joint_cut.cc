@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 namespace Keyblock
@@ -203,42 +202,6 @@ namespace Keyblock
 
 
 
-    /** Find joints that end just before another one, see MeshReport::Gap. */
-    template <int dim>
-    void
-    find_gaps(const SimplexMesh<dim> &mesh,
-              const JointSheets<dim> &sheets,
-              MeshReport<dim> &report)
-    {
-      constexpr double widest = 0.5; // over the target size
-      using Ridge             = std::array<unsigned int, dim - 1>;
-      std::map<std::pair<Ridge, unsigned int>, unsigned int> n_facets;
-      const auto marked = mesh.marked_facets();
-      for (const auto &facet : marked)
-        for (const auto &mark : mesh.marks.at(facet))
-          if (mesh.surfaces[mark.surface].is_joint())
-            for_each_ridge<dim>(facet, [&](const Ridge &ridge) {
-              ++n_facets[{ridge, mark.surface}];
-            });
-      for (const auto &[key, n] : n_facets)
-        for (const unsigned int v : key.first)
-          if (n == 1 && mesh.bound_to[v].size() == 1)
-            for (const unsigned int c : mesh.cells_at[v])
-              for (const unsigned int w : mesh.cells[c].vertices)
-                if (mesh.vertices[v].distance(mesh.vertices[w]) <
-                      widest * mesh.target_size[v] &&
-                    !mesh.is_bound(w, key.second))
-                  for (const unsigned int other : mesh.bound_to[w])
-                    if (mesh.surfaces[other].is_joint() &&
-                        sheets.sheet_of_joint[mesh.surfaces[other].joint] !=
-                          sheets
-                            .sheet_of_joint[mesh.surfaces[key.second].joint])
-                      report.gaps.insert({mesh.surfaces[key.second].joint,
-                                          mesh.surfaces[other].joint});
-    }
-
-
-
     /** A mesh with its joints, and what had to be simplified. */
     template <int dim>
     struct CutMesh
@@ -320,7 +283,6 @@ namespace Keyblock
     measure_shifts(mesh, sheets, coarsening, best.report);
     look_for_joints(mesh, sheets, best.report);
     find_lost_parts(mesh, sheets, coarsening, best.report);
-    find_gaps(mesh, sheets, best.report);
     return best.report;
   }
 

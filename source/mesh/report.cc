@@ -328,17 +328,6 @@ namespace Keyblock
     if (!report.way.empty())
       print_way(out, report);
     print_merged(out, report, scene);
-    if (!report.gaps.empty())
-      {
-        const auto &gap = *report.gaps.begin();
-        out << "        " << report.gaps.size()
-            << (report.gaps.size() == 1 ? " joint ends" : " joints end")
-            << " less than half an edge before another one and "
-            << (report.gaps.size() == 1 ? "does" : "do")
-            << " not close against it (" << scene.joints[gap.joint]->name
-            << " before " << scene.joints[gap.other]->name
-            << (report.gaps.size() == 1 ? ")\n" : ", ...)\n");
-      }
   }
 
 #define INSTANTIATE(dim)                                                       \

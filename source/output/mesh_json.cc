@@ -40,9 +40,6 @@ namespace Keyblock
                            scene.joints[pair.other]->name] = pair.area;
     for (const auto &rock : report.thin_rock)
       json["thin_rock"][scene.joints[rock.joint]->name] = rock.thickness;
-    for (const auto &gap : report.gaps)
-      json["open_ends"].push_back(scene.joints[gap.joint]->name + " before " +
-                                  scene.joints[gap.other]->name);
     return json;
   }
 

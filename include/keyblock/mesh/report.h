@@ -7,7 +7,6 @@
 #include <keyblock/scene/scene.h>
 
 #include <iosfwd>
-#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -92,19 +91,6 @@ namespace Keyblock
       double thickness; ///< the least there is [m]
     };
     std::vector<ThinRock> thin_rock; ///< one at most for each joint
-
-    /** A joint whose rim ends less than half an edge of the simplices before
-     * another joint and does not close against it. */
-    struct Gap
-    {
-      unsigned int joint, other;
-      bool
-      operator<(const Gap &g) const
-      {
-        return std::tie(joint, other) < std::tie(g.joint, g.other);
-      }
-    };
-    std::set<Gap> gaps;
 
     /** How often the scene was meshed for its blocks. */
     unsigned int n_passes = 1;
