@@ -8,7 +8,6 @@
 
 #include <iosfwd>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace Keyblock
