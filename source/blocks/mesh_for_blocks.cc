@@ -269,10 +269,14 @@ namespace Keyblock
             if (n_new[0] == 0)
               break;
             MeshTrial<dim> trial = try_again();
-            if (trial.mesh.n_cells() == 0)
-              break;
-            if (trial.wrong.size() <= best.wrong.size())
+            const bool mends     = trial.wrong.size() < best.wrong.size();
+            if (trial.mesh.n_cells() > 0 &&
+                trial.wrong.size() <= best.wrong.size())
               best = std::move(trial);
+            else
+              break;
+            if (!mends && scene.meshing.cells_across <= 0.)
+              break;
           }
       }
     best.mesh.report.n_passes = n_made;

@@ -21,6 +21,7 @@ namespace Keyblock
     public:
       WayToPlane(const Joint<dim> &joint,
                  const JointExtent<dim> &extent,
+                 const std::vector<Point<dim>> &corners,
                  const JointExtent<dim> &other)
         : ahead(other.normal - (other.normal * extent.normal) * extent.normal)
         , sine(ahead.norm())
@@ -30,7 +31,7 @@ namespace Keyblock
         if (joint.extent == JointShape::disc)
           add(joint.point, joint.radius, other);
         else
-          for (const Point<dim> &corner : extent.outermost_points())
+          for (const Point<dim> &corner : corners)
             add(corner, 0., other);
       }
 
@@ -80,16 +81,20 @@ namespace Keyblock
       extents.emplace_back(*joint);
     for (unsigned int j = 0; j < extents.size(); ++j)
       if (!extents[j].is_infinite())
-        for (unsigned int other = 0; other < extents.size(); ++other)
-          if (other != j)
-            {
-              const WayToPlane<dim> way(*scene.joints[j],
-                                        extents[j],
-                                        extents[other]);
-              if (way.length() > least && way.length() <= most &&
-                  extents[other].depth_inside(way.foot) >= 0.)
-                result.push_back({j, other, way.length()});
-            }
+        {
+          const auto corners = extents[j].outermost_points();
+          for (unsigned int other = 0; other < extents.size(); ++other)
+            if (other != j)
+              {
+                const WayToPlane<dim> way(*scene.joints[j],
+                                          extents[j],
+                                          corners,
+                                          extents[other]);
+                if (way.length() > least && way.length() <= most &&
+                    extents[other].depth_inside(way.foot) >= 0.)
+                  result.push_back({j, other, way.length()});
+              }
+        }
     std::sort(result.begin(), result.end(), [](const auto &a, const auto &b) {
       return a.gap < b.gap;
     });
