@@ -2,10 +2,12 @@
 // A mesh that follows joints and excavations, made by Gmsh in this process,
 // exactly or with the joints cut into it.
 #include <gmsh.h>
+#include <keyblock/base/box.h>
 #include <keyblock/base/errors.h>
 #include <keyblock/mesh/cut.h>
 #include <keyblock/mesh/excavation_region.h>
 #include <keyblock/mesh/gmsh_model.h>
+#include <keyblock/mesh/gmsh_process.h>
 #include <keyblock/mesh/improvement.h>
 #include <keyblock/mesh/joint_cut.h>
 #include <keyblock/mesh/marked_mesh.h>
@@ -38,39 +40,16 @@ namespace Keyblock
      */
     constexpr int blossom = 1, one_by_one = 0;
 
-    /** An exact mesh is taken if its thinnest cell has this part of the median
-     * altitude [-]. */
-    constexpr double least_thinness = 0.1;
-
-    /** So is one whose thinnest cell has this part of what cuts would give:
-     * its joints are where they should be. */
-    constexpr double acceptable_part = 0.5;
+    /** The thinnest cell that an exact mesh may have over the median one [-].
+     * In dynamic stages it sets the step; in the others and in trials all cells
+     * have equal steps, but thinner ones than that do not come to rest. */
+    constexpr double thinnest_of_dynamic = 0.1, thinnest = 1e-4;
 
     /** A mesh that takes a while, so that its size is told beforehand. */
     constexpr double many_cells = 1e5;
 
     /** Cells of exact meshes below this quality are mended. */
     constexpr double wanted_quality = 0.35;
-
-    /** Mesh the current model up to entities of @p dimension; returns Gmsh's
-     * first error, empty if there was none. Gmsh must not throw meanwhile: an
-     * exception in one of its threads ends the program. */
-    std::string
-    mesh_entities(const int dimension)
-    {
-      gmsh::option::setNumber("General.AbortOnError", 0.);
-      gmsh::logger::start();
-      gmsh::model::mesh::generate(dimension);
-      std::vector<std::string> log;
-      gmsh::logger::get(log);
-      gmsh::logger::stop();
-      gmsh::option::setNumber("General.AbortOnError", 2.);
-      const std::string mark = "Error: ";
-      for (const std::string &line : log)
-        if (line.compare(0, mark.size(), mark) == 0)
-          return line.substr(mark.size());
-      return "";
-    }
 
     std::string
     mesh_surfaces()
@@ -122,18 +101,6 @@ namespace Keyblock
       });
     }
 
-    template <int dim>
-    MeshSize<dim>
-    wanted_size(const Scene<dim> &scene,
-                const std::vector<SizeDemand<dim>> &demands,
-                const GmshModel<dim> &model)
-    {
-      const Tensor<1, 3> sides = model.high - model.low;
-      return MeshSize<dim>(scene,
-                           std::max({sides[0], sides[1], sides[2]}),
-                           demands);
-    }
-
     void
     require_meshed(const std::string &reason)
     {
@@ -175,15 +142,14 @@ namespace Keyblock
       return least;
     }
 
-    /** Mesh the current model of volumes. Surfaces that are too thin already
-     * are not gone on with unless they @p must_be: thin cells are certain, and
-     * so are faults of Gmsh. */
+    /** Mesh the current model of volumes. Surfaces with triangles below the
+     * @p least thinness [-] are not gone on with: the cells would have it. */
     void
-    mesh_volumes(const MeshSize<3> &size, const bool must_be)
+    mesh_volumes(const MeshSize<3> &size, const double least)
     {
       require_meshed(mesh_surfaces());
       const double thinness = thinnest_triangle(size);
-      if (!must_be && thinness < least_thinness)
+      if (thinness < least)
         {
           std::ostringstream text;
           text << "the thinnest triangle on them would have "
@@ -191,24 +157,23 @@ namespace Keyblock
                << " of the thickness wanted";
           throw std::runtime_error(text.str());
         }
-      require_meshed(mesh_entities(3));
+      require_meshed(mesh_entities_apart(3));
     }
 
     /** Joints and excavations as they are. In 3D bad cells are mended.
-     * Throws what went wrong, also cells that are thin unless they @p must_be.
+     * Throws what went wrong, also triangles below the @p least thinness [-].
      * In 2D triangles @p are_paired to quadrilaterals; the others are cut
      * later.
      */
     template <int dim>
     MarkedMesh<dim>
     mesh_exactly(const Scene<dim> &scene,
-                 const std::vector<SizeDemand<dim>> &demands,
-                 const bool must_be,
+                 const MeshSize<dim> &size,
+                 const double least,
                  const bool are_paired)
     {
       const GmshSession session;
-      const GmshModel<dim> model = build_gmsh_model<dim>(scene, true);
-      const MeshSize<dim> size   = wanted_size(scene, demands, model);
+      const GmshModel<dim> model = build_gmsh_model<dim>(scene, true, size);
       set_sizes<dim>(size,
                      dim == 2 && are_paired ? quadrilateral_coarsening
                                             : simplex_coarsening<dim>);
@@ -216,7 +181,7 @@ namespace Keyblock
         require_meshed(are_paired ? mesh_with_quadrilaterals()
                                   : mesh_surfaces());
       else
-        mesh_volumes(size, must_be);
+        mesh_volumes(size, least);
       MarkedMesh<dim> marked = read_marked_mesh(model, scene);
       if (dim == 2)
         return marked;
@@ -229,17 +194,16 @@ namespace Keyblock
     template <int dim>
     MarkedMesh<dim>
     mesh_by_cuts(const Scene<dim> &scene,
-                 const std::vector<SizeDemand<dim>> &demands,
+                 const MeshSize<dim> &size,
                  MeshReport<dim> &report)
     {
       const GmshSession session;
-      const GmshModel<dim> model = build_gmsh_model<dim>(scene, false);
-      const MeshSize<dim> size   = wanted_size(scene, demands, model);
+      const GmshModel<dim> model = build_gmsh_model<dim>(scene, false, size);
       set_sizes<dim>(size, simplex_coarsening<dim>);
       if constexpr (dim == 2)
         require_meshed(mesh_surfaces());
       else
-        mesh_volumes(size, true);
+        mesh_volumes(size, 0.);
       SimplexMesh<dim> mesh =
         make_simplex_mesh(read_marked_mesh(model, scene), size);
       report =
@@ -247,28 +211,21 @@ namespace Keyblock
       return to_marked_mesh(mesh);
     }
 
-    /** Refuse a mesh that does not fit into memory before it is made; returns
-     * the smallest size wanted [m]. */
+    /** Refuse a mesh that does not fit into memory before it is made. */
     template <int dim>
-    double
+    void
     require_estimated_size(const Scene<dim> &scene,
                            const dealii::ConditionalOStream &out,
-                           const std::vector<SizeDemand<dim>> &demands)
+                           const DomainOutline<dim> &outline,
+                           const MeshSize<dim> &size)
     {
-      const DomainOutline<dim> outline(scene.domain);
-      const Tensor<1, dim> sides = outline.upper - outline.lower;
-      double longest = 0., volume_of_box = 1.;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          longest = std::max(longest, sides[d]);
-          volume_of_box *= sides[d];
-        }
-      const MeshSize<dim> size(scene, longest, demands);
+      const double volume_of_box =
+        BoundingBox<dim>({outline.lower, outline.upper}).volume();
       const double part = volume_of(scene.domain) / volume_of_box;
       // more cannot be: mostly it is seen at once that all is well
       if (part * volume_of_box / std::pow(size.smallest(), double(dim)) <
           many_cells)
-        return size.smallest();
+        return;
       const double n =
         part * estimate_cells(size,
                               outline.lower,
@@ -288,7 +245,6 @@ namespace Keyblock
                                << " times as large, or the domain smaller";
                           return text.str();
                         });
-      return size.smallest();
     }
 
     template <int dim>
@@ -312,53 +268,50 @@ namespace Keyblock
   Mesh<dim>
   make_gmsh_mesh(const Scene<dim> &scene,
                  const dealii::ConditionalOStream &out,
-                 const MeshWishes<dim> &wishes)
+                 const std::vector<SizeDemand<dim>> &demands)
   {
-    const double smallest = require_estimated_size(scene, out, wishes.demands);
-    const double snap     = scene.meshing.snap;
+    const DomainOutline<dim> outline(scene.domain);
+    const MeshSize<dim> size(scene,
+                             longest_side(BoundingBox<dim>(
+                               {outline.lower, outline.upper})),
+                             demands);
+    require_estimated_size(scene, out, outline, size);
+    const double snap = scene.meshing.snap;
     std::ostringstream remedy;
     remedy << "change 'Mesh/Size' (" << scene.meshing.size
            << " m), move joints and excavations that almost touch each other"
            << (snap > 0. ? "" : ", or give 'Mesh/Snap' its default");
 
+    const bool must_be_exact = snap == 0. || scene.joints.empty();
+    const double least       = must_be_exact               ? 0.
+                               : scene.has_dynamic_stage() ? thinnest_of_dynamic
+                                                           : thinnest;
     std::string reason;
     Mesh<dim> exact;
-    double thinness = 0.; // of the exact mesh, if there is one
-    const bool is_exact =
-      snap == 0. || scene.joints.empty() || wishes.must_be_exact;
-    if (!is_exact &&
-        wishes.narrowest < acceptable_part * least_thinness * smallest)
+    for (const bool are_paired : {true, false})
       {
-        std::ostringstream text;
-        text << "the narrowest block between them is " << std::setprecision(2)
-             << wishes.narrowest << " m wide";
-        reason = text.str();
+        reason = reason_of_failure([&]() {
+          exact = to_mesh(mesh_exactly(scene, size, least, are_paired),
+                          scene,
+                          remedy.str());
+        });
+        // (pairs go wrong around the ends of some joints)
+        if (dim == 3 || reason.empty())
+          break;
       }
-    else
-      for (const bool are_paired : {true, false})
-        {
-          reason = reason_of_failure([&]() {
-            exact =
-              to_mesh(mesh_exactly(scene, wishes.demands, is_exact, are_paired),
-                      scene,
-                      remedy.str());
-          });
-          // (pairs go wrong around the ends of some joints)
-          if (dim == 3 || !is_exact || reason.empty())
-            break;
-        }
-    if (reason.empty())
+    const bool is_made = reason.empty();
+    if (is_made)
       {
-        exact.report.way = "exact";
-        thinness         = least_over_median_thickness(exact);
-        if (is_exact || thinness >= least_thinness)
+        exact.report.way      = "exact";
+        const double thinness = least_over_median_thickness(exact);
+        if (thinness >= least)
           return exact;
         std::ostringstream text;
         text << "the thinnest cell would have " << std::setprecision(2)
              << thinness << " of the usual thickness";
         reason = text.str();
       }
-    AssertThrow(!is_exact,
+    AssertThrow(!must_be_exact,
                 InputError(
                   "Gmsh could not mesh the scene with its " +
                   std::to_string(scene.joints.size()) + " joints and " +
@@ -367,13 +320,10 @@ namespace Keyblock
     Mesh<dim> mesh;
     MeshReport<dim> report;
     const std::string failure = reason_of_failure([&]() {
-      mesh = to_mesh(mesh_by_cuts(scene, wishes.demands, report),
-                     scene,
-                     remedy.str());
+      mesh = to_mesh(mesh_by_cuts(scene, size, report), scene, remedy.str());
     });
-    if (thinness > 0. &&
-        (!failure.empty() ||
-         thinness >= acceptable_part * least_over_median_thickness(mesh)))
+    if (is_made && (!failure.empty() || least_over_median_thickness(exact) >=
+                                          least_over_median_thickness(mesh)))
       return exact;
     AssertThrow(failure.empty(),
                 InputError("Gmsh could not mesh the domain with its " +
@@ -391,8 +341,8 @@ namespace Keyblock
 
   template Mesh<2> make_gmsh_mesh(const Scene<2> &,
                                   const dealii::ConditionalOStream &,
-                                  const MeshWishes<2> &);
+                                  const std::vector<SizeDemand<2>> &);
   template Mesh<3> make_gmsh_mesh(const Scene<3> &,
                                   const dealii::ConditionalOStream &,
-                                  const MeshWishes<3> &);
+                                  const std::vector<SizeDemand<3>> &);
 } // namespace Keyblock

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/mesh/gmsh_model.h>
+#include <keyblock/mesh/marked_mesh.h>
 #include <keyblock/mesh/polyhedron.h>
+#include <keyblock/scene/domain_outline.h>
 #include <keyblock/scene/joint_extent.h>
 #include <keyblock/scene/near_misses.h>
 #include <keyblock/scene/section_axis.h>
@@ -20,6 +22,10 @@ namespace Keyblock
 
     /** Gaps that OpenCASCADE closes by itself, over the size of the domain. */
     constexpr double rounding = 1e-8;
+
+    /** Of the polygon that stands for a disc; Gmsh parts a circle in as many.
+     */
+    constexpr unsigned int least_sides = 8;
 
     template <int dim>
     Point<3>
@@ -165,58 +171,61 @@ namespace Keyblock
       return tags;
     }
 
-    /** A joint; an infinite one reaches beyond the ball of radius @p reach
-     * about @p center. */
+    /** A trace, or what @p outline leaves of an infinite one; 0: nothing. */
     int
-    add_joint(const Joint<2> &joint, const Point<2> &center, const double reach)
+    add_joint(const Joint<2> &joint,
+              const DomainOutline<2> &outline,
+              const MeshSize<2> &)
     {
-      const Tensor<1, 2> normal  = joint.normal();
-      const Tensor<1, 2> along   = Point<2>(normal[1], -normal[0]);
+      const Tensor<1, 2> half =
+        joint.radius * directions_across<2>(joint.normal())[0];
       std::vector<Point<2>> ends = joint.vertices;
       if (joint.extent == JointShape::disc)
-        ends = {joint.point - joint.radius * along,
-                joint.point + joint.radius * along};
+        ends = {joint.point - half, joint.point + half};
       if (joint.extent == JointShape::infinite)
-        {
-          const Point<2> middle = center - joint.distance(center) * normal;
-          ends = {middle - reach * along, middle + reach * along};
-        }
-      return occ::addLine(add_point(in_space<2>(ends[0])),
-                          add_point(in_space<2>(ends[1])));
+        ends = outline.cut(joint);
+      return ends.empty() ? 0
+                          : occ::addLine(add_point(in_space<2>(ends[0])),
+                                         add_point(in_space<2>(ends[1])));
+    }
+
+    /** A disc as a polygon of its area with sides of about the length of cells:
+     * Gmsh's cells have no arcs, and those of two discs that almost touch cross
+     * each other. */
+    std::vector<Point<3>>
+    corners_of_disc(const Joint<3> &joint, const MeshSize<3> &size)
+    {
+      const double around = 2. * dealii::numbers::PI * joint.radius;
+      const unsigned int n =
+        std::max(least_sides,
+                 unsigned(std::ceil(
+                   around / (simplex_coarsening<3> * size(joint.point)))));
+      const double angle  = 2. * dealii::numbers::PI / n;
+      const double radius = joint.radius * std::sqrt(angle / std::sin(angle));
+      const auto across   = directions_across<3>(joint.normal());
+      std::vector<Point<3>> corners;
+      for (unsigned int i = 0; i < n; ++i)
+        corners.push_back(joint.point +
+                          radius * (std::cos(angle * i) * across[0] +
+                                    std::sin(angle * i) * across[1]));
+      return corners;
     }
 
     int
-    add_joint(const Joint<3> &joint, const Point<3> &center, const double reach)
+    add_joint(const Joint<3> &joint,
+              const DomainOutline<3> &outline,
+              const MeshSize<3> &size)
     {
-      const Tensor<1, 3> normal = joint.normal();
-      const unsigned int axis =
-        std::abs(normal[0]) < 0.6 ? 0 : (std::abs(normal[1]) < 0.6 ? 1 : 2);
-      Tensor<1, 3> unit;
-      unit[axis]                = 1.;
-      Tensor<1, 3> first        = cross_product_3d(normal, unit);
-      first                     = first / first.norm();
-      const Tensor<1, 3> second = cross_product_3d(normal, first);
+      std::vector<Point<3>> corners = joint.vertices;
       if (joint.extent == JointShape::disc)
-        return add_disc(joint.point,
-                        joint.radius * first,
-                        joint.radius * second);
-      std::vector<Point<3>> corners;
-      if (joint.extent == JointShape::infinite)
-        {
-          const Point<3> middle = center - joint.distance(center) * normal;
-          corners               = {middle - reach * first - reach * second,
-                                   middle + reach * first - reach * second,
-                                   middle + reach * first + reach * second,
-                                   middle - reach * first + reach * second};
-        }
-      else
-        for (const Point<3> &vertex : joint.vertices)
-          // (facets of one surface share their corners to the last digit)
-          corners.push_back(
-            joint.surface.empty()
-              ? Point<3>(vertex - joint.distance(vertex) * normal)
-              : vertex);
-      return add_polygon(corners);
+        corners = corners_of_disc(joint, size);
+      else if (joint.extent == JointShape::infinite)
+        corners = outline.cut(joint);
+      else if (joint.surface.empty())
+        // (facets of one surface share their corners to the last digit)
+        for (Point<3> &corner : corners)
+          corner -= joint.distance(corner) * joint.normal();
+      return corners.empty() ? 0 : add_polygon(corners);
     }
 
     /** Everything inside or on the boundary of @p entities. */
@@ -285,24 +294,12 @@ namespace Keyblock
 
   template <int dim>
   GmshModel<dim>
-  build_gmsh_model(const Scene<dim> &scene, const bool with_joints)
+  build_gmsh_model(const Scene<dim> &scene,
+                   const bool with_joints,
+                   const MeshSize<dim> &size)
   {
     GmshModel<dim> model;
-    model.domain   = {{dim, add_domain<dim>(scene.domain)}};
-    Point<3> &low  = model.low;
-    Point<3> &high = model.high;
-    occ::getBoundingBox(dim,
-                        model.domain[0].second,
-                        low[0],
-                        low[1],
-                        low[2],
-                        high[0],
-                        high[1],
-                        high[2]);
-    Point<dim> center;
-    for (unsigned int d = 0; d < dim; ++d)
-      center[d] = (low[d] + high[d]) / 2.;
-
+    model.domain = {{dim, add_domain<dim>(scene.domain)}};
     vectorpair tools;
     for (const auto &excavation : scene.excavations)
       if (excavation->shape == ExcavationShape::file)
@@ -312,24 +309,28 @@ namespace Keyblock
         tools.emplace_back(dim, add_excavation<dim>(*excavation));
     const std::size_t n_tools_of_excavations = tools.size();
     std::vector<unsigned int> joint_of_tool;
-    const double reach = low.distance(high);
+    const DomainOutline<dim> outline(scene.domain);
+    const Point<dim> center =
+      outline.lower + (outline.upper - outline.lower) / 2.;
     if (with_joints)
       for (unsigned int j = 0; j < scene.joints.size(); ++j)
         // (OpenCASCADE breaks down over some that are far away)
         if (JointExtent<dim>(*scene.joints[j]).distance_to_joint(center) <
-            reach)
-          {
-            tools.emplace_back(dim - 1,
-                               add_joint(*scene.joints[j], center, reach));
-            joint_of_tool.push_back(j);
-          }
+            outline.lower.distance(outline.upper))
+          if (const int tag = add_joint(*scene.joints[j], outline, size);
+              tag != 0)
+            {
+              tools.emplace_back(dim - 1, tag);
+              joint_of_tool.push_back(j);
+            }
 
     vectorpair all_pieces;
     std::vector<vectorpair> pieces_of;
     if (!tools.empty())
       {
-        const Tensor<1, 3> sides = high - low;
-        const double side        = std::max({sides[0], sides[1], sides[2]});
+        double side = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          side = std::max(side, outline.upper[d] - outline.lower[d]);
         const double bridging = bridging_length(scene.network.bridging, side);
         // what ends so near to another joint ends on it
         if (with_joints &&
@@ -351,6 +352,8 @@ namespace Keyblock
     return model;
   }
 
-  template GmshModel<2> build_gmsh_model(const Scene<2> &, const bool);
-  template GmshModel<3> build_gmsh_model(const Scene<3> &, const bool);
+  template GmshModel<2>
+  build_gmsh_model(const Scene<2> &, const bool, const MeshSize<2> &);
+  template GmshModel<3>
+  build_gmsh_model(const Scene<3> &, const bool, const MeshSize<3> &);
 } // namespace Keyblock

@@ -259,14 +259,14 @@ namespace Keyblock
   make_mesh(const Communicator &communicator,
             const Scene<dim> &scene,
             const dealii::ConditionalOStream &out,
-            const MeshWishes<dim> &wishes)
+            const std::vector<SizeDemand<dim>> &demands)
   {
     Mesh<dim> mesh;
     communicator.on_root([&]() {
       if (scene.meshing.generator == MeshGenerator::structured)
         mesh = make_structured_mesh(scene);
       else if (scene.meshing.generator == MeshGenerator::gmsh)
-        mesh = make_gmsh_mesh(scene, out, wishes);
+        mesh = make_gmsh_mesh(scene, out, demands);
       else
         mesh = read_mesh(scene);
       if (scene.meshing.is_refined())
@@ -305,9 +305,9 @@ namespace Keyblock
   template Mesh<2> make_mesh(const Communicator &,
                              const Scene<2> &,
                              const dealii::ConditionalOStream &,
-                             const MeshWishes<2> &);
+                             const std::vector<SizeDemand<2>> &);
   template Mesh<3> make_mesh(const Communicator &,
                              const Scene<3> &,
                              const dealii::ConditionalOStream &,
-                             const MeshWishes<3> &);
+                             const std::vector<SizeDemand<3>> &);
 } // namespace Keyblock

@@ -120,17 +120,18 @@ namespace Keyblock
 
 
 
-    /** That one cell sets the time step, or empty. */
+    /** That one cell sets the time step of dynamic stages, or empty. */
     template <int dim>
     std::string
     warning_of_small_step(const Model<dim> &model, const RunReport &report)
     {
-      if (model.n_cells_global == 0 || report.step_ratio >= least_step_ratio)
+      if (model.n_cells_global == 0 || report.step_ratio >= least_step_ratio ||
+          !model.scene.has_dynamic_stage())
         return "";
       return "The least stable step of a cell is " +
              text_of(report.step_ratio, 3) +
-             " times the median one, and sets the time step; improve the mesh "
-             "there" +
+             " times the median one, and sets the time step of dynamic stages; "
+             "improve the mesh there" +
              (model.scene.time_stepping.least_step == 0.
                 ? ", or set 'Time stepping/Least step'."
                 : ".");

@@ -132,11 +132,12 @@ namespace Keyblock
       snap,
       "Distance, as a fraction of the edge length wanted there (2.6 cell sizes "
       "in 2D, 3 in 3D), within which vertices are moved onto a joint that is "
-      "cut into a gmsh mesh, where joints cannot be followed exactly with "
-      "cells of a good shape [-]. Faces of blocks at an outline are put back "
-      "into the planes of their joints afterwards, as far as cells allow. "
-      "Larger: larger time steps; smaller: joints and thin blocks more exact. "
-      "0: joints are always followed exactly, or the scene is refused.",
+      "cut into a gmsh mesh, where Gmsh cannot follow them exactly or, with "
+      "dynamic stages, would make cells a tenth as thick as others [-]. Faces "
+      "of blocks at an outline are put back into the planes of their joints "
+      "afterwards, as far as cells allow. Larger: larger time steps; smaller: "
+      "joints and thin blocks more exact. 0: joints are always followed "
+      "exactly, or the scene is refused.",
       Double(0., 0.45));
     prm.add_parameter("Refine at excavations",
                       refine_at_excavations,

@@ -50,29 +50,30 @@ namespace Keyblock
         }
       return false;
     }
-
-    /** Unit vectors along a plane with normal @p n. */
-    template <int dim>
-    std::vector<Tensor<1, dim>>
-    directions_across(const Tensor<1, dim> &n)
-    {
-      if constexpr (dim == 2)
-        {
-          Tensor<1, dim> along;
-          along[0] = -n[1];
-          along[1] = n[0];
-          return {along};
-        }
-      else
-        {
-          Tensor<1, dim> axis;
-          axis[std::abs(n[2]) < 0.9 ? 2 : 0] = 1.;
-          Tensor<1, dim> first = dealii::cross_product_3d(n, axis);
-          first /= first.norm();
-          return {first, dealii::cross_product_3d(n, first)};
-        }
-    }
   } // namespace
+
+
+
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  directions_across(const Tensor<1, dim> &n)
+  {
+    if constexpr (dim == 2)
+      {
+        Tensor<1, dim> along;
+        along[0] = -n[1];
+        along[1] = n[0];
+        return {along};
+      }
+    else
+      {
+        Tensor<1, dim> axis;
+        axis[std::abs(n[2]) < 0.9 ? 2 : 0] = 1.;
+        Tensor<1, dim> first               = dealii::cross_product_3d(n, axis);
+        first /= first.norm();
+        return {first, dealii::cross_product_3d(n, first)};
+      }
+  }
 
 
 
@@ -253,6 +254,8 @@ namespace Keyblock
     return volume;
   }
 
+  template std::vector<Tensor<1, 2>> directions_across(const Tensor<1, 2> &);
+  template std::vector<Tensor<1, 3>> directions_across(const Tensor<1, 3> &);
   template double volume_of(const Domain<2> &);
   template double volume_of(const Domain<3> &);
   template class DomainOutline<2>;

@@ -158,6 +158,17 @@ namespace Keyblock
 
 
   template <int dim>
+  bool
+  Scene<dim>::has_dynamic_stage() const
+  {
+    return std::any_of(stages.begin(), stages.end(), [](const auto &stage) {
+      return stage->is_dynamic();
+    });
+  }
+
+
+
+  template <int dim>
   unsigned int
   Scene<dim>::material_index(const std::string &name) const
   {

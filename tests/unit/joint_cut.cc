@@ -563,9 +563,7 @@ namespace
                        mesh_entries.str());
     Scene<dim> scene;
     scene.read(world, name + ".prm", {});
-    MeshWishes<dim> cuts;
-    cuts.narrowest           = 0.;
-    const Mesh<dim> mesh     = make_mesh(world, scene, silent, cuts);
+    const Mesh<dim> mesh     = make_mesh(world, scene, silent);
     const Blocks<dim> blocks = find_blocks(mesh, scene);
     if (world.is_root())
       BOOST_REQUIRE(mesh.report.way == "cut");

@@ -22,8 +22,7 @@ namespace Keyblock
                       const Mesh<dim> &mesh,
                       const Scene<dim> &scene);
 
-  /** With a larger deviation() the scene is meshed again, and what is left of
-   * it is warned of [-]. */
+  /** A larger deviation() is warned of [-]. */
   constexpr double largest_difference = 0.02;
 
   /** How far a block of the mesh is from that between the planes: the larger of
@@ -48,12 +47,10 @@ namespace Keyblock
 
   /**
    * Mesh the scene and find its blocks. Blocks that only the mesh has closed
-   * are joined to the rock again (weld_phantoms()). The scene is meshed again
-   * with smaller cells where it lacks exposed blocks that the planes bound, or
-   * gives them another volume; with Mesh/Cells across blocks also where finite
-   * blocks near excavations have fewer cells across, and where rock between
-   * joints was too thin to become a block. For all ranks together; throws as
-   * make_mesh().
+   * are joined to the rock again (weld_phantoms()). With Mesh/Cells across
+   * blocks the scene is meshed again with smaller cells where finite blocks
+   * near excavations have fewer cells across, and where rock between joints was
+   * too thin to become a block. For all ranks together; throws as make_mesh().
    * @param exact are found before; null: there are no joints, or no planes
    */
   template <int dim>

@@ -5,6 +5,7 @@
 #include <deal.II/base/point.h>
 
 #include <gmsh.h>
+#include <keyblock/mesh/size.h>
 #include <keyblock/scene/scene.h>
 
 #include <set>
@@ -26,19 +27,19 @@ namespace Keyblock
     /** Tags of the entities of dimension dim - 1 that bound an excavation,
      * also where a joint lies on them. */
     std::set<int> outlines;
-
-    Point<3> low, high; ///< the least box around the domain [m]
   };
 
   /**
    * Build the domain of @p scene, its excavations and, if @p with_joints, its
    * joints in Gmsh's current model with OpenCASCADE, cut them by each other and
-   * drop what reaches beyond the domain. Throws what Gmsh throws (strings or
+   * drop what reaches beyond the domain. Discs become polygons with sides of
+   * about the wanted @p size of cells. Throws what Gmsh throws (strings or
    * std::exception).
    */
   template <int dim>
   GmshModel<dim> build_gmsh_model(const Scene<dim> &scene,
-                                  const bool with_joints);
+                                  const bool with_joints,
+                                  const MeshSize<dim> &size);
 } // namespace Keyblock
 
 #endif

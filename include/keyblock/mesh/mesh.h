@@ -203,19 +203,6 @@ namespace Keyblock
     unsigned int worst_cell        = 0;  ///< which has it, if it is below 1
   };
 
-  /** What is asked of Gmsh besides the section Mesh. */
-  template <int dim>
-  struct MeshWishes
-  {
-    /** Smaller cells; known on rank 0. */
-    std::vector<SizeDemand<dim>> demands;
-    /** Width of the narrowest block, if it is known [m]: where exact cells
-     * cannot but be thin, they are not tried. */
-    double narrowest = std::numeric_limits<double>::infinity();
-    /** However thin exact cells become. */
-    bool must_be_exact = false;
-  };
-
   /**
    * Make or read the mesh of a scene (on rank 0; all ranks get the same copy),
    * sort its cells along a Hilbert curve, find neighbours, and mark materials,
@@ -223,12 +210,14 @@ namespace Keyblock
    * Throws InputError if the mesh does not follow a joint or an excavation, if
    * a joint misses the domain, or if a file cannot be read (collective).
    * @param out where a mesh that takes a while is announced
+   * @param demands cells that Gmsh is asked for besides the section Mesh; known
+   * on rank 0
    */
   template <int dim>
   Mesh<dim> make_mesh(const Communicator &communicator,
                       const Scene<dim> &scene,
                       const dealii::ConditionalOStream &out,
-                      const MeshWishes<dim> &wishes = {});
+                      const std::vector<SizeDemand<dim>> &demands = {});
 
   /** Equal cells in a box or parallelepiped. */
   template <int dim>
@@ -242,7 +231,7 @@ namespace Keyblock
   template <int dim>
   Mesh<dim> make_gmsh_mesh(const Scene<dim> &scene,
                            const dealii::ConditionalOStream &out,
-                           const MeshWishes<dim> &wishes);
+                           const std::vector<SizeDemand<dim>> &demands);
 
   /** A mesh from Domain/File, non-quadrilateral cells cut. */
   template <int dim>

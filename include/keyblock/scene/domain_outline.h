@@ -45,6 +45,10 @@ namespace Keyblock
     std::vector<Point<dim>> corners; ///< in order, in 2D
   };
 
+  /** Unit vectors along a plane with normal @p n, at right angles. */
+  template <int dim>
+  std::vector<Tensor<1, dim>> directions_across(const Tensor<1, dim> &n);
+
   /** Volume of a domain whose shape is not `file` [m^dim]. */
   template <int dim>
   double volume_of(const Domain<dim> &domain);

@@ -101,6 +101,8 @@ namespace Keyblock
      * reached in the first one. */
     bool has_stage_to_balance() const;
 
+    bool has_dynamic_stage() const;
+
     /** Index into materials of the one called @p name, or their number. */
     unsigned int material_index(const std::string &name) const;
 
