@@ -162,18 +162,20 @@ namespace Keyblock
 
     /** Joints and excavations as they are. In 3D bad cells are mended.
      * Throws what went wrong, also triangles below the @p least thinness [-].
-     * In 2D triangles @p are_paired to quadrilaterals; the others are cut
-     * later.
+     * What is nearer to another joint than the @p tolerance [m] ends on it. In
+     * 2D triangles @p are_paired to quadrilaterals; the others are cut later.
      */
     template <int dim>
     MarkedMesh<dim>
     mesh_exactly(const Scene<dim> &scene,
                  const MeshSize<dim> &size,
                  const double least,
+                 const double tolerance,
                  const bool are_paired)
     {
       const GmshSession session;
-      const GmshModel<dim> model = build_gmsh_model<dim>(scene, true, size);
+      const GmshModel<dim> model =
+        build_gmsh_model<dim>(scene, true, tolerance, size);
       set_sizes<dim>(size,
                      dim == 2 && are_paired ? quadrilateral_coarsening
                                             : simplex_coarsening<dim>);
@@ -198,7 +200,8 @@ namespace Keyblock
                  MeshReport<dim> &report)
     {
       const GmshSession session;
-      const GmshModel<dim> model = build_gmsh_model<dim>(scene, false, size);
+      const GmshModel<dim> model =
+        build_gmsh_model<dim>(scene, false, 0., size);
       set_sizes<dim>(size, simplex_coarsening<dim>);
       if constexpr (dim == 2)
         require_meshed(mesh_surfaces());
@@ -271,10 +274,9 @@ namespace Keyblock
                  const std::vector<SizeDemand<dim>> &demands)
   {
     const DomainOutline<dim> outline(scene.domain);
-    const MeshSize<dim> size(scene,
-                             longest_side(BoundingBox<dim>(
-                               {outline.lower, outline.upper})),
-                             demands);
+    const double longest =
+      longest_side(BoundingBox<dim>({outline.lower, outline.upper}));
+    const MeshSize<dim> size(scene, longest, demands);
     require_estimated_size(scene, out, outline, size);
     const double snap = scene.meshing.snap;
     std::ostringstream remedy;
@@ -288,15 +290,19 @@ namespace Keyblock
                                                            : thinnest;
     std::string reason;
     Mesh<dim> exact;
-    for (const bool are_paired : {true, false})
+    // pairs go wrong around the ends of some joints, and so do tolerances in 3D
+    for (const bool is_first : {true, false})
       {
+        const double tolerance =
+          dim == 2 || is_first
+            ? bridging_length(scene.network.bridging, longest)
+            : 0.;
         reason = reason_of_failure([&]() {
-          exact = to_mesh(mesh_exactly(scene, size, least, are_paired),
+          exact = to_mesh(mesh_exactly(scene, size, least, tolerance, is_first),
                           scene,
                           remedy.str());
         });
-        // (pairs go wrong around the ends of some joints)
-        if (dim == 3 || reason.empty())
+        if (reason.empty())
           break;
       }
     const bool is_made = reason.empty();

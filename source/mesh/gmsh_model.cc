@@ -4,7 +4,6 @@
 #include <keyblock/mesh/polyhedron.h>
 #include <keyblock/scene/domain_outline.h>
 #include <keyblock/scene/joint_extent.h>
-#include <keyblock/scene/near_misses.h>
 #include <keyblock/scene/section_axis.h>
 #include <keyblock/scene/solid_file.h>
 
@@ -19,9 +18,6 @@ namespace Keyblock
   {
     namespace occ = gmsh::model::occ;
     using gmsh::vectorpair;
-
-    /** Gaps that OpenCASCADE closes by itself, over the size of the domain. */
-    constexpr double rounding = 1e-8;
 
     /** Of the polygon that stands for a disc; Gmsh parts a circle in as many.
      */
@@ -296,6 +292,7 @@ namespace Keyblock
   GmshModel<dim>
   build_gmsh_model(const Scene<dim> &scene,
                    const bool with_joints,
+                   const double tolerance,
                    const MeshSize<dim> &size)
   {
     GmshModel<dim> model;
@@ -328,14 +325,7 @@ namespace Keyblock
     std::vector<vectorpair> pieces_of;
     if (!tools.empty())
       {
-        double side = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          side = std::max(side, outline.upper[d] - outline.lower[d]);
-        const double bridging = bridging_length(scene.network.bridging, side);
-        // what ends so near to another joint ends on it
-        if (with_joints &&
-            !list_near_misses(scene, rounding * side, bridging).empty())
-          gmsh::option::setNumber("Geometry.ToleranceBoolean", bridging);
+        gmsh::option::setNumber("Geometry.ToleranceBoolean", tolerance);
         occ::fragment(model.domain, tools, all_pieces, pieces_of);
         model.domain = pieces_of[0];
       }
@@ -352,8 +342,12 @@ namespace Keyblock
     return model;
   }
 
-  template GmshModel<2>
-  build_gmsh_model(const Scene<2> &, const bool, const MeshSize<2> &);
-  template GmshModel<3>
-  build_gmsh_model(const Scene<3> &, const bool, const MeshSize<3> &);
+  template GmshModel<2> build_gmsh_model(const Scene<2> &,
+                                         const bool,
+                                         const double,
+                                         const MeshSize<2> &);
+  template GmshModel<3> build_gmsh_model(const Scene<3> &,
+                                         const bool,
+                                         const double,
+                                         const MeshSize<3> &);
 } // namespace Keyblock
