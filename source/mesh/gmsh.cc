@@ -43,7 +43,7 @@ namespace Keyblock
     /** The thinnest cell that an exact mesh may have over the median one [-].
      * In dynamic stages it sets the step; in the others and in trials all cells
      * have equal steps, but thinner ones than that do not come to rest. */
-    constexpr double thinnest_of_dynamic = 0.1, thinnest = 1e-4;
+    constexpr double thinnest_of_dynamic = 0.01, thinnest = 1e-4;
 
     /** A mesh that takes a while, so that its size is told beforehand. */
     constexpr double many_cells = 1e5;

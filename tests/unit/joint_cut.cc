@@ -244,7 +244,7 @@ BOOST_AUTO_TEST_CASE(mesh_stays_sound_3d)
 BOOST_AUTO_TEST_CASE(exact_volume_of_a_bent_block)
 {
   const std::string name = write_scene<3>(
-    "subsection Joints\n set Names = a, b, c, near\n"
+    "subsection Joints\n set Bridging = 1e-9\n set Names = a, b, c, near\n"
     " subsection a\n  set Point = 5.3, 0, 0\n  set Normal = 1, 0, 0\n end\n"
     " subsection b\n  set Point = 0, 6.1, 0\n  set Normal = 0, 1, 0.1\n end\n"
     " subsection c\n  set Point = 0, 0, 5.7\n  set Normal = 0, 0, 1\n end\n"
@@ -557,10 +557,10 @@ namespace
       }
     std::ostringstream mesh_entries;
     mesh_entries << " set Size = " << size << "\n set Snap = " << snap << "\n";
-    const std::string name =
-      write_scene<dim>("subsection Joints\n set Names = " + names.str() +
-                         "near\n" + joints.str() + "end\n",
-                       mesh_entries.str());
+    const std::string name = write_scene<dim>(
+      "subsection Joints\n set Bridging = 1e-9\n set Names = " + names.str() +
+        "near\n" + joints.str() + "end\n",
+      mesh_entries.str());
     Scene<dim> scene;
     scene.read(world, name + ".prm", {});
     const Mesh<dim> mesh     = make_mesh(world, scene, silent);
