@@ -51,12 +51,6 @@ namespace Keyblock
     /** Cells of exact meshes below this quality are mended. */
     constexpr double wanted_quality = 0.35;
 
-    std::string
-    mesh_surfaces()
-    {
-      return mesh_entities(2);
-    }
-
     /** Mesh the current model with quadrilaterals, or, if triangles cannot be
      * paired, with triangles, which are cut later. */
     std::string
@@ -68,14 +62,14 @@ namespace Keyblock
         {
           gmsh::option::setNumber("Mesh.RecombineAll", 1);
           gmsh::option::setNumber("Mesh.RecombinationAlgorithm", pairing);
-          reason = mesh_surfaces();
+          reason = mesh_entities(2);
           if (reason.empty())
             return "";
           gmsh::model::mesh::clear();
         }
       gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 0);
       gmsh::option::setNumber("Mesh.RecombineAll", 0);
-      return mesh_surfaces();
+      return mesh_entities(2);
     }
 
 
@@ -108,68 +102,14 @@ namespace Keyblock
         throw std::runtime_error(reason);
     }
 
-    /** Least altitude of the triangles of the current model over that of
-     * a regular one of the wanted size [-]. */
-    template <int dim>
-    double
-    thinnest_triangle(const MeshSize<dim> &size)
-    {
-      std::vector<std::size_t> tags;
-      std::vector<double> coordinates, parameters;
-      gmsh::model::mesh::getNodes(tags, coordinates, parameters);
-      std::unordered_map<std::size_t, Point<3>> place;
-      for (std::size_t i = 0; i < tags.size(); ++i)
-        place[tags[i]] = Point<3>(coordinates[3 * i],
-                                  coordinates[3 * i + 1],
-                                  coordinates[3 * i + 2]);
-      std::vector<std::size_t> elements, nodes;
-      gmsh::model::mesh::getElementsByType(2, elements, nodes);
-      double least = 1.;
-      for (std::size_t i = 0; i + 3 <= nodes.size(); i += 3)
-        {
-          const Point<3> &a = place[nodes[i]], &b = place[nodes[i + 1]],
-                         &c = place[nodes[i + 2]];
-          const double area = cross_product_3d(b - a, c - a).norm();
-          const double longest =
-            std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
-          least = std::min(least,
-                           area / longest /
-                             (0.866 * simplex_coarsening<dim> *
-                              size(in_model<dim>(a + (Tensor<1, 3>(b - a) +
-                                                      Tensor<1, 3>(c - a)) /
-                                                       3.))));
-        }
-      return least;
-    }
-
-    /** Mesh the current model of volumes. Surfaces with triangles below the
-     * @p least thinness [-] are not gone on with: the cells would have it. */
-    void
-    mesh_volumes(const MeshSize<3> &size, const double least)
-    {
-      require_meshed(mesh_surfaces());
-      const double thinness = thinnest_triangle(size);
-      if (thinness < least)
-        {
-          std::ostringstream text;
-          text << "the thinnest triangle on them would have "
-               << std::setprecision(2) << thinness
-               << " of the thickness wanted";
-          throw std::runtime_error(text.str());
-        }
-      require_meshed(mesh_entities_apart(3));
-    }
-
-    /** Joints and excavations as they are. In 3D bad cells are mended.
-     * Throws what went wrong, also triangles below the @p least thinness [-].
-     * What is nearer to another joint than the @p tolerance [m] ends on it. In
-     * 2D triangles @p are_paired to quadrilaterals; the others are cut later.
-     */
+    /** Joints and excavations as they are; what is nearer to another joint than
+     * the @p tolerance [m] ends on it. In 3D bad cells are mended, in 2D
+     * triangles @p are_paired to quadrilaterals; the others are cut later.
+     * Throws what went wrong. */
     template <int dim>
     MarkedMesh<dim>
     mesh_exactly(const Scene<dim> &scene,
                  const MeshSize<dim> &size,
-                 const double least,
                  const double tolerance,
                  const bool are_paired)
     {
@@ -179,11 +119,9 @@ namespace Keyblock
       set_sizes<dim>(size,
                      dim == 2 && are_paired ? quadrilateral_coarsening
                                             : simplex_coarsening<dim>);
-      if constexpr (dim == 2)
-        require_meshed(are_paired ? mesh_with_quadrilaterals()
-                                  : mesh_surfaces());
-      else
-        mesh_volumes(size, least);
+      require_meshed(dim == 3     ? mesh_entities_apart(3)
+                     : are_paired ? mesh_with_quadrilaterals()
+                                  : mesh_entities(2));
       MarkedMesh<dim> marked = read_marked_mesh(model, scene);
       if (dim == 2)
         return marked;
@@ -203,10 +141,7 @@ namespace Keyblock
       const GmshModel<dim> model =
         build_gmsh_model<dim>(scene, false, 0., size);
       set_sizes<dim>(size, simplex_coarsening<dim>);
-      if constexpr (dim == 2)
-        require_meshed(mesh_surfaces());
-      else
-        mesh_volumes(size, 0.);
+      require_meshed(dim == 3 ? mesh_entities_apart(3) : mesh_entities(2));
       SimplexMesh<dim> mesh =
         make_simplex_mesh(read_marked_mesh(model, scene), size);
       report =
@@ -298,7 +233,7 @@ namespace Keyblock
             ? bridging_length(scene.network.bridging, longest)
             : 0.;
         reason = reason_of_failure([&]() {
-          exact = to_mesh(mesh_exactly(scene, size, least, tolerance, is_first),
+          exact = to_mesh(mesh_exactly(scene, size, tolerance, is_first),
                           scene,
                           remedy.str());
         });

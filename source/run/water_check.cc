@@ -154,7 +154,8 @@ namespace Keyblock
       found.push_back("The entry '" + entry + "' is " + text_of(height) +
                       " m, below all joints that it is for, which reach down "
                       "to " +
-                      text_of(low->second, 4) +
+                      // (to millimetres, and no -0)
+                      text_of(std::round(1e3 * low->second) / 1e3 + 0., 4) +
                       " m, so that they are dry: is it a depth? It is the "
                       "elevation of the water table; for dry joints set none.");
     };
