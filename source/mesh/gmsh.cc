@@ -33,7 +33,7 @@ namespace Keyblock
 
     /** Gmsh's numbers of the mesh algorithms used. Its faster parallel one in
      * 3D, number 10, gives another mesh in every run. */
-    constexpr int frontal_delaunay_2d = 6, delaunay_3d = 1;
+    constexpr int frontal_delaunay_2d = 6, delaunay_2d = 5, delaunay_3d = 1;
 
     /** Gmsh's numbers of the ways to pair triangles to quadrilaterals: the best
      * pairing of all, which not every mesh has, and one pair after the other.
@@ -44,6 +44,31 @@ namespace Keyblock
      * In dynamic stages it sets the step; in the others and in trials all cells
      * have equal steps, but thinner ones than that do not come to rest. */
     constexpr double thinnest_of_dynamic = 0.01, thinnest = 1e-4;
+
+    /** One of the ways to mesh a scene exactly that are tried in turn: over
+     * faces and nodes that almost coincide Gmsh fails in one way and not in
+     * another. */
+    struct Attempt
+    {
+      bool is_tolerant; ///< what is nearer than the bridging is connected
+      bool are_paired;  ///< triangles in 2D, to quadrilaterals
+      int algorithm;    ///< Gmsh's number, for triangles
+      double part;      ///< of the sizes wanted [-]
+    };
+
+    template <int dim>
+    std::vector<Attempt>
+    list_attempts()
+    {
+      if (dim == 2)
+        return {{true, true, frontal_delaunay_2d, 1.},
+                {true, false, frontal_delaunay_2d, 1.}};
+      return {{true, false, frontal_delaunay_2d, 1.},
+              {true, false, delaunay_2d, 1.},
+              {true, false, delaunay_2d, 0.9},
+              {true, false, delaunay_2d, 0.8},
+              {false, false, frontal_delaunay_2d, 1.}};
+    }
 
     /** A mesh that takes a while, so that its size is told beforehand. */
     constexpr double many_cells = 1e5;
@@ -102,26 +127,28 @@ namespace Keyblock
         throw std::runtime_error(reason);
     }
 
-    /** Joints and excavations as they are; what is nearer to another joint than
-     * the @p tolerance [m] ends on it. In 3D bad cells are mended, in 2D
-     * triangles @p are_paired to quadrilaterals; the others are cut later.
-     * Throws what went wrong. */
+    /** Joints and excavations as they are. In 3D bad cells are mended, in 2D
+     * triangles that are not paired are cut later. Throws what went wrong.
+     * @param tolerance what is nearer to another joint ends on it [m]
+     */
     template <int dim>
     MarkedMesh<dim>
     mesh_exactly(const Scene<dim> &scene,
                  const MeshSize<dim> &size,
                  const double tolerance,
-                 const bool are_paired)
+                 const Attempt &attempt)
     {
+      const double coarsening =
+        attempt.part * (attempt.are_paired ? quadrilateral_coarsening
+                                           : simplex_coarsening<dim>);
       const GmshSession session;
-      const GmshModel<dim> model =
-        build_gmsh_model<dim>(scene, true, tolerance, size);
-      set_sizes<dim>(size,
-                     dim == 2 && are_paired ? quadrilateral_coarsening
-                                            : simplex_coarsening<dim>);
-      require_meshed(dim == 3     ? mesh_entities_apart(3)
-                     : are_paired ? mesh_with_quadrilaterals()
-                                  : mesh_entities(2));
+      const GmshModel<dim> model = build_gmsh_model<dim>(
+        scene, true, attempt.is_tolerant ? tolerance : 0., size, coarsening);
+      set_sizes<dim>(size, coarsening);
+      gmsh::option::setNumber("Mesh.Algorithm", attempt.algorithm);
+      require_meshed(dim == 3             ? mesh_entities_apart(3)
+                     : attempt.are_paired ? mesh_with_quadrilaterals()
+                                          : mesh_entities(2));
       MarkedMesh<dim> marked = read_marked_mesh(model, scene);
       if (dim == 2)
         return marked;
@@ -139,7 +166,7 @@ namespace Keyblock
     {
       const GmshSession session;
       const GmshModel<dim> model =
-        build_gmsh_model<dim>(scene, false, 0., size);
+        build_gmsh_model<dim>(scene, false, 0., size, simplex_coarsening<dim>);
       set_sizes<dim>(size, simplex_coarsening<dim>);
       require_meshed(dim == 3 ? mesh_entities_apart(3) : mesh_entities(2));
       SimplexMesh<dim> mesh =
@@ -225,15 +252,11 @@ namespace Keyblock
                                                            : thinnest;
     std::string reason;
     Mesh<dim> exact;
-    // pairs go wrong around the ends of some joints, and so do tolerances in 3D
-    for (const bool is_first : {true, false})
+    const double tolerance = bridging_length(scene.network.bridging, longest);
+    for (const Attempt &attempt : list_attempts<dim>())
       {
-        const double tolerance =
-          dim == 2 || is_first
-            ? bridging_length(scene.network.bridging, longest)
-            : 0.;
         reason = reason_of_failure([&]() {
-          exact = to_mesh(mesh_exactly(scene, size, tolerance, is_first),
+          exact = to_mesh(mesh_exactly(scene, size, tolerance, attempt),
                           scene,
                           remedy.str());
         });

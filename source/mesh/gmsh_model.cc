@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <keyblock/mesh/gmsh_model.h>
-#include <keyblock/mesh/marked_mesh.h>
 #include <keyblock/mesh/polyhedron.h>
 #include <keyblock/scene/domain_outline.h>
 #include <keyblock/scene/joint_extent.h>
@@ -171,7 +170,8 @@ namespace Keyblock
     int
     add_joint(const Joint<2> &joint,
               const DomainOutline<2> &outline,
-              const MeshSize<2> &)
+              const MeshSize<2> &,
+              const double)
     {
       const Tensor<1, 2> half =
         joint.radius * directions_across<2>(joint.normal())[0];
@@ -185,17 +185,15 @@ namespace Keyblock
                                          add_point(in_space<2>(ends[1])));
     }
 
-    /** A disc as a polygon of its area with sides of about the length of cells:
+    /** A disc as a polygon of its area whose sides are about @p side [m] long:
      * Gmsh's cells have no arcs, and those of two discs that almost touch cross
      * each other. */
     std::vector<Point<3>>
-    corners_of_disc(const Joint<3> &joint, const MeshSize<3> &size)
+    corners_of_disc(const Joint<3> &joint, const double side)
     {
       const double around = 2. * dealii::numbers::PI * joint.radius;
       const unsigned int n =
-        std::max(least_sides,
-                 unsigned(std::ceil(
-                   around / (simplex_coarsening<3> * size(joint.point)))));
+        std::max(least_sides, unsigned(std::ceil(around / side)));
       const double angle  = 2. * dealii::numbers::PI / n;
       const double radius = joint.radius * std::sqrt(angle / std::sin(angle));
       const auto across   = directions_across<3>(joint.normal());
@@ -210,11 +208,12 @@ namespace Keyblock
     int
     add_joint(const Joint<3> &joint,
               const DomainOutline<3> &outline,
-              const MeshSize<3> &size)
+              const MeshSize<3> &size,
+              const double coarsening)
     {
       std::vector<Point<3>> corners = joint.vertices;
       if (joint.extent == JointShape::disc)
-        corners = corners_of_disc(joint, size);
+        corners = corners_of_disc(joint, coarsening * size(joint.point));
       else if (joint.extent == JointShape::infinite)
         corners = outline.cut(joint);
       else if (joint.surface.empty())
@@ -293,7 +292,8 @@ namespace Keyblock
   build_gmsh_model(const Scene<dim> &scene,
                    const bool with_joints,
                    const double tolerance,
-                   const MeshSize<dim> &size)
+                   const MeshSize<dim> &size,
+                   const double coarsening)
   {
     GmshModel<dim> model;
     model.domain = {{dim, add_domain<dim>(scene.domain)}};
@@ -314,7 +314,8 @@ namespace Keyblock
         // (OpenCASCADE breaks down over some that are far away)
         if (JointExtent<dim>(*scene.joints[j]).distance_to_joint(center) <
             outline.lower.distance(outline.upper))
-          if (const int tag = add_joint(*scene.joints[j], outline, size);
+          if (const int tag =
+                add_joint(*scene.joints[j], outline, size, coarsening);
               tag != 0)
             {
               tools.emplace_back(dim - 1, tag);
@@ -345,9 +346,11 @@ namespace Keyblock
   template GmshModel<2> build_gmsh_model(const Scene<2> &,
                                          const bool,
                                          const double,
-                                         const MeshSize<2> &);
+                                         const MeshSize<2> &,
+                                         const double);
   template GmshModel<3> build_gmsh_model(const Scene<3> &,
                                          const bool,
                                          const double,
-                                         const MeshSize<3> &);
+                                         const MeshSize<3> &,
+                                         const double);
 } // namespace Keyblock

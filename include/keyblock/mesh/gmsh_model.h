@@ -32,16 +32,17 @@ namespace Keyblock
   /**
    * Build the domain of @p scene, its excavations and, if @p with_joints, its
    * joints in Gmsh's current model with OpenCASCADE, cut them by each other and
-   * drop what reaches beyond the domain. Discs become polygons with sides of
-   * about the wanted @p size of cells, and what is nearer to something else
-   * than the @p tolerance [m] ends on it. Throws what Gmsh throws (strings or
-   * std::exception).
+   * drop what reaches beyond the domain. Discs become polygons whose sides are
+   * about @p coarsening times the wanted @p size of cells, and what is nearer
+   * to something else than the @p tolerance [m] ends on it. Throws what Gmsh
+   * throws (strings or std::exception).
    */
   template <int dim>
   GmshModel<dim> build_gmsh_model(const Scene<dim> &scene,
                                   const bool with_joints,
                                   const double tolerance,
-                                  const MeshSize<dim> &size);
+                                  const MeshSize<dim> &size,
+                                  const double coarsening);
 } // namespace Keyblock
 
 #endif
