@@ -156,8 +156,7 @@ namespace Keyblock
     });
     const int status          = wait_for(child);
     if (WIFSIGNALED(status) || WEXITSTATUS(status) != 0)
-      throw std::runtime_error("Gmsh breaks down over it, as it does over "
-                               "files that are damaged");
+      throw std::runtime_error("Gmsh breaks down over it");
     if (!failure.empty())
       throw std::runtime_error(failure);
   }

@@ -6,14 +6,15 @@
 #include <keyblock/base/errors.h>
 #include <keyblock/mesh/cut.h>
 #include <keyblock/mesh/excavation_region.h>
+#include <keyblock/mesh/gmsh_file.h>
 #include <keyblock/mesh/gmsh_model.h>
-#include <keyblock/mesh/gmsh_process.h>
 #include <keyblock/mesh/improvement.h>
 #include <keyblock/mesh/joint_cut.h>
 #include <keyblock/mesh/marked_mesh.h>
 #include <keyblock/mesh/size.h>
 #include <keyblock/mesh/size_limit.h>
 #include <keyblock/scene/domain_outline.h>
+#include <keyblock/scene/near_misses.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,18 +64,41 @@ namespace Keyblock
       if (dim == 2)
         return {{true, true, frontal_delaunay_2d, 1.},
                 {true, false, frontal_delaunay_2d, 1.}};
-      return {{true, false, frontal_delaunay_2d, 1.},
+      // (tolerance takes OpenCASCADE minutes where many planes cross)
+      return {{false, false, frontal_delaunay_2d, 1.},
               {true, false, delaunay_2d, 1.},
               {true, false, delaunay_2d, 0.9},
-              {true, false, delaunay_2d, 0.8},
-              {false, false, frontal_delaunay_2d, 1.}};
+              {true, false, delaunay_2d, 0.8}};
     }
+
+    /** Gaps that OpenCASCADE closes by itself, over the size of the domain. */
+    constexpr double rounding = 1e-8;
 
     /** A mesh that takes a while, so that its size is told beforehand. */
     constexpr double many_cells = 1e5;
 
     /** Cells of exact meshes below this quality are mended. */
     constexpr double wanted_quality = 0.35;
+
+    /** Mesh the current model up to entities of @p dimension; returns Gmsh's
+     * first error, empty if there was none. Gmsh must not throw meanwhile: an
+     * exception in one of its threads ends the program. */
+    std::string
+    mesh_entities(const int dimension)
+    {
+      gmsh::option::setNumber("General.AbortOnError", 0.);
+      gmsh::logger::start();
+      gmsh::model::mesh::generate(dimension);
+      std::vector<std::string> log;
+      gmsh::logger::get(log);
+      gmsh::logger::stop();
+      gmsh::option::setNumber("General.AbortOnError", 2.);
+      const std::string mark = "Error: ";
+      for (const std::string &line : log)
+        if (line.compare(0, mark.size(), mark) == 0)
+          return line.substr(mark.size());
+      return "";
+    }
 
     /** Mesh the current model with quadrilaterals, or, if triangles cannot be
      * paired, with triangles, which are cut later. */
@@ -107,7 +131,6 @@ namespace Keyblock
       for (const std::string source :
            {"ExtendFromBoundary", "FromPoints", "FromCurvature"})
         gmsh::option::setNumber("Mesh.MeshSize" + source, 0.);
-      gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
       gmsh::option::setNumber("Mesh.Algorithm3D", delaunay_3d);
       // (from Gmsh 4.9 on a sixth argument: the size wanted otherwise)
       gmsh::model::mesh::setSizeCallback([&size, coarsening](const int,
@@ -120,36 +143,60 @@ namespace Keyblock
       });
     }
 
-    void
-    require_meshed(const std::string &reason)
+    /** What Gmsh makes in a process of its own of domain and excavations and,
+     * if
+     * @p with_joints, of joints; what is nearer to another joint than the @p
+     * tolerance [m] ends on it. In 2D triangles that are not paired are cut
+     * later. Throws what went wrong. */
+    template <int dim>
+    MarkedMesh<dim>
+    mesh_model(const Scene<dim> &scene,
+               const bool with_joints,
+               const double tolerance,
+               const MeshSize<dim> &size,
+               const Attempt &attempt)
     {
-      if (!reason.empty())
-        throw std::runtime_error(reason);
+      MarkedMesh<dim> marked;
+      in_child_process(
+        [&]() {
+          const double coarsening =
+            attempt.part * (attempt.are_paired ? quadrilateral_coarsening
+                                               : simplex_coarsening<dim>);
+          const GmshSession session;
+          const GmshModel<dim> model = build_gmsh_model<dim>(
+            scene, with_joints, tolerance, size, coarsening);
+          set_sizes<dim>(size, coarsening);
+          gmsh::option::setNumber("Mesh.Algorithm", attempt.algorithm);
+          const std::string reason = attempt.are_paired
+                                       ? mesh_with_quadrilaterals()
+                                       : mesh_entities(dim);
+          if (!reason.empty())
+            throw std::runtime_error(reason);
+          marked = read_marked_mesh(model, scene);
+        },
+        [&](const PipeEnd &pipe) {
+          write_mixed_mesh(pipe, marked.mixed);
+          pipe.write_list(marked.surfaces);
+          pipe.write_list(marked.corners);
+        },
+        [&](const PipeEnd &pipe) {
+          marked.mixed    = read_mixed_mesh(pipe);
+          marked.surfaces = pipe.read_list<Surface<dim>>();
+          marked.corners  = pipe.read_list<unsigned int>();
+        });
+      return marked;
     }
 
-    /** Joints and excavations as they are. In 3D bad cells are mended, in 2D
-     * triangles that are not paired are cut later. Throws what went wrong.
-     * @param tolerance what is nearer to another joint ends on it [m]
-     */
+    /** Joints and excavations as they are; in 3D bad cells are mended. */
     template <int dim>
     MarkedMesh<dim>
     mesh_exactly(const Scene<dim> &scene,
-                 const MeshSize<dim> &size,
                  const double tolerance,
+                 const MeshSize<dim> &size,
                  const Attempt &attempt)
     {
-      const double coarsening =
-        attempt.part * (attempt.are_paired ? quadrilateral_coarsening
-                                           : simplex_coarsening<dim>);
-      const GmshSession session;
-      const GmshModel<dim> model = build_gmsh_model<dim>(
-        scene, true, attempt.is_tolerant ? tolerance : 0., size, coarsening);
-      set_sizes<dim>(size, coarsening);
-      gmsh::option::setNumber("Mesh.Algorithm", attempt.algorithm);
-      require_meshed(dim == 3             ? mesh_entities_apart(3)
-                     : attempt.are_paired ? mesh_with_quadrilaterals()
-                                          : mesh_entities(2));
-      MarkedMesh<dim> marked = read_marked_mesh(model, scene);
+      const MarkedMesh<dim> marked =
+        mesh_model(scene, true, tolerance, size, attempt);
       if (dim == 2)
         return marked;
       SimplexMesh<dim> mesh = make_simplex_mesh(marked, size);
@@ -164,13 +211,13 @@ namespace Keyblock
                  const MeshSize<dim> &size,
                  MeshReport<dim> &report)
     {
-      const GmshSession session;
-      const GmshModel<dim> model =
-        build_gmsh_model<dim>(scene, false, 0., size, simplex_coarsening<dim>);
-      set_sizes<dim>(size, simplex_coarsening<dim>);
-      require_meshed(dim == 3 ? mesh_entities_apart(3) : mesh_entities(2));
       SimplexMesh<dim> mesh =
-        make_simplex_mesh(read_marked_mesh(model, scene), size);
+        make_simplex_mesh(mesh_model(scene,
+                                     false,
+                                     0.,
+                                     size,
+                                     {false, false, frontal_delaunay_2d, 1.}),
+                          size);
       report =
         cut_joints(mesh, scene, scene.meshing.snap, simplex_coarsening<dim>);
       return to_marked_mesh(mesh);
@@ -253,12 +300,19 @@ namespace Keyblock
     std::string reason;
     Mesh<dim> exact;
     const double tolerance = bridging_length(scene.network.bridging, longest);
+    const bool is_needed =
+      !list_near_misses(scene, rounding * longest, tolerance).empty();
     for (const Attempt &attempt : list_attempts<dim>())
       {
         reason = reason_of_failure([&]() {
-          exact = to_mesh(mesh_exactly(scene, size, tolerance, attempt),
-                          scene,
-                          remedy.str());
+          exact =
+            to_mesh(mesh_exactly(scene,
+                                 is_needed || attempt.is_tolerant ? tolerance
+                                                                  : 0.,
+                                 size,
+                                 attempt),
+                    scene,
+                    remedy.str());
         });
         if (reason.empty())
           break;

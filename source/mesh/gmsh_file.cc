@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Gmsh's files, read by Gmsh in a process of its own.
 #include <gmsh.h>
-#include <keyblock/base/child_process.h>
 #include <keyblock/mesh/gmsh_file.h>
 
 #include <stdexcept>
@@ -10,27 +9,37 @@ namespace Keyblock
 {
   namespace
   {
+    /** Their ids, how many vertices each has, and these in one list. */
     void
     write_elements(const PipeEnd &pipe,
                    const std::vector<MixedMesh::Element> &elements)
     {
-      pipe.write_number(elements.size());
+      std::vector<unsigned int> ids, sizes, vertices;
       for (const MixedMesh::Element &element : elements)
         {
-          pipe.write_number(element.id);
-          pipe.write_list(element.vertices);
+          ids.push_back(element.id);
+          sizes.push_back(element.vertices.size());
+          vertices.insert(vertices.end(),
+                          element.vertices.begin(),
+                          element.vertices.end());
         }
+      for (const auto *list : {&ids, &sizes, &vertices})
+        pipe.write_list(*list);
     }
 
     std::vector<MixedMesh::Element>
     read_elements(const PipeEnd &pipe, const std::size_t n_vertices)
     {
-      std::vector<MixedMesh::Element> elements(pipe.read_number());
-      for (MixedMesh::Element &element : elements)
+      const auto ids      = pipe.read_list<unsigned int>(),
+                 sizes    = pipe.read_list<unsigned int>(),
+                 vertices = pipe.read_list<unsigned int>();
+      std::vector<MixedMesh::Element> elements(ids.size());
+      auto next = vertices.begin();
+      for (unsigned int i = 0; i < elements.size(); ++i)
         {
-          element.id       = pipe.read_number();
-          element.vertices = pipe.read_list<unsigned int>();
-          for (const unsigned int vertex : element.vertices)
+          elements[i] = {{next, next + sizes[i]}, ids[i]};
+          next += sizes[i];
+          for (const unsigned int vertex : elements[i].vertices)
             if (vertex >= n_vertices)
               throw std::runtime_error("an element names a vertex that does "
                                        "not exist");
@@ -64,6 +73,33 @@ namespace Keyblock
 
 
 
+  void
+  write_mixed_mesh(const PipeEnd &pipe, const MixedMesh &mixed)
+  {
+    pipe.write_list(mixed.vertices);
+    for (const auto *elements :
+         {&mixed.cells, &mixed.faces, &mixed.marked_faces})
+      write_elements(pipe, *elements);
+    write_names(pipe, mixed.cell_names);
+    write_names(pipe, mixed.face_names);
+  }
+
+
+
+  MixedMesh
+  read_mixed_mesh(const PipeEnd &pipe)
+  {
+    MixedMesh mixed;
+    mixed.vertices = pipe.read_list<Point<3>>();
+    for (auto *elements : {&mixed.cells, &mixed.faces, &mixed.marked_faces})
+      *elements = read_elements(pipe, mixed.vertices.size());
+    mixed.cell_names = read_names(pipe);
+    mixed.face_names = read_names(pipe);
+    return mixed;
+  }
+
+
+
   template <int dim>
   MixedMesh
   read_gmsh_file(const std::string &path)
@@ -75,20 +111,8 @@ namespace Keyblock
         gmsh::open(path);
         mixed = read_gmsh_model<dim>();
       },
-      [&](const PipeEnd &pipe) {
-        pipe.write_list(mixed.vertices);
-        write_elements(pipe, mixed.cells);
-        write_elements(pipe, mixed.faces);
-        write_names(pipe, mixed.cell_names);
-        write_names(pipe, mixed.face_names);
-      },
-      [&](const PipeEnd &pipe) {
-        mixed.vertices   = pipe.read_list<Point<3>>();
-        mixed.cells      = read_elements(pipe, mixed.vertices.size());
-        mixed.faces      = read_elements(pipe, mixed.vertices.size());
-        mixed.cell_names = read_names(pipe);
-        mixed.face_names = read_names(pipe);
-      });
+      [&](const PipeEnd &pipe) { write_mixed_mesh(pipe, mixed); },
+      [&](const PipeEnd &pipe) { mixed = read_mixed_mesh(pipe); });
     return mixed;
   }
 

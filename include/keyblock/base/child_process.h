@@ -62,9 +62,9 @@ namespace Keyblock
 
   /**
    * Let a child process @p work and @p send what it has found, and @p receive
-   * it in this one: a damaged file can make Gmsh stop or write where it must
-   * not. Throws std::runtime_error with why @p work failed, or with how the
-   * child ended. The child takes no part in MPI.
+   * it in this one: a damaged file, or faces that almost coincide, can make
+   * Gmsh stop or write where it must not. Throws std::runtime_error with why @p
+   * work failed, or with how the child ended. The child takes no part in MPI.
    */
   void in_child_process(const std::function<void()> &work,
                         const std::function<void(const PipeEnd &)> &send,

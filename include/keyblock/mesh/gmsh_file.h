@@ -2,6 +2,7 @@
 #ifndef keyblock_mesh_gmsh_file_h
 #define keyblock_mesh_gmsh_file_h
 
+#include <keyblock/base/child_process.h>
 #include <keyblock/mesh/cut.h>
 
 namespace Keyblock
@@ -17,6 +18,12 @@ namespace Keyblock
    */
   template <int dim>
   MixedMesh read_gmsh_file(const std::string &path);
+
+  /** Send what Gmsh has made or read to the process that asked for it. */
+  void write_mixed_mesh(const PipeEnd &pipe, const MixedMesh &mixed);
+
+  /** Receive it, and check that its elements have the vertices they name. */
+  MixedMesh read_mixed_mesh(const PipeEnd &pipe);
 } // namespace Keyblock
 
 #endif
